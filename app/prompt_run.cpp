@@ -12,6 +12,7 @@
 #include "run/pictures/measured.h"
 #include "run/pictures/painter.h"
 #include "run/session/session_picture.h"
+#include "run/simulation/end_remarks.h"
 #include "tissue/tissue.h"
 
 #include <fmt/format.h>
@@ -201,7 +202,7 @@ bool PromptSession::advance(std::int64_t steps) {
     watching.stage_ended = [&](std::uint32_t stage) {
         watched.display.clear();
         picture.erase();
-        remark(run_->simulation().remark_on(stage));
+        remark(remark_on(run_->simulation(), stage));
     };
     if (at_terminal_ && console_.out().colour) {
         watching.every = steps_between_looks;
@@ -260,10 +261,11 @@ void PromptSession::print_features_shown(const std::string&) {
     auto painter = painter_of(shown_);
     if (!painter) return;
     const Simulation& simulation = run_->simulation();
-    if (simulation.state(simulation.shown_stage().value_or(0)).tissue) {
+    if (simulation.state(shown_stage(simulation)).tissue) {
         return fail({"cells that crawl have no rows and columns", ""});
     }
-    if (simulation.model()) return fail({"the cells of a model have no rows and columns", ""});
+    if (simulation.domain().model)
+        return fail({"the cells of a model have no rows and columns", ""});
     print_features(measure_shown(*painter, simulation), console_);
 }
 
@@ -313,8 +315,7 @@ void PromptSession::save_text(const std::string& path) {
 }
 
 void PromptSession::tell_place() {
-    const auto shown = run_->simulation().shown_stage();
-    const std::uint32_t number = std::max(shown.value_or(0), run_->place().stage);
+    const std::uint32_t number = std::max(shown_stage(run_->simulation()), run_->place().stage);
     const Stage& stage = run_->script().program->stages[number];
     console_.print(fmt::format("stage '{}', {}\n", stage.name,
                                progress_in_words(stage, run_->simulation().state(number))));

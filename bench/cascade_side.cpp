@@ -124,7 +124,7 @@ CascadeSide::CascadeSide(const std::string& text, Backend& backend, Rounding rou
     if (auto started = simulation_->start_stage(0); !started) give_up(started.error().message);
 
     const StageState& state = simulation_->state(0);
-    const BindingContext context{{&state, 1}, files_, 0, simulation_->grid()};
+    const BindingContext context{{&state, 1}, files_, 0, simulation_->domain().grid};
     const auto compile = [&](const CellKernel& kernel) {
         return must(backend.compile(kernel, grid().stencil()));
     };

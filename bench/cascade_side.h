@@ -47,7 +47,7 @@ public:
 
     std::span<const Field> species() { return stepper_->species(); }
     const StageState& start() const { return simulation_->state(0); }
-    const Grid& grid() const { return simulation_->grid(); }
+    const Grid& grid() const { return simulation_->domain().grid; }
     /// A parameter that varies, by name.
     const Field& parameter(const std::string& name) const;
 

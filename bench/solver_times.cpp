@@ -127,7 +127,8 @@ std::optional<Outcome> grow(const Pattern& pattern, const std::string& solver, s
     outcome.steps = state.steps;
     outcome.t = state.t;
     outcome.field = state.species.back().clone();
-    outcome.features = measure::measure(measure::to_samples(outcome.field, (*simulation)->grid()));
+    outcome.features =
+        measure::measure(measure::to_samples(outcome.field, (*simulation)->domain().grid));
     return outcome;
 }
 

@@ -75,7 +75,7 @@ bool Engine::begin(const std::string& name, const std::string& text, const std::
     if (turns_) {
         const LiveRun& before = turns_->run();
         if (have_same_cells(*before.script().program, *script.program)) {
-            options.known_model = before.simulation().model();
+            options.known_model = before.simulation().domain().shared_model();
         }
     } else if (auto bytes = read_file(carried_model_name, UINT64_MAX);
                bytes && script.program->domain.model) {

@@ -37,8 +37,8 @@ Result<Carried> carried_by(const Script& script, const Simulation& simulation) {
         }
         carried.files.emplace_back(name, *std::move(bytes));
     }
-    if (const auto model = simulation.model()) {
-        carried.files.emplace_back(carried_model_name, print_carried_model(*model));
+    if (const auto& model = simulation.domain().model) {
+        carried.files.emplace_back(carried_model_name, print_carried_model(*model->cells));
     }
     return carried;
 }

@@ -66,7 +66,7 @@ Field values_of(const LiveRun& run, StageItem at) {
 /// The cells in which an item has values.
 Grid grid_of(const LiveRun& run, std::uint32_t stage) {
     const Tissue* const cells = run.simulation().state(stage).tissue.get();
-    if (cells == nullptr) return run.simulation().grid();
+    if (cells == nullptr) return run.simulation().domain().grid;
     return Grid{static_cast<std::int64_t>(std::max<std::size_t>(cells->count(), 1)), 1};
 }
 
@@ -198,7 +198,7 @@ Json reply_to(const AskForMeasures& question, LiveRun& run) {
     // Neither a model nor crawling cells have waves along axes, and large fields would stop the run
     // for too long.
     const bool is_small = grid.cell_count() <= most_cells_of_spectrum;
-    if (is_small && !simulation.model() && !system.cells) add_spectrum(reply, samples[0]);
+    if (is_small && !simulation.domain().model && !system.cells) add_spectrum(reply, samples[0]);
     return reply;
 }
 

@@ -5,6 +5,7 @@
 
 #include "ir/solver.h"
 #include "lang/program/stage_kinds.h"
+#include "run/simulation/stage_tools.h"
 #include "run/stage/stage_time.h"
 #include "run/stage/time_account.h"
 #include "tissue/tissue.h"
@@ -41,7 +42,7 @@ public:
             // Each message once, even if the stage is started again.
             if (said_.insert(message).second && control_.warn) control_.warn(message);
         };
-        last_step_ = simulation_.program().stages[k_].iterations;
+        last_step_ = simulation_.domain().stage(k_).iterations;
     }
 
     /// The first step, and then enough steps that caches and threads are warm.
@@ -213,7 +214,7 @@ private:
         StageBench bench;
         bench.stage = stage.name;
         bench.solver = name_of(stage.time.solver);
-        bench.grid = simulation_->grid(k);
+        bench.grid = simulation_->domain(k).grid;
         bench.precision = script_.program->domain.precision;
         bench.fast = script_.program->domain.fast;
         bench.is_native = backend_named(request_.simulation.backend).is_native;
@@ -248,7 +249,7 @@ private:
         }
         bench.threads = account_.stage(k).threads;
         bench.stepping = account_.stage(k).stepping;
-        bench.work = simulation_->step_work(k);
+        bench.work = step_work(*simulation_, k);
         if (account_.stage(k).has_refused) {
             // What cannot compile the steps cannot compile what measures the machine.
             bench.is_native = false;

@@ -6,6 +6,7 @@
 #include "run/commands/machine_limits.h"
 #include "run/script/script.h"
 #include "run/simulation/simulation.h"
+#include "run/stage/step_work.h"
 
 #include <cstdint>
 #include <functional>

@@ -56,9 +56,9 @@ Result<std::unique_ptr<DetailedRun>> DetailedRun::create(Script& script, const R
     finer.diagnostics = {};  // Its warnings are those of the script.
 
     SimulationOptions options = request.simulation;
-    options.memory_limit = memory_left(options.memory_limit, coarse.memory());
+    options.memory_limit = memory_left(options.memory_limit, coarse.domain().memory);
     options.control = &control;
-    options.known_sizes = coarse.known_sizes();
+    options.known_sizes = coarse.domain().known_sizes;
     // What is said of the model and of sizes has been said of the run's own cells.
     auto warn = std::exchange(control.warn, {}), note = std::exchange(control.note, {});
     auto simulation = Simulation::create(finer, options);
@@ -79,22 +79,22 @@ Result<std::unique_ptr<DetailedRun>> DetailedRun::create(Script& script, const R
     auto panels = panel_painters(finer, request);
     if (!panels) return tl::unexpected(panels.error());
     made->panels_ = std::move(*panels);
-    auto fits =
-        check_picture_size(finer, request.picture, coarse.memory() + made->simulation_->memory(),
-                           request.simulation.memory_limit);
+    auto fits = check_picture_size(finer, request.picture,
+                                   coarse.domain().memory + made->simulation_->domain().memory,
+                                   request.simulation.memory_limit);
     if (fits) fits = check_film_sizes(finer, request, control.cancel);
     if (!fits) return tl::unexpected(fits.error());
     return made;
 }
 
 Result<StageEnd> DetailedRun::settle(const Simulation& coarse, RunControl& control) {
-    const auto stage = coarse.shown_stage();
-    if (!stage) return StageEnd::finished;
-    if (auto carried = simulation_->go_on_from(coarse, *stage); !carried)
+    if (!coarse.state(0).started) return StageEnd::finished;
+    const std::uint32_t stage = shown_stage(coarse);
+    if (auto carried = simulation_->go_on_from(coarse, stage); !carried)
         return tl::unexpected(carried.error());
-    if (coarse.state(*stage).steps == 0) return StageEnd::finished;
-    const std::int64_t last = simulation_->program().stages[*stage].iterations;
-    return simulation_->advance_stage(*stage, last, control, {});
+    if (coarse.state(stage).steps == 0) return StageEnd::finished;
+    const std::int64_t last = simulation_->domain().stage(stage).iterations;
+    return simulation_->advance_stage(stage, last, control, {});
 }
 
 }  // namespace cascade

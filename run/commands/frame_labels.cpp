@@ -37,7 +37,7 @@ std::string FrameLabels::text(const Simulation& simulation, std::uint32_t stage)
     auto number = numbers.begin();
     for (const std::string& word : words_) {
         if (word == name_of_stage) {
-            parts.push_back(simulation.program().stages[stage].name);
+            parts.push_back(simulation.domain().stage(stage).name);
         } else if (const double value = *number++; std::isfinite(value)) {
             parts.push_back(fmt::format("{} = {}", word, written(value)));
         }

@@ -26,7 +26,7 @@ struct Pattern::Implementation {
     std::map<std::string, Formula> formulas;  ///< Of values(), by stage and text.
 
     std::shared_ptr<const ModelCells> model() const {
-        return run ? run->simulation().model() : nullptr;
+        return run ? run->simulation().domain().shared_model() : nullptr;
     }
     bool running() const { return run && !failed; }
     const Program* known_program() const {

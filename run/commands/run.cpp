@@ -7,6 +7,7 @@
 #include "run/commands/runner.h"
 #include "run/pictures/measured.h"
 #include "run/pictures/picture_remarks.h"
+#include "run/simulation/end_remarks.h"
 #include "run/stage/stage_time.h"
 
 #include <fmt/format.h>
@@ -25,7 +26,7 @@ Result<StageEnd> Runner::run_stage(std::uint32_t k) {
             return tl::unexpected(started.error());
         }
         // Until a later stage takes a step, pictures show the stage before, which has its frame.
-        if (stage.iterations > 0 && simulation_->state(*simulation_->shown_stage()).steps == 0) {
+        if (stage.iterations > 0 && simulation_->state(shown_stage(*simulation_)).steps == 0) {
             look();
         }
     }
@@ -51,12 +52,12 @@ Result<StageEnd> Runner::run_stage(std::uint32_t k) {
 Result<void> Runner::run_stages() {
     for (std::uint32_t k = 0; k < script_.stage_count(); ++k) {
         const std::int64_t before = simulation_->state(k).steps;
-        if (before == 0) remark(outlook(simulation_->program(k), k));
+        if (before == 0) remark(outlook(*simulation_->domain(k).program, k));
         auto end = run_stage(k);
         if (!end) return tl::unexpected(end.error());
         report_.where = place();
         if (*end == StageEnd::finished) {
-            if (simulation_->state(k).steps > before) remark(simulation_->remark_on(k));
+            if (simulation_->state(k).steps > before) remark(remark_on(*simulation_, k));
             continue;
         }
         report_.status = *end == StageEnd::cancelled ? RunStatus::cancelled : RunStatus::stopped;
@@ -73,7 +74,7 @@ Result<void> Runner::settle_in_detail() {
     const auto end = detailed_->settle(*simulation_, control_);
     if (!end) return tl::unexpected(end.error());
     report_.seconds += std::chrono::duration<double>(Clock::now() - start).count();
-    const std::uint32_t stage = simulation_->shown_stage().value_or(0);
+    const std::uint32_t stage = shown_stage(*simulation_);
     report_.steps += shown().state(stage).steps - simulation_->state(stage).steps;
     if (*end == StageEnd::cancelled) {
         report_.status = RunStatus::cancelled;
@@ -135,7 +136,7 @@ void Runner::observe(std::uint32_t k) {
 void Runner::look() {
     if (!frames_ && !series_) return;
     const TimeAccount::Scope spent(request_.simulation.account, Spent::drawing);
-    const auto stage = simulation_->shown_stage().value_or(0);
+    const auto stage = shown_stage(*simulation_);
     if (series_) add_to_series(stage);
     if (!frames_) return;
     frames_->record(painter_->canvas(*simulation_), script_.program->stages[stage].name,
@@ -152,7 +153,7 @@ void Runner::add_to_series(std::uint32_t stage) {
 }
 
 std::string Runner::place() const {
-    const auto stage = simulation_->shown_stage().value_or(0);
+    const auto stage = shown_stage(*simulation_);
     const Stage& at = script_.program->stages[stage];
     return fmt::format("stage '{}', {}", at.name, describe_place(at, simulation_->state(stage)));
 }

@@ -17,7 +17,7 @@ namespace {
 
 /// The stage that is shown and its time.
 std::string title_of(const Script& script, const Simulation& simulation) {
-    const std::uint32_t stage = simulation.shown_stage().value_or(0);
+    const std::uint32_t stage = shown_stage(simulation);
     std::string title =
         fmt::format("{}: {}", printable(std::filesystem::path(script.name).filename().string()),
                     script.program->stages[stage].name);
@@ -34,7 +34,7 @@ std::optional<double> number_in(const Simulation& simulation, const Formula& for
     });
     if (!is_known) return std::nullopt;
     const std::array formulas{&number};
-    return evaluate_numbers(simulation, formulas, simulation.shown_stage().value_or(0)).front();
+    return evaluate_numbers(simulation, formulas, shown_stage(simulation)).front();
 }
 
 /// The bar of a colour that is palette(e, low, high, "name") as a whole, with numbers for ends.
@@ -70,8 +70,8 @@ PlaneExtent extent_of(const Grid& grid, const PictureRequest& request) {
 
 Drawing RunResults::figure_of(Painter& of, const Canvas& canvas, const std::string& title) const {
     const PictureRequest& wanted = of.request();
-    const std::string name = name_of_number(script, simulation.shown_stage().value_or(0), wanted);
-    const Grid& grid = simulation.grid();
+    const std::string name = name_of_number(script, shown_stage(simulation), wanted);
+    const Grid& grid = simulation.domain().grid;
     if (of.is_flat() && grid.height == 1 && grid.depth == 1 && !canvas.is_colour()) {
         std::vector<double> values;
         const Field& line = canvas.fields[0];

@@ -104,7 +104,7 @@ Result<void> RunResults::film_turntable(FilmCrew& crew, const Canvas& canvas) {
 Result<void> RunResults::film_slices(FilmCrew& crew) {
     const ValueRange range = automatic_range(spread_of([&](const auto& take) {
         const Field number = shown_number(painter, simulation);
-        for (const double value : measure::to_samples(number, simulation.grid()).values)
+        for (const double value : measure::to_samples(number, simulation.domain().grid).values)
             take(value);
     }));
     auto done = film_end(crew, request.slices, [&](std::size_t k) -> Result<FilmFrame> {

@@ -170,7 +170,7 @@ Result<void> Runner::make_simulation() {
         if (!run && has_cancelled("a session that is played")) return {};
         if (!run) return tl::unexpected(run.error());
         played = std::move(*run);
-        options.known_model = played->simulation().model();
+        options.known_model = played->simulation().domain().shared_model();
     }
     auto made = Simulation::create(script_, options);
     const char* const doing =
@@ -178,16 +178,16 @@ Result<void> Runner::make_simulation() {
     if (!made && !script_.diagnostics.has_errors() && has_cancelled(doing)) return {};
     if (!made) return tl::unexpected(made.error());
     simulation_ = std::move(*made);
-    if (played && simulation_->model()) {
+    if (played && simulation_->domain().model) {
         // It brought its model along, so that nothing has checked it yet.
-        if (auto good = find_texture(simulation_->model()->mesh); !good) return good;
+        if (auto good = find_texture(simulation_->domain().model->cells->mesh); !good) return good;
     }
     if (played) {
         const auto restored =
             go_on(*simulation_, nullptr, played->values(), Continuation::same, control_.cancel);
         if (!restored) return tl::unexpected(restored.error());
     }
-    auto fits = check_picture_size(script_, request_.picture, simulation_->memory(),
+    auto fits = check_picture_size(script_, request_.picture, simulation_->domain().memory,
                                    request_.simulation.memory_limit);
     if (fits) fits = check_film_sizes(script_, request_, control_.cancel);
     if (!fits && has_cancelled("the trial of ffmpeg")) return {};

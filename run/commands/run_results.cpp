@@ -114,7 +114,7 @@ bool RunResults::shows_number(const Canvas& canvas) const {
 
 /// The channels of model files: the species of the stage that is shown, and the number of --show.
 std::vector<Channel> RunResults::channels(const Canvas& canvas) const {
-    const ModelCells& model = *simulation.model();
+    const ModelCells& model = *simulation.domain().model->cells;
     const auto numbers = [&](const Field& field) { return numbers_of_cells(field, model); };
     std::vector<Channel> channels = species_channels(simulation, numbers);
     if (shows_number(canvas)) channels.push_back({"shown", numbers(canvas.fields[0])});
@@ -148,7 +148,7 @@ Result<void> RunResults::write_each(
 
 Result<void> RunResults::write_model_files(const Canvas& canvas) {
     const ModelLook look = painter.look(canvas);
-    ModelFileWriter writer(*simulation.model(), texture, look, channels(canvas),
+    ModelFileWriter writer(*simulation.domain().model->cells, texture, look, channels(canvas),
                            request.model_files, texts(request.picture));
     return write_each([&](const std::filesystem::path& path) -> Result<WrittenFiles> {
         if (!request.model_files.is_animated(path)) return writer.write(path);
@@ -173,15 +173,14 @@ Result<void> RunResults::write_growth(const std::filesystem::path& path) {
     };
     const auto last = look_of(plan.frames.size() - 1);
     if (!last) return tl::unexpected(last.error());
-    return write_growing_model(path, *simulation.model(), texture, *last,
+    return write_growing_model(path, *simulation.domain().model->cells, texture, *last,
                                {plan.frames.size(), look_of, 1 / plan.frames_per_second});
 }
 
 /// Of a stage of cells that crawl.
 Result<void> RunResults::write_cell_files(const Canvas& canvas) {
     const std::vector<Colour> colours = painter.colours_of_row(canvas);
-    const GrownCells cells{simulation, simulation.shown_stage().value_or(0), *canvas.cells,
-                           colours};
+    const GrownCells cells{simulation, shown_stage(simulation), *canvas.cells, colours};
     return write_each([&](const std::filesystem::path& path) {
         return write_cells(path, cells, texture, request.model_files, texts(request.picture));
     });
@@ -190,7 +189,7 @@ Result<void> RunResults::write_cell_files(const Canvas& canvas) {
 /// Of a volume whose picture is a body.
 Result<void> RunResults::write_body_files(const Canvas& canvas) {
     const SurfaceMesh& body = *canvas.body;
-    const Grid& grid = simulation.grid();
+    const Grid& grid = simulation.domain().grid;
     const auto numbers = [&](const Field& row) {
         return std::vector<float>(row.row(0), row.row(0) + body.points.size());
     };
@@ -231,7 +230,7 @@ Result<void> RunResults::write_outputs(const Canvas& canvas) {
     Result<void> done;
     if (canvas.cells) {
         done = write_cell_files(canvas);
-    } else if (simulation.model()) {
+    } else if (simulation.domain().model) {
         done = write_model_files(canvas);
     } else if (canvas.body) {
         done = write_body_files(canvas);

@@ -7,6 +7,7 @@
 #include "run/commands/saved_stage.h"
 #include "run/script/embedded_script.h"
 #include "run/script/script_folder.h"
+#include "run/simulation/stage_record.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -24,7 +25,9 @@ nlohmann::json manifest(const Script& script, const Simulation& simulation, nloh
         {"name", portable_path(script.name)},
         {"script", script.text},
         {"overrides", nlohmann::json::parse(overrides_to_json(script.overrides))},
-        {"grid", {simulation.grid().width, simulation.grid().height, simulation.grid().depth}},
+        {"grid",
+         {simulation.domain().grid.width, simulation.domain().grid.height,
+          simulation.domain().grid.depth}},
         {"seed", script.program->domain.seed},
         {"stages", std::move(stages)},
     };
@@ -78,7 +81,7 @@ Result<void> take_model(Overrides& saved, const Overrides& changes) {
 /// Checks that what run.json repeats of the script agrees with it.
 Result<void> check_against_script(const std::filesystem::path& folder, const nlohmann::json& json,
                                   const Script& script, const Simulation& simulation) {
-    const Grid& grid = simulation.grid();
+    const Grid& grid = simulation.domain().grid;
     if (json.at("grid") != nlohmann::json{grid.width, grid.height, grid.depth}) {
         return tl::unexpected(damaged(folder, "its grid is not that of its script"));
     }
@@ -154,7 +157,7 @@ Result<void> restore_run(const std::filesystem::path& folder, const Script& scri
             const bool is_last = k + 1 == stages.size();
             record->done =
                 record->done && (!is_last || record->condition_met || record->steps >= iterations);
-            simulation.restore(k, *std::move(record));
+            restore(simulation, k, *std::move(record));
         }
     } catch (const nlohmann::json::exception&) {
         return tl::unexpected(damaged(folder, "run.json is incomplete or malformed"));

@@ -5,6 +5,7 @@
 
 #include "picture/npy.h"
 #include "run/commands/saved_numbers.h"
+#include "run/simulation/tissue_stage.h"
 #include "run/stage/bound_kernel.h"
 #include "solvers/finite.h"
 #include "tissue/tissue.h"
@@ -44,10 +45,11 @@ public:
         : change_(change), simulation_(simulation), stage_(stage) {}
 
     void add(std::string_view what, const Field& field) {
-        if (const DomainMask* const mask = simulation_.mask()) {
+        const SimulationDomain& domain = simulation_.domain();
+        if (const auto& mask = domain.mask) {
             return put(what, with_outside(field, *mask, nothing_outside));
         }
-        if (simulation_.model()) return put(what, in_one_row(field, *simulation_.model()));
+        if (domain.model) return put(what, in_one_row(field, *domain.model->cells));
         put(what, field);
     }
 
@@ -64,7 +66,8 @@ public:
 private:
     void put(std::string_view what, const Field& field) {
         if (!result_) return;
-        result_ = change_.add(array_name(simulation_.program(), stage_, what), encode_npy(field));
+        result_ =
+            change_.add(array_name(*simulation_.domain().program, stage_, what), encode_npy(field));
     }
 
     SavedFolderChange& change_;
@@ -82,10 +85,11 @@ public:
 
     /// The values of an item of fields, or of another array of the same shape.
     Field field(std::string_view what) {
-        const Precision precision = simulation_.program().domain.precision;
-        const auto model = simulation_.model();
+        const Precision precision = simulation_.domain().program->domain.precision;
+        const SimulationDomain& domain = simulation_.domain(stage_);
+        const auto& model = domain.model;
         const Grid grid =
-            model ? Grid{static_cast<std::int64_t>(model->count()), 1} : simulation_.grid(stage_);
+            model ? Grid{static_cast<std::int64_t>(model->cells->count()), 1} : domain.grid;
         const auto array = read(what, precision);
         if (!array) return {};
         if (!fits(*array, grid)) {
@@ -93,9 +97,9 @@ public:
             return {};
         }
         Field field = to_field(*array, precision);
-        if (model) field = in_rows(field, *model);
+        if (model) field = in_rows(field, *model->cells);
         // Outside of the mask, files hold NaN but runs 0.
-        if (simulation_.mask()) field = with_outside(field, *simulation_.mask(), 0);
+        if (domain.mask) field = with_outside(field, *domain.mask, 0);
         return field;
     }
 
@@ -130,14 +134,14 @@ public:
     }
 
     void fail(std::string_view what, std::string_view why) {
-        fail(fmt::format("{} {}", array_name(simulation_.program(), stage_, what), why));
+        fail(fmt::format("{} {}", array_name(*simulation_.domain().program, stage_, what), why));
     }
     const std::optional<Failure>& failure() const { return failure_; }
 
 private:
     std::optional<NpyArray> read(std::string_view what, Precision precision) {
         if (failure_) return std::nullopt;
-        const std::string name = array_name(simulation_.program(), stage_, what);
+        const std::string name = array_name(*simulation_.domain().program, stage_, what);
         const auto file = read_saved_file(folder_, manifest_, name);
         auto array = file ? parse_npy(*file, precision) : tl::unexpected(file.error());
         if (array) return std::move(*array);
@@ -180,8 +184,8 @@ nlohmann::json save_cells(ArrayWriter& arrays, const TissueRecord& record, const
 
 /// Are the cells on triangles of the surface on which they crawl?
 bool are_on_surface(const TissueRecord& record, const Simulation& simulation, std::uint32_t stage) {
-    const auto model = simulation.model();
-    const auto body = simulation.body(stage);
+    const auto model = simulation.domain().shared_model();
+    const auto body = body_under_cells(simulation.state(stage));
     const SurfaceMesh* const surface = model ? &model->mesh : body.get();
     const std::size_t triangles = surface != nullptr ? surface->triangles.size() : 0;
     return std::ranges::all_of(record.triangles, [&](std::uint32_t triangle) {
@@ -191,7 +195,7 @@ bool are_on_surface(const TissueRecord& record, const Simulation& simulation, st
 
 Result<TissueRecord> read_cells(ArrayReader& arrays, const nlohmann::json& saved,
                                 const Simulation& simulation, std::uint32_t stage) {
-    const Program& program = simulation.program();
+    const Program& program = *simulation.domain().program;
     const System& system = program.system_of(stage);
     TissueRecord record;
     saved.at("next_number").get_to(record.next_number);
@@ -253,7 +257,7 @@ std::vector<std::string> stage_arrays(const Program& program, std::uint32_t stag
 
 Result<nlohmann::json> save_stage(SavedFolderChange& change, const Simulation& simulation,
                                   std::uint32_t stage) {
-    const Program& program = simulation.program();
+    const Program& program = *simulation.domain().program;
     const System& system = program.system_of(stage);
     const StageState& state = simulation.state(stage);
     ArrayWriter arrays(change, simulation, stage);
@@ -280,7 +284,7 @@ Result<nlohmann::json> save_stage(SavedFolderChange& change, const Simulation& s
 Result<StageRecord> read_stage(const std::filesystem::path& folder, const nlohmann::json& manifest,
                                const nlohmann::json& saved, const Simulation& simulation,
                                std::uint32_t stage) {
-    const Program& program = simulation.program();
+    const Program& program = *simulation.domain().program;
     const System& system = program.system_of(stage);
     ArrayReader arrays(folder, manifest, simulation, stage);
     StageRecord record;

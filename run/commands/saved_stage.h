@@ -4,6 +4,7 @@
 #include "core/result.h"
 #include "run/commands/saved_folder.h"
 #include "run/simulation/simulation.h"
+#include "run/simulation/stage_record.h"
 
 #include <nlohmann/json_fwd.hpp>
 

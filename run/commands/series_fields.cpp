@@ -22,7 +22,7 @@ Result<SeriesFields> series_fields(Script& script, const RunRequest& request, Pa
         StageFormulas::create(script, "--field", request.fields, FormulaKind::for_a_cell);
     if (!formulas) return tl::unexpected(formulas.error());
     const auto values = [formulas = *std::move(formulas)](const Simulation& simulation) {
-        const std::uint32_t stage = simulation.shown_stage().value_or(0);
+        const std::uint32_t stage = shown_stage(simulation);
         std::vector<Field> known = simulation.evaluate(formulas.known_in(stage), stage);
         auto next = known.begin();
         std::vector<Field> fields;

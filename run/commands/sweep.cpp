@@ -10,6 +10,7 @@
 #include "run/pictures/measured.h"
 #include "run/pictures/picture_remarks.h"
 #include "run/script/embedded_script.h"
+#include "run/simulation/end_remarks.h"
 #include "run/stage/memory.h"
 #include "run/stage/time_account.h"
 #include "tissue/tissue.h"
@@ -43,7 +44,7 @@ void add_remark(SweepResult& result, const std::string& words) {
 
 /// The cells that a picture shows; null if it is one of fields.
 const Tissue* shown_tissue(const Simulation& simulation) {
-    return simulation.state(simulation.shown_stage().value_or(0)).tissue.get();
+    return simulation.state(shown_stage(simulation)).tissue.get();
 }
 
 struct Run {
@@ -210,7 +211,7 @@ Result<void> Sweeper::run_stages(Script& script, Simulation& simulation, RunCont
         result.steps += simulation.state(k).steps;
         if (!end) return tl::unexpected(end.error());
         if (*end == StageEnd::cancelled) return {};
-        add_remark(result, simulation.remark_on(k));
+        add_remark(result, remark_on(simulation, k));
     }
     return {};
 }
@@ -244,7 +245,7 @@ void Sweeper::take(std::size_t number, RunControl& control) {
     }
     // Without rows and columns a tile is a picture.
     painter->set_width(request_.tile_side);
-    if (canvas.cells || (*simulation)->model()) canvas = canvas_of(painter->image(canvas));
+    if (canvas.cells || (*simulation)->domain().model) canvas = canvas_of(painter->image(canvas));
     result.tile = shrink(canvas, request_.tile_side);
     if (request_.fields) {
         const auto folder = folder_ / "fields" / folder_name(request_.varied, run.values);

@@ -10,6 +10,7 @@
 #include "run/emit_c/c_header.h"
 #include "run/emit_c/c_stage.h"
 #include "run/simulation/stage_sizes.h"
+#include "run/simulation/stage_tools.h"
 #include "run/stage/plan_runner.h"
 #include "run/stage/stage_time.h"
 
@@ -172,12 +173,12 @@ Result<SizedStages> with_sizes(Script& script, const std::string& asked,
     const auto made = Simulation::create(script, options);
     if (!made) return tl::unexpected(made.error());
     Simulation& simulation = **made;
-    result.program = simulation.program();
+    result.program = *simulation.domain().program;
     for (std::uint32_t k = 0; k <= *stage; ++k) {
         if (auto started = simulation.start_stage(k); !started)
             return tl::unexpected(started.error());
     }
-    (void)simulation.step_work(*stage);  // Begins the time of the stage.
+    (void)step_work(simulation, *stage);  // Begins the time of the stage.
     if (result.program.stages[*stage].time.solver == Solver::euler)
         result.parts = simulation.state(*stage).time.stages;
     return result;

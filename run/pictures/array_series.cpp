@@ -35,15 +35,16 @@ struct Moment {
 };
 
 Moment moment_of(const Simulation& simulation) {
-    const std::uint32_t stage = simulation.shown_stage().value_or(0);
-    return {simulation.program().stages[stage].name, simulation.state(stage).steps,
+    const std::uint32_t stage = shown_stage(simulation);
+    return {simulation.domain().program->stages[stage].name, simulation.state(stage).steps,
             time_of(simulation, stage), time_since_start(simulation)};
 }
 
 /// The lengths of the axes of cells.
 std::vector<std::int64_t> sides_of(const Simulation& simulation) {
-    if (const auto model = simulation.model()) return {static_cast<std::int64_t>(model->count())};
-    const Grid& grid = simulation.grid();
+    if (const auto model = simulation.domain().shared_model())
+        return {static_cast<std::int64_t>(model->count())};
+    const Grid& grid = simulation.domain().grid;
     if (grid.depth > 1) return {grid.depth, grid.height, grid.width};
     if (grid.height > 1) return {grid.height, grid.width};
     return {grid.width};
@@ -58,13 +59,13 @@ std::int64_t cells_of(const std::vector<std::int64_t>& sides) {
 /// Appends the cells of a field, or as many NaNs if it is empty.
 void append_cells(std::string& bytes, const Field& field, const Simulation& simulation,
                   std::int64_t cells) {
-    const auto model = simulation.model();
+    const auto model = simulation.domain().shared_model();
     if (!field.empty() && !model) return append_floats(bytes, field);
     const std::vector<double> values =
         field.empty() ? std::vector<double>(static_cast<std::size_t>(cells),
                                             std::numeric_limits<double>::quiet_NaN())
                       : cell_values(field, *model);
-    with_number(simulation.program().domain.precision, [&](auto zero) {
+    with_number(simulation.domain().program->domain.precision, [&](auto zero) {
         for (const double value : values) {
             append_number(bytes, static_cast<decltype(zero)>(value));
         }
@@ -149,7 +150,7 @@ private:
 
     Result<void> begin(const Simulation& simulation, const std::vector<std::int64_t>& sides,
                        const std::string& bytes, const std::string& entry) {
-        type_ = fmt::format("<f{}", bytes_of(simulation.program().domain.precision));
+        type_ = fmt::format("<f{}", bytes_of(simulation.domain().program->domain.precision));
         shape_ = names().size() > 1 ? fmt::format("{}, ", names().size()) : "";
         shape_ += fmt::format("{}", fmt::join(sides, ", "));
         auto array = begun(path(), header(1) + bytes);
@@ -179,14 +180,14 @@ private:
                          const std::vector<std::int64_t>& sides) const {
         std::vector<std::string> axes = {"slice", "row", "column"};
         axes.erase(axes.begin(), axes.end() - static_cast<std::ptrdiff_t>(sides.size()));
-        if (simulation.model()) axes = {"cell"};
+        if (simulation.domain().shared_model()) axes = {"cell"};
         if (names().size() > 1) axes.insert(axes.begin(), "field");
         axes.insert(axes.begin(), "time");
         Json all = {{"array", path().filename().string()},
                     {"type", type_},
                     {"axes", axes},
                     {"fields", names()}};
-        const DomainSettings& domain = simulation.program().domain;
+        const DomainSettings& domain = simulation.domain().program->domain;
         if (!domain.model && !domain.surface) all["spacing"] = domain.grid.spacing;
         std::string text = "{\n";
         for (const auto& [key, value] : all.items()) {
@@ -223,16 +224,16 @@ public:
 private:
     Result<void> add_moment(const Simulation& simulation) override {
         const Moment moment = moment_of(simulation);
-        const Precision precision = simulation.program().domain.precision;
+        const Precision precision = simulation.domain().program->domain.precision;
         std::vector<std::string> cells = {moment.stage, fmt::format("{}", moment.step),
                                           csv_number(moment.t, precision)};
         for (const Field& field : values(simulation)) {
-            for (std::int64_t i = 0; i < simulation.grid().width; ++i) {
+            for (std::int64_t i = 0; i < simulation.domain().grid.width; ++i) {
                 cells.push_back(field.empty() ? "" : csv_number(field.number_at(i, 0), precision));
             }
         }
         if (file_) return file_->append(csv_row(cells));
-        auto file = begun(path(), head(simulation.grid()) + csv_row(cells));
+        auto file = begun(path(), head(simulation.domain().grid) + csv_row(cells));
         if (!file) return tl::unexpected(file.error());
         file_ = *std::move(file);
         return file_->appear();

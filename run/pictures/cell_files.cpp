@@ -48,7 +48,7 @@ constexpr double pixels_of_files = 200, detail_of_files = 0.5;
 
 /// The things in a picture, in the coordinates of the model's file.
 Instances things_in_file(const GrownCells& cells) {
-    const auto model = cells.simulation.model();
+    const auto model = cells.simulation.domain().shared_model();
     const FilePlaces in_file(model.get());
     Instances copies = instances_of(cells.drawn, pixels_of_files, detail_of_files);
     for (std::size_t k = 0; k < copies.placements.size(); ++k) {
@@ -96,7 +96,7 @@ Result<void> write_things(const std::filesystem::path& path, const GrownCells& c
                           const MeshTexture& texture, bool is_merged) {
     const Instances copies = things_in_file(cells);
     const DrawnCells& drawn = cells.drawn;
-    const auto model = cells.simulation.model();
+    const auto model = cells.simulation.domain().shared_model();
     if (!model) {
         return write_instanced(path, {drawn.body.get(), drawn.body_colours, copies}, is_merged);
     }
@@ -108,7 +108,7 @@ Result<void> write_things(const std::filesystem::path& path, const GrownCells& c
 Result<WrittenFiles> write_maps(const std::filesystem::path& path, const GrownCells& cells,
                                 const MeshTexture& texture, const ModelFileOptions& files,
                                 const PngTexts& texts) {
-    Skin skin(*cells.simulation.model(), texture, cells.drawn);
+    Skin skin(*cells.simulation.domain().model->cells, texture, cells.drawn);
     const CellsFromOutside outside(skin.mesh, things_in_file(cells));
     BakeOptions options;
     options.width = options.height = files.bake;
@@ -123,10 +123,10 @@ Result<WrittenFiles> write_maps(const std::filesystem::path& path, const GrownCe
 
 Result<void> write_values(const std::filesystem::path& path, const GrownCells& cells) {
     const StageState& state = cells.simulation.state(cells.stage);
-    const Program& program = cells.simulation.program();
+    const Program& program = *cells.simulation.domain().program;
     const System& system = program.system_of(cells.stage);
     const CellRules& rules = *system.cells;
-    const auto model = cells.simulation.model();
+    const auto model = cells.simulation.domain().shared_model();
     const FilePlaces in_file(model.get());
     PlacedFrames frames = frames_of(cells.simulation, cells.stage);
     for (Vector3d& place : frames.places) place = in_file.place(place);

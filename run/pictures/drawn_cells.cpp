@@ -7,6 +7,7 @@
 #include "lang/check/picture_shape.h"
 #include "lang/program/stage_kinds.h"
 #include "run/pictures/model_picture.h"
+#include "run/simulation/tissue_stage.h"
 #include "tissue/sense_kernel.h"
 #include "tissue/tissue.h"
 #include "lang/syntax/picture_expression.h"
@@ -97,10 +98,11 @@ void take_skin(Script& script, const Simulation& simulation, std::uint32_t stage
         check_view(script.tree, *expression, read, stage, program, script.sources, unspoken);
     if (!formula || formula->nodes.back().type != ValueType::colour) return;
     Canvas canvas{simulation.evaluate(*formula, read)};
-    const auto model = simulation.model();
-    const Grid& grid = simulation.grid();
-    if (of_fields && model) {
-        drawn.coat = std::make_shared<const ModelLook>(*model, canvas, ValueRange(), palettes()[0]);
+    const SimulationDomain& domain = simulation.domain();
+    const Grid& grid = domain.grid;
+    if (of_fields && domain.model) {
+        drawn.coat = std::make_shared<const ModelLook>(*domain.model->cells, canvas, ValueRange(),
+                                                       palettes()[0]);
     } else if (of_fields && grid.depth == 1) {
         for (Field& field : canvas.fields) {
             if (field.precision() != Precision::single) field = field.converted(Precision::single);
@@ -178,7 +180,7 @@ Field row_of_cells(const Field& field, const Tissue& tissue) {
 PlacedFrames frames_of(const Simulation& simulation, std::uint32_t stage) {
     const StageState& state = simulation.state(stage);
     const Tissue& tissue = *state.tissue;
-    const CellRules& rules = *simulation.program().system_of(stage).cells;
+    const CellRules& rules = *simulation.domain().program->system_of(stage).cells;
     const auto values = [&](ItemId first, std::size_t k) {
         return number_order(state.field(ItemId(first.index() + k)), tissue);
     };
@@ -244,12 +246,12 @@ DrawnCells drawn_cells(Script& script, const Simulation& simulation, std::uint32
     CellShapes shapes = shapes_of(placed.form, values, tissue.count());
     std::size_t faulty = 0;
     placed.count = tissue.count();
-    const Grid& grid = simulation.grid();
+    const Grid& grid = simulation.domain().grid;
     const auto longest = static_cast<double>(grid.longest_side());
     placed.extent = {static_cast<double>(grid.width) / longest,
                      static_cast<double>(grid.height) / longest,
                      grid.depth > 1 ? static_cast<double>(grid.depth) / longest : 0};
-    placed.body = simulation.body(stage);
+    placed.body = body_under_cells(simulation.state(stage));
     take_skin(script, simulation, stage, placed);
     if (placed.body && placed.body_colours.empty()) {
         placed.body_colours.assign(placed.body->points.size(), placed.skin);

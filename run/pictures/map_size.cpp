@@ -37,13 +37,13 @@ MapSize map_size_for(double texels_per_cell, const Simulation& simulation,
     constexpr std::int64_t most = ModelFileOptions::most_texels;
     std::int64_t wanted = 0;
     double cells_along = 0;  // The number of cells side by side that span the map.
-    if (const auto model = simulation.model()) {
-        const double covered = covered_by(*model, texture);
-        const auto count = static_cast<std::int64_t>(model->count());
+    if (const auto& model = simulation.domain().model) {
+        const double covered = covered_by(*model->cells, texture);
+        const auto count = static_cast<std::int64_t>(model->cells->count());
         wanted = map_side(texels_per_cell, count, covered);
         cells_along = side_needed(1, count, covered);
     } else {
-        cells_along = static_cast<double>(simulation.grid().longest_side());
+        cells_along = static_cast<double>(simulation.domain().grid.longest_side());
         wanted = std::max<std::int64_t>(1, std::llround(texels_per_cell * cells_along));
     }
     MapSize size;

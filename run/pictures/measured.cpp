@@ -33,8 +33,8 @@ measure::Features without_places(const std::vector<double>& values) {
 Field shown_number(Painter& painter, const Simulation& simulation) {
     Canvas shown = painter.values(simulation);
     if (!shown.is_colour()) return std::move(shown.fields[0]);
-    const std::uint32_t stage = simulation.shown_stage().value_or(0);
-    return std::move(simulation.evaluate(simulation.program().stages[stage].show, stage)[0]);
+    const std::uint32_t stage = shown_stage(simulation);
+    return std::move(simulation.evaluate(simulation.domain().stage(stage).show, stage)[0]);
 }
 
 std::string name_of_number(const Script& script, std::uint32_t stage,
@@ -49,10 +49,11 @@ std::string name_of_number(const Script& script, std::uint32_t stage,
 
 measure::Features measure_shown(Painter& painter, const Simulation& simulation) {
     const Field shown = shown_number(painter, simulation);
-    const auto& tissue = simulation.state(simulation.shown_stage().value_or(0)).tissue;
+    const auto& tissue = simulation.state(shown_stage(simulation)).tissue;
     if (tissue) return without_places(number_order(shown, *tissue));
-    if (const auto model = simulation.model()) return without_places(cell_values(shown, *model));
-    return measure::measure(measure::to_samples(shown, simulation.grid()));
+    if (const auto& model = simulation.domain().model)
+        return without_places(cell_values(shown, *model->cells));
+    return measure::measure(measure::to_samples(shown, simulation.domain().grid));
 }
 
 }  // namespace cascade

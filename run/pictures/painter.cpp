@@ -6,6 +6,7 @@
 #include "export/plane_maps.h"
 #include "lang/check/check.h"
 #include "lang/syntax/parse.h"
+#include "run/domain/domain_mask.h"
 #include "run/domain/metric_planes.h"
 #include "run/pictures/body_picture.h"
 #include "run/pictures/model_picture.h"
@@ -36,20 +37,17 @@ Field shown(Field field, const PictureRequest& request) {
 /// The last stage that formulas can read: the stage shown, or a later one that has started.
 std::uint32_t last_to_read(const Simulation& simulation, std::uint32_t stage) {
     std::uint32_t last = stage;
-    while (last + 1 < simulation.program().stages.size() && simulation.state(last + 1).started) {
+    while (last + 1 < simulation.domain().program->stages.size() &&
+           simulation.state(last + 1).started) {
         ++last;
     }
     return last;
 }
 
-std::uint32_t shown_stage_of(const Simulation& simulation) {
-    return simulation.shown_stage().value_or(0);
-}
-
 /// In the stage shown.
 EvaluateFormula evaluation_in(const Simulation& simulation) {
     return [&simulation](const Formula& formula) {
-        return simulation.evaluate(formula, shown_stage_of(simulation));
+        return simulation.evaluate(formula, shown_stage(simulation));
     };
 }
 
@@ -100,7 +98,7 @@ Result<Painter> Painter::create(Script& script, const PictureRequest& request,
 std::optional<Formula> Painter::formula(const Simulation& simulation) {
     const auto expression = show_ ? show_ : picture_expression(script_->tree);
     if (!expression) return std::nullopt;
-    const std::uint32_t stage = shown_stage_of(simulation);
+    const std::uint32_t stage = shown_stage(simulation);
     // Errors were reported on loading. Here a name may have no value yet.
     Diagnostics unspoken;
     return check_view(script_->tree, *expression, stage, last_to_read(simulation, stage),
@@ -109,11 +107,11 @@ std::optional<Formula> Painter::formula(const Simulation& simulation) {
 
 std::vector<Field> Painter::evaluate(const Simulation& simulation,
                                      const EvaluateFormula& evaluate) {
-    const std::uint32_t stage = shown_stage_of(simulation);
+    const std::uint32_t stage = shown_stage(simulation);
     const bool asked = show_ || picture_expression(script_->tree);
     const auto wanted = formula(simulation);
     if (!wanted) fell_back_ = fell_back_ || asked;
-    return evaluate(wanted ? *wanted : simulation.program().stages[stage].show);
+    return evaluate(wanted ? *wanted : simulation.domain().stage(stage).show);
 }
 
 Canvas Painter::values(const Simulation& simulation) {
@@ -122,17 +120,17 @@ Canvas Painter::values(const Simulation& simulation) {
 
 /// Records the domain of the canvas.
 void Painter::look_at_domain(const Simulation& simulation) {
-    model_ = simulation.model();
-    shows_cells_ = simulation.state(shown_stage_of(simulation)).tissue != nullptr;
-    if (const DomainMask* mask = simulation.mask()) {
-        outside_ = as_shown(Field(PlaneLayout(simulation.grid())), mask, request_);
+    model_ = simulation.domain().shared_model();
+    shows_cells_ = simulation.state(shown_stage(simulation)).tissue != nullptr;
+    if (const DomainMask* mask = simulation.domain().inside()) {
+        outside_ = as_shown(Field(PlaneLayout(simulation.domain().grid)), mask, request_);
     }
 }
 
 Canvas Painter::canvas(const Simulation& simulation) {
     look_at_domain(simulation);
     if (is_flat() && request_.size) {
-        const PictureSize copy = copy_size(simulation.grid(), request_);
+        const PictureSize copy = copy_size(simulation.domain().grid, request_);
         return canvas_of_plane(simulation, std::max(copy.width, copy.height), false);
     }
     Canvas canvas = values(simulation);
@@ -141,8 +139,8 @@ Canvas Painter::canvas(const Simulation& simulation) {
     for (Field& field : canvas.fields) field = shown(std::move(field), request_);
     if (model_) canvas.material = material(simulation, evaluation_in(simulation));
     if (model_ && request_.bump != 0 && canvas.is_colour()) {
-        const std::uint32_t stage = shown_stage_of(simulation);
-        auto usual = simulation.evaluate(simulation.program().stages[stage].show, stage);
+        const std::uint32_t stage = shown_stage(simulation);
+        auto usual = simulation.evaluate(simulation.domain().stage(stage).show, stage);
         if (usual.size() == 1) canvas.relief = shown(std::move(usual[0]), request_);
     }
     return canvas;
@@ -150,7 +148,7 @@ Canvas Painter::canvas(const Simulation& simulation) {
 
 MaterialFields Painter::material(const Simulation& simulation,
                                  const EvaluateFormula& evaluate) const {
-    const std::uint32_t stage = shown_stage_of(simulation);
+    const std::uint32_t stage = shown_stage(simulation);
     MaterialFields fields =
         material_fields(*script_, evaluate, stage, last_to_read(simulation, stage));
     for (Field& field : fields.parts) {
@@ -168,14 +166,14 @@ Canvas Painter::map_canvas(const Simulation& simulation, std::int64_t texels) {
 Canvas Painter::canvas_of_plane(const Simulation& simulation, std::int64_t texels,
                                 bool has_material) {
     constexpr std::int64_t most_parts = 8, most_cells = std::int64_t{1} << 22;
-    const Grid& grid = simulation.grid();
+    const Grid& grid = simulation.domain().grid;
     std::int64_t parts = std::clamp<std::int64_t>(texels / grid.longest_side(), 1, most_parts);
     while (parts > 1 && grid.cell_count() > most_cells / (parts * parts)) --parts;
-    const auto finer = parts > 1 ? simulation.finer(parts) : nullptr;
+    const auto finer = parts > 1 ? finer_view(simulation, parts) : nullptr;
     EvaluateFormula evaluation = evaluation_in(simulation);
     if (finer) {
         evaluation = [&](const Formula& formula) {
-            return finer->evaluate(formula, shown_stage_of(simulation));
+            return finer->evaluate(formula, shown_stage(simulation));
         };
     }
     Canvas canvas{evaluate(simulation, evaluation)};
@@ -274,12 +272,12 @@ bool Painter::is_plane() const {
 
 /// The body, and the values at its points. Empty if its formula names a stage that has not run.
 Canvas Painter::canvas_of_body(const Simulation& simulation, Canvas values) {
-    const std::uint32_t stage = shown_stage_of(simulation);
+    const std::uint32_t stage = shown_stage(simulation);
     const auto inside = setting_values(*script_, "body", evaluation_in(simulation), stage,
                                        last_to_read(simulation, stage));
-    const Boundaries boundary = simulation.grid().boundary;
+    const Boundaries boundary = simulation.domain().grid.boundary;
     values.body = inside.empty() ? std::make_shared<const SurfaceMesh>()
-                                 : body_of(inside[0], simulation.mask(), boundary);
+                                 : body_of(inside[0], simulation.domain().inside(), boundary);
     for (Field& field : values.fields) field = at_points(field, *values.body, boundary);
     return values;
 }
@@ -292,7 +290,7 @@ Image Painter::of_body(const Canvas& canvas, std::optional<ValueRange> range) co
 
 /// The values in the order of the cells' numbers, and the cells.
 Canvas Painter::canvas_of_cells(const Simulation& simulation, Canvas values) {
-    const std::uint32_t stage = shown_stage_of(simulation);
+    const std::uint32_t stage = shown_stage(simulation);
     const Tissue& tissue = *simulation.state(stage).tissue;
     for (Field& field : values.fields) field = row_of_cells(field, tissue);
     values.cells =
@@ -374,7 +372,8 @@ std::optional<Painting> Painter::painting(const Canvas& canvas,
 }
 
 Image draw_sheet(const Simulation& simulation, const PictureRequest& request) {
-    const Program& program = simulation.program();
+    const Program& program = *simulation.domain().program;
+    const DomainMask* const mask = simulation.domain().inside();
     const Palette& palette = *find_palette(request.palette);
     std::vector<Panel> panels;
     std::size_t columns = 1;
@@ -383,10 +382,10 @@ Image draw_sheet(const Simulation& simulation, const PictureRequest& request) {
         const System& system = program.system_of(k);
         std::size_t in_stage = 0;
         for (const ItemId item : system.species()) {
-            const Field field = as_shown(simulation.field(k, item), simulation.mask(), request);
+            const Field field = as_shown(simulation.field(k, item), mask, request);
             const ValueRange range = request.range.value_or(automatic_range(spread_of(field)));
             Image image = paint(field, range, palette);
-            if (simulation.mask()) clear_where_nan(image, field);
+            if (mask != nullptr) clear_where_nan(image, field);
             panels.push_back({fmt::format("{}.{} {:.4g}..{:.4g}", program.stages[k].name,
                                           system.item_name(item), range.low, range.high),
                               enlarge(std::move(image), request.scale)});

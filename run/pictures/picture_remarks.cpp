@@ -5,6 +5,7 @@
 #include "mesh/surface_mesh.h"
 #include "run/pictures/drawn_cells.h"
 #include "run/pictures/measured.h"
+#include "run/simulation/end_remarks.h"
 
 #include <fmt/format.h>
 
@@ -72,9 +73,10 @@ std::string describe_even(const Canvas& canvas) {
 }
 
 std::string describe_waves(Painter& painter, const Simulation& simulation, std::uint32_t stage) {
-    if (simulation.model() || simulation.grid().cell_count() > most_cells_of_spectrum) return {};
+    if (simulation.domain().model || simulation.domain().grid.cell_count() > most_cells_of_spectrum)
+        return {};
     const measure::Samples samples =
-        measure::to_samples(shown_number(painter, simulation), simulation.grid());
+        measure::to_samples(shown_number(painter, simulation), simulation.domain().grid);
     const double cells = measure::unresolved_wavelength(samples);
     const char* const why = "the grid shapes them as much as the equations do";
     if (!std::isnan(cells)) {
@@ -93,9 +95,9 @@ std::string describe_waves(Painter& painter, const Simulation& simulation, std::
 
 std::string remark_on_picture(Painter& painter, const Simulation& simulation,
                               const Canvas& canvas) {
-    const auto stage = simulation.shown_stage();
-    if (!stage) return {};
-    const StageState& state = simulation.state(*stage);
+    const std::uint32_t stage = shown_stage(simulation);
+    const StageState& state = simulation.state(stage);
+    if (!state.started) return {};
     if (state.tissue) return canvas.cells->fault;
     if (state.course.empty() || state.course.ended_even()) return {};
     if (canvas.body) {
@@ -107,17 +109,17 @@ std::string remark_on_picture(Painter& painter, const Simulation& simulation,
         std::string remark = describe_range(spread_of(canvas.fields[0]), *painter.request().range);
         if (!remark.empty()) return remark;
     }
-    if (!simulation.remark_on(*stage).empty()) return {};
+    if (!remark_on(simulation, stage).empty()) return {};
     std::string remark = describe_even(canvas);
     if (remark.empty() && canvas.is_colour()) remark = describe_clamped(canvas);
-    return remark.empty() ? describe_waves(painter, simulation, *stage) : remark;
+    return remark.empty() ? describe_waves(painter, simulation, stage) : remark;
 }
 
 std::string remark_on_look(const Painter& painter, const Simulation& simulation,
                            const Canvas& canvas) {
     const PictureRequest& request = painter.request();
     const bool has_palette = request.palette != PictureRequest().palette;
-    if (!(has_palette || request.range) || !simulation.shown_stage()) return {};
+    if (!(has_palette || request.range) || !simulation.state(0).started) return {};
     // A canvas with a number uses the range.
     if (canvas.number() != nullptr) return {};
     const char* const options = !request.range ? "--palette changes"

@@ -10,6 +10,7 @@
 #include "picture/vdb.h"
 #include "picture/vti.h"
 #include "picture/xml_text.h"
+#include "run/domain/domain_mask.h"
 #include "run/pictures/array_series.h"
 #include "run/pictures/model_files.h"
 #include "run/pictures/refined_model.h"
@@ -62,14 +63,14 @@ std::vector<std::string> files_in(const std::filesystem::path& list) {
 
 double time_since_start(const Simulation& simulation) {
     double time = 0;
-    const std::uint32_t last = simulation.shown_stage().value_or(0);
+    const std::uint32_t last = shown_stage(simulation);
     for (std::uint32_t k = 0; k <= last; ++k) time += time_of(simulation, k);
     return time;
 }
 
 std::vector<Channel> species_channels(const Simulation& simulation, const FieldNumbers& numbers) {
-    const std::uint32_t stage = simulation.shown_stage().value_or(0);
-    const System& system = simulation.program().system_of(stage);
+    const std::uint32_t stage = shown_stage(simulation);
+    const System& system = simulation.domain().program->system_of(stage);
     std::vector<Channel> channels;
     for (const ItemId item : system.species()) {
         channels.push_back(
@@ -104,9 +105,10 @@ static_assert(has_all_of(volume_writers, FormatKind::volume));
 
 Result<void> write_volume(const std::filesystem::path& path, const Simulation& simulation,
                           const std::map<std::string, std::string>& texts) {
-    const std::uint32_t stage = simulation.shown_stage().value_or(0);
-    const System& system = simulation.program().system_of(stage);
-    const DomainMask* mask = simulation.mask();
+    const std::uint32_t stage = shown_stage(simulation);
+    const SimulationDomain& domain = simulation.domain();
+    const System& system = domain.program->system_of(stage);
+    const DomainMask* const mask = domain.inside();
     std::deque<Field> copies;
     std::vector<VolumeArray> arrays;
     for (const ItemId item : system.species()) {
@@ -117,9 +119,9 @@ Result<void> write_volume(const std::filesystem::path& path, const Simulation& s
     const FormatRow* const format = find_format(path);
     const VolumeRow* const writer = format ? row_of(volume_writers, format->format) : nullptr;
     CHECK(writer != nullptr, "the file has the ending of a volume format");
-    return writer->write(path, {arrays, simulation.grid().spacing, mask ? &mask->inside : nullptr,
-                                texts, simulation.program().stages[stage].name,
-                                simulation.state(stage).steps, time_of(simulation, stage)});
+    return writer->write(path, {arrays, domain.grid.spacing, mask ? &mask->inside : nullptr, texts,
+                                domain.stage(stage).name, simulation.state(stage).steps,
+                                time_of(simulation, stage)});
 }
 
 namespace {
@@ -178,7 +180,8 @@ Result<std::unique_ptr<SeriesWriter>> ParaviewSeries::create(const std::filesyst
 
 void ParaviewSeries::add(const Simulation& simulation) {
     if (failure_) return;
-    std::string file = name_of_file(path_, moments_.size() + 1, simulation.model() != nullptr);
+    std::string file =
+        name_of_file(path_, moments_.size() + 1, simulation.domain().model.has_value());
     const auto written =
         enough_memory_for([&] { return write(path_.parent_path() / file, simulation); });
     if (!written) {
@@ -190,12 +193,13 @@ void ParaviewSeries::add(const Simulation& simulation) {
 
 Result<void> ParaviewSeries::write(const std::filesystem::path& path,
                                    const Simulation& simulation) {
-    return simulation.model() ? write_surface(path, simulation) : write_volume(path, simulation);
+    return simulation.domain().model ? write_surface(path, simulation)
+                                     : write_volume(path, simulation);
 }
 
 Result<void> ParaviewSeries::write_surface(const std::filesystem::path& path,
                                            const Simulation& simulation) {
-    const ModelCells& model = *simulation.model();
+    const ModelCells& model = *simulation.domain().model->cells;
     if (!surface_) surface_ = std::make_unique<Surface>(model);
     const auto channels = species_channels(simulation, [&](const Field& field) {
         return numbers_of_cells(field, model);

@@ -1,6 +1,8 @@
 // Keeps only the values of a stage that starting it would not reproduce.
 #include "run/session/kept_state.h"
 
+#include "run/simulation/stage_view.h"
+#include "run/simulation/tissue_stage.h"
 #include "run/stage/stage_time.h"
 #include "tissue/tissue.h"
 
@@ -31,7 +33,7 @@ public:
     Result<void> make(const Simulation* before, const StageMoment& moment) {
         take_values();
         restore(moment);
-        const auto now = simulation_.values_of_start(stage_);
+        const auto now = values_of_start(simulation_.view(stage_));
         if (now.empty() && !missing_.empty() && !record_.numbers.empty()) {
             return failure(fmt::format("'{}' is new, and cells that were born since stage '{}' "
                                        "began have no value to start with",
@@ -40,8 +42,8 @@ public:
         }
         if (now.empty()) return {};
         for (const ItemId item : missing_) values_of(item) = now[item.index()];
-        const auto then =
-            before != nullptr ? before->values_of_start(stage_of(*before)) : std::vector<Values>();
+        const auto then = before != nullptr ? values_of_start(before->view(stage_of(*before)))
+                                            : std::vector<Values>();
         for (const ItemId item : system().items()) {
             if (is_changed(item, now, then)) values_of(item) = now[item.index()];
         }
@@ -52,10 +54,10 @@ public:
 private:
     void restore(const StageMoment& moment) {
         StageRecord record{moment, {}, std::make_shared<const TissueRecord>(record_)};
-        simulation_.restore(stage_, std::move(record));
+        cascade::restore(simulation_, stage_, std::move(record));
     }
 
-    const System& system() const { return simulation_.program().system_of(stage_); }
+    const System& system() const { return simulation_.domain().program->system_of(stage_); }
     Values& values_of(ItemId item) {
         const auto species = system().species_of(item);
         return species ? record_.species[species->index()] : record_.kept[item.index()];
@@ -80,7 +82,7 @@ private:
         record_.species.assign(system().species_count(), {});
         record_.kept.assign(system().item_count(), {});
         for (const ItemId item : system().items()) {
-            const bool varies = !simulation_.program().stages[stage_].uniform[item];
+            const bool varies = !simulation_.domain().stage(stage_).uniform[item];
             if (!system().is_species(item) && !varies) continue;
             values_of(item) = kept_values(item);
             if (!values_of(item).empty()) continue;
@@ -99,7 +101,7 @@ private:
 
     /// The number of the kept stage in its program.
     std::uint32_t stage_of(const Simulation& before) const {
-        const auto& stages = before.program().stages;
+        const auto& stages = before.domain().program->stages;
         const auto found = std::ranges::find(stages, kept_.name, &Stage::name);
         return static_cast<std::uint32_t>(found - stages.begin());
     }
@@ -206,7 +208,7 @@ std::size_t KeptState::bytes() const {
 
 KeptState keep(const Simulation& simulation, const std::vector<PaintedNames>& painted) {
     KeptState kept;
-    const Program& program = simulation.program();
+    const Program& program = *simulation.domain().program;
     for (std::uint32_t k = 0; k < program.stages.size() && simulation.state(k).started; ++k) {
         const System& system = program.system_of(k);
         KeptStage& stage = kept.stages.emplace_back();
@@ -223,7 +225,7 @@ KeptState keep(const Simulation& simulation, const std::vector<PaintedNames>& pa
 Result<std::vector<PaintedNames>> go_on(Simulation& simulation, const Simulation* before,
                                         const KeptState& state, Continuation how,
                                         const std::atomic<bool>& cancel, std::size_t count) {
-    const Program& program = simulation.program();
+    const Program& program = *simulation.domain().program;
     std::vector<PaintedNames> painted;
     for (std::uint32_t k = 0; k < std::min(count, program.stages.size()); ++k) {
         const KeptStage* const kept = counterpart(program, k, state);
@@ -252,7 +254,7 @@ Result<std::vector<PaintedNames>> go_on(Simulation& simulation, const Simulation
             if (is_anew && still_painted.empty()) continue;
             record.cells = kept->record.cells;
             if (is_same_run) {
-                simulation.restore(k, std::move(record));
+                restore(simulation, k, std::move(record));
             } else if (auto gone = go_on_with_cells(simulation, before, k, *kept, record); !gone) {
                 return tl::unexpected(gone.error());
             }
@@ -270,7 +272,7 @@ Result<std::vector<PaintedNames>> go_on(Simulation& simulation, const Simulation
             record.fields.emplace(name, values.clone());
             if (was_painted) still_painted.insert(name);
         }
-        simulation.restore(k, std::move(record));
+        restore(simulation, k, std::move(record));
     }
     return painted;
 }

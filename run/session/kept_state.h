@@ -4,6 +4,7 @@
 
 #include "core/result.h"
 #include "run/simulation/simulation.h"
+#include "run/simulation/stage_record.h"
 
 #include <cstddef>
 #include <cstdint>

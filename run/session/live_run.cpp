@@ -6,6 +6,9 @@
 #include "lang/syntax/parse.h"
 #include "run/domain/domain_mask.h"
 #include "run/session/changed_script.h"
+#include "run/simulation/other_cells.h"
+#include "run/simulation/stage_record.h"
+#include "run/simulation/tissue_stage.h"
 #include "solvers/finite.h"
 #include "tissue/tissue.h"
 
@@ -42,8 +45,8 @@ Accepted<std::unique_ptr<Simulation>> LiveRun::simulate(Script& script, RunContr
     SimulationOptions options = options_;
     options.control = &control;
     const bool is_known = simulation_ && have_same_cells(*script_->program, *script.program);
-    if (is_known) options.known_model = simulation_->model();
-    if (simulation_) options.known_sizes = simulation_->known_sizes();
+    if (is_known) options.known_model = simulation_->domain().shared_model();
+    if (simulation_) options.known_sizes = simulation_->domain().known_sizes;
     auto made = Simulation::create(script, options);
     if (!made) return refuse(std::move(script), made.error());
     return std::move(*made);
@@ -277,19 +280,20 @@ Accepted<void> LiveRun::make(const Paint& change) {
         return tl::unexpected(std::move(refused));
     }
     Field values = std::move(simulation_->evaluate(*formula, stage_)[0]);
-    const DomainMask* mask = simulation_->mask();
-    if (mask != nullptr && !system.cells) values = with_outside(values, *mask, 0);
+    const auto& mask = simulation_->domain().mask;
+    if (mask && !system.cells) values = with_outside(values, *mask, 0);
     const Tissue* const tissue = state().tissue.get();
     if (tissue != nullptr ? has_not_finite(values, *tissue)
                           : first_not_finite(values).has_value()) {
         return refuse(fmt::format("'{}' would not be finite in every cell", change.item));
     }
-    if (!removes) {
-        values = simulation_->in_cells_of(stage_, *item, std::move(values));
-        simulation_->set_field(stage_, *item, std::move(values));
-    } else if (simulation_->remove_cells(stage_, values) == 0) {
-        return refuse("this takes all cells", "at least one must stay");
-    }
+    std::size_t left = 1;
+    if (!removes) values = in_cells_of(*simulation_, stage_, *item, std::move(values));
+    simulation_->change_stage(stage_, [&](StageState& changed) {
+        if (removes) left = remove_cells(*changed.tissue, values);
+        else set_item(changed, system, *item, std::move(values));
+    });
+    if (left == 0) return refuse("this takes all cells", "at least one must stay");
     painted_[stage_].insert(change.item);
     return {};
 }
@@ -314,7 +318,7 @@ Accepted<void> LiveRun::make(const NextStage&, RunControl& control) {
     }
     const std::uint32_t ended = stage_;
     if (auto started = start_stage(ended + 1, control.cancel); !started) return started;
-    simulation_->end_stage(ended);
+    simulation_->change_stage(ended, [](StageState& state) { state.done = true; });
     return {};
 }
 

@@ -3,6 +3,8 @@
 
 #include "core/failure_line.h"
 #include "run/session/session_picture.h"
+#include "run/simulation/end_remarks.h"
+#include "run/simulation/tissue_stage.h"
 #include "run/stage/stage_time.h"
 #include "run/stage/time_account.h"
 #include "tissue/tissue.h"
@@ -98,7 +100,7 @@ void Turns::take() {
     const RunPlace before = run_->place();
     Watching watching;
     watching.stage_ended = [this](std::uint32_t stage) {
-        if (const auto words = run_->simulation().remark_on(stage); !words.empty()) remark(words);
+        if (const auto words = remark_on(run_->simulation(), stage); !words.empty()) remark(words);
     };
     const std::int64_t asked = steps_of_turn();
     const auto end = run_->advance(asked, control_, watching);
@@ -140,8 +142,8 @@ Canvas Turns::canvas() {
 void Turns::look_at_surface(std::shared_ptr<const SurfaceMesh> body) {
     const bool is_same_body = (surface_ ? surface_->body : nullptr) == body;
     if (std::exchange(looked_at_, script_number_) == script_number_ && is_same_body) return;
-    auto source =
-        SurfaceSource::of(*run_->script().program, run_->simulation().model(), std::move(body));
+    auto source = SurfaceSource::of(*run_->script().program,
+                                    run_->simulation().domain().shared_model(), std::move(body));
     if (source && surface_ && source->is_same_as(*surface_)) return;
     surface_ = source ? std::make_shared<const SurfaceSource>(std::move(*source)) : nullptr;
     ++surface_number_;
@@ -178,10 +180,11 @@ std::shared_ptr<const Snapshot> Turns::snapshot() {
     const Simulation& simulation = run_->simulation();
     Canvas seen = canvas();
     made->fields = std::move(seen.fields);
-    made->grid = simulation.grid();
+    made->grid = simulation.domain().grid;
     made->slice = slice_;
-    made->model = simulation.model();
-    look_at_surface(seen.cells ? simulation.body(simulation.shown_stage().value_or(0)) : nullptr);
+    made->model = simulation.domain().shared_model();
+    look_at_surface(seen.cells ? body_under_cells(simulation.state(shown_stage(simulation)))
+                               : nullptr);
     made->surface = surface_;
     if (seen.cells) {
         // A function's surface is for fields: cells crawl on the plane of its parameters.

@@ -24,16 +24,16 @@ constexpr std::int64_t most_steps = 1'000'000'000;
 /// lengths.
 StagesInOtherCells at_start_of(const Environment& fine, std::span<const StageState> states,
                                std::uint32_t stage, std::int64_t times) {
-    StagesInOtherCells coarse{on_coarser_grid(fine, times, nullptr),
-                              std::vector<StageState>(states.size())};
-    Environment& here = *coarse.environment;
-    Stage& own = here.own_program->stages[stage];
+    Program program = coarser_program(*fine.script, *fine.program, times);
+    Stage& own = program.stages[stage];
     own.time.coarse = 1;
     own.iterations = std::min(most_steps, fine.stage(stage).iterations * times * times);
     if (own.time.duration) *own.time.duration *= static_cast<double>(times * times);
     if (own.time.duration_in_steps) *own.time.duration_in_steps *= times * times;
+    StagesInOtherCells coarse{on_coarser_grid(fine, std::move(program), nullptr),
+                              std::vector<StageState>(states.size())};
     for (std::uint32_t earlier = 0; earlier < stage; ++earlier)
-        coarse.states[earlier] = on_grid(states[earlier], fine.grid, here.grid);
+        coarse.states[earlier] = on_grid(states[earlier], fine.grid, coarse.environment->grid);
     return coarse;
 }
 

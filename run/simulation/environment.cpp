@@ -57,15 +57,12 @@ Result<void> check_memory_of(Environment& here, std::uint64_t limit,
     return check_memory(here.grid, here.memory, limit);
 }
 
-/// For a model.
-Result<void> make_cells(Environment& here, Script& script, const SimulationOptions& options,
-                        RunControl& control) {
+/// The cells of the script's model.
+Result<std::shared_ptr<const ModelCells>> make_cells(const Environment& here, Script& script,
+                                                     const SimulationOptions& options,
+                                                     RunControl& control) {
     const TimeAccount::Scope spent(here.account, Spent::cells);
-    if (options.known_model) {
-        here.model = options.known_model;
-        here.grid = here.model->grid();
-        return {};
-    }
+    if (options.known_model) return options.known_model;
     Team makers(here.threads);
     bool is_refused = false;  // By a check, which says why.
     const auto check = [&](const SurfaceMesh& mesh) {
@@ -88,21 +85,20 @@ Result<void> make_cells(Environment& here, Script& script, const SimulationOptio
                                  made.error().hint);
         return failure("the model cannot be used");
     }
-    here.model = std::move(*made);
     if (control.warn) {
-        for (const std::string& repair : here.model->repairs)
+        for (const std::string& repair : (*made)->repairs)
             control.warn("the model was repaired: " + repair);
     }
-    here.grid = here.model->grid();
-    return {};
+    return std::move(*made);
 }
 
-/// The values that formulas of the program read from places on a model.
-Result<void> make_surface_values(Environment& here, const RunControl& control) {
-    if (!here.model) return {};
+/// Makes a model the domain, with the values that formulas of the program read from places on it.
+Result<void> take_model(Environment& here, std::shared_ptr<const ModelCells> cells,
+                        const RunControl& control) {
     const TimeAccount::Scope spent(here.account, Spent::cells);
-    here.surface_values = std::make_unique<SurfaceValues>(*here.program, *here.model, *here.team);
-    here.surface_values->make(formulas_of(*here.program), control.cancel);
+    auto values = std::make_shared<SurfaceValues>(*here.program, *cells, *here.team);
+    here.model = {std::move(cells), std::move(values)};
+    here.model->values->make(formulas_of(*here.program), control.cancel);
     if (control.cancel) return failure("stopped while distances on the model were found");
     if (here.program->stages.empty() || !control.warn) return {};
     const std::vector<StageState> states(1);
@@ -151,8 +147,9 @@ bool Environment::takes_long(std::uint32_t k) const {
 std::string Environment::place_in_words(std::int64_t column, std::int64_t row) const {
     if (!model) return fmt::format("column {}, row {}", column, row);
     // The padding repeats the last cell.
-    const auto last = static_cast<std::int64_t>(model->count()) - 1;
-    return fmt::format("cell {}", model->cell_at(std::min(row * grid.width + column, last)));
+    const ModelCells& cells = *model->cells;
+    const auto last = static_cast<std::int64_t>(cells.count()) - 1;
+    return fmt::format("cell {}", cells.cell_at(std::min(row * grid.width + column, last)));
 }
 
 Result<std::unique_ptr<Environment>> make_environment(Script& script,
@@ -163,7 +160,7 @@ Result<std::unique_ptr<Environment>> make_environment(Script& script,
     auto made = std::make_unique<Environment>();
     Environment& here = *made;
     here.script = &script;
-    here.program = &*script.program;
+    here.program = script.program;
     here.grid = here.program->domain.grid;
     here.tiling = options.tiling;
     here.threads = options.threads > 0 ? options.threads : hardware_threads();
@@ -179,17 +176,20 @@ Result<std::unique_ptr<Environment>> make_environment(Script& script,
         if (auto fits = check_memory_of(here, options.memory_limit); !fits)
             return tl::unexpected(fits.error());
     }
+    std::shared_ptr<const ModelCells> cells;
     if (model) {
-        if (auto cells = make_cells(here, script, options, control); !cells)
-            return tl::unexpected(cells.error());
+        auto made_cells = make_cells(here, script, options, control);
+        if (!made_cells) return tl::unexpected(made_cells.error());
+        cells = std::move(*made_cells);
+        here.grid = cells->grid();
         // Cells that crawl need none of the model's, which may never be made.
-        const ModelFacts* facts = has_stage_of_fields(*here.program) ? here.model_facts() : nullptr;
+        const ModelFacts* facts = has_stage_of_fields(*here.program) ? &cells->spread() : nullptr;
         if (auto fits = check_memory_of(here, options.memory_limit, facts); !fits)
             return tl::unexpected(fits.error());
     }
     auto files = [&] {
         const TimeAccount::Scope spent(here.account, Spent::reading);
-        return read_input_files(script, here.model.get());
+        return read_input_files(script, cells.get());
     }();
     if (!files) return tl::unexpected(files.error());
     here.files = std::move(*files);
@@ -208,14 +208,16 @@ Result<std::unique_ptr<Environment>> make_environment(Script& script,
     here.kernels =
         std::make_unique<KernelMaker>(here.grid, stepper, options.starts_interpreted, here.account);
     here.team = std::make_unique<Team>(here.kernels->is_small() ? 1 : here.threads);
-    if (auto values = make_surface_values(here, control); !values)
-        return tl::unexpected(values.error());
+    if (model) {
+        if (auto taken = take_model(here, cells, control); !taken)
+            return tl::unexpected(taken.error());
+    }
     if (has_stage_of_cells(*here.program)) {
         constexpr std::int64_t usual_cells = 4096;
         here.tissue_kernels =
             std::make_unique<KernelMaker>(rows_of_cells(usual_cells), std::move(stepper),
                                           options.starts_interpreted, here.account);
-        here.ground = std::make_shared<TissueGround>(here.grid, here.model.get());
+        here.ground = std::make_shared<TissueGround>(here.grid, cells.get());
     }
     if (auto found = find_sizes(here, script, options, control); !found)
         return tl::unexpected(found.error());

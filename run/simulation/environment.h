@@ -1,17 +1,15 @@
-// What the stages of a simulation share and do not change: program, grid, mask, files, cells of a
-// model, kernels, threads.
+// What the stages of a simulation share and do not change: its domain, files, plans, kernels,
+// threads.
 #pragma once
 
 #include "core/parallel.h"
 #include "core/plane.h"
 #include "core/result.h"
-#include "run/domain/domain_mask.h"
 #include "run/domain/input_files.h"
-#include "run/domain/model_cells.h"
-#include "run/domain/surface_values.h"
 #include "run/script/script.h"
 #include "run/simulation/kernel_maker.h"
 #include "run/simulation/simulation.h"
+#include "run/simulation/simulation_domain.h"
 #include "run/stage/kept_tilings.h"
 #include "run/stage/stage_plans.h"
 #include "run/stage/stage_state.h"
@@ -19,7 +17,6 @@
 #include "solvers/executor.h"
 
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -28,13 +25,9 @@
 
 namespace cascade {
 
-struct Environment {
+struct Environment : SimulationDomain {
     const Script* script = nullptr;
-    const Program* program = nullptr;
-    std::optional<Program> own_program;  ///< For another grid, or with lengths that are scaled.
-    std::string progress_note;           ///< After the stage's name in reports of progress.
-    Grid grid;
-    double memory = 0;  ///< Bytes of all planes.
+    std::string progress_note;  ///< After the stage's name in reports of progress.
     int threads = 1;
     MakeExecutor executor = make_thread_executor;
     std::optional<Tiling> tiling;          ///< None: chosen by size.
@@ -45,22 +38,16 @@ struct Environment {
     std::shared_ptr<TissueGround> ground;         ///< and where they do; else null.
     std::unique_ptr<Team> team;                   ///< Computes starting values and pictures.
     InputFiles files;
-    std::map<std::string, double>
-        known_sizes;            ///< As in SimulationOptions, with those of this run.
-    std::vector<Field> metric;  ///< By MetricPlane; empty without a surface.
-    std::optional<DomainMask> mask;
-    std::shared_ptr<const ModelCells> model;        ///< Null on grids.
-    std::unique_ptr<SurfaceValues> surface_values;  ///< Null on grids.
-    TimeAccount* account = nullptr;                 ///< Null if times are not recorded.
+    std::vector<Field> metric;       ///< By MetricPlane; empty without a surface.
+    TimeAccount* account = nullptr;  ///< Null if times are not recorded.
 
-    const Stage& stage(std::uint32_t k) const { return program->stages[k]; }
-    Precision precision() const { return program->domain.precision; }
+    /// Is the program the script's own, in its own cells and with its own lengths?
+    bool runs_as_written() const { return program == script->program; }
     /// Of a model, whose cells this makes if they are not yet; null on grids.
-    const ModelFacts* model_facts() const { return model ? &model->spread() : nullptr; }
-    const DomainMask* inside() const { return mask ? &*mask : nullptr; }
+    const ModelFacts* model_facts() const { return model ? &model->cells->spread() : nullptr; }
     /// The cells that count, with a mask or on a model.
     const Mask* counted() const {
-        return mask ? &mask->inside : model ? &model->spread().inside : nullptr;
+        return mask ? &mask->inside : model ? &model->cells->spread().inside : nullptr;
     }
     /// Do the steps of a stage certainly take longer than compiling them?
     bool takes_long(std::uint32_t k) const;

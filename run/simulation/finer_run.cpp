@@ -104,7 +104,7 @@ void take_moment(const Program& program, std::uint32_t k, StageState carried, St
 }  // namespace
 
 std::unique_ptr<CellCarrier> carrier_to_finer(const Environment& from, const Environment& here) {
-    if (from.model) return carrier_on_model(*from.model, *here.model, *here.team);
+    if (from.model) return carrier_on_model(*from.model->cells, *here.model->cells, *here.team);
     return carrier_to_finer(from.grid, here.program->domain.detail, from.inside(), here.inside());
 }
 
@@ -112,8 +112,7 @@ Result<void> settle_in_finer_cells(Environment& here, std::span<StageState> into
     Program settling = settling_program(*here.program, k, into[k]);
     const PlanOptions planning = here.plans->options();
     here.plans.reset();
-    here.own_program = std::move(settling);
-    here.program = &*here.own_program;
+    here.program = std::make_shared<const Program>(std::move(settling));
     here.plans = std::make_unique<StagePlans>(*here.program, planning);
     StageState carried = std::move(into[k]);
     if (auto started = start_stage(here, into, k); !started) return started;

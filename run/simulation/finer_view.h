@@ -4,6 +4,7 @@
 #include "lang/program/program.h"
 #include "run/domain/cell_carrier.h"
 #include "run/simulation/other_cells.h"
+#include "run/simulation/simulation.h"
 #include "run/stage/stage_state.h"
 
 #include <cstdint>
@@ -17,10 +18,9 @@ namespace cascade {
 /// mask and without a surface, and its stages are of fields.
 class FinerView {
 public:
-    /// Each cell becomes times × times cells, of a line `times`. The environment and the states
-    /// must outlive the view. Throws std::bad_alloc.
-    FinerView(const Environment& environment, std::span<const StageState> states,
-              std::int64_t times);
+    /// Each cell becomes times × times cells, of a line `times`. The simulation of `run` must
+    /// outlive this. Throws std::bad_alloc.
+    FinerView(const StageView& view, std::int64_t times);
 
     /// Evaluates a formula for pictures, as Simulation::evaluate() does. One with a sum over the
     /// domain, which depends on the number of cells, is evaluated in the cells of the run.
@@ -32,5 +32,10 @@ private:
     std::unique_ptr<const CellCarrier> carrier_;
     StagesInOtherCells finer_;
 };
+
+/// The present state of a simulation with each cell of a plane divided into times × times; null
+/// where the domain has a mask, a surface or slices, or a stage is of cells that crawl. Throws
+/// std::bad_alloc.
+std::unique_ptr<const FinerView> finer_view(const Simulation& simulation, std::int64_t times);
 
 }  // namespace cascade

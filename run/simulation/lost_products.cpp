@@ -96,7 +96,7 @@ bool changes_the_result(const StageView& view, const LostProduct& found) {
 
 void LostProducts::look(const StageView& view, const RunControl& control) {
     const Environment& here = view.environment();
-    if (are_told_ || !control.warn || here.own_program || view.system().cells) return;
+    if (are_told_ || !control.warn || !here.runs_as_written() || view.system().cells) return;
     if (here.precision() != Precision::single) return;
     std::unordered_map<ItemId, Magnitude> known;
     const auto of = [&](ItemId item) {

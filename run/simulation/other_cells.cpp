@@ -32,8 +32,7 @@ std::unique_ptr<Environment> environment_in_cells(const Environment& known, Prog
     auto made = std::make_unique<Environment>();
     Environment& here = *made;
     here.script = known.script;
-    here.own_program = std::move(program);
-    here.program = &*here.own_program;
+    here.program = std::make_shared<const Program>(std::move(program));
     here.grid = here.program->domain.grid;
     here.threads = known.threads;
     here.executor = known.executor;
@@ -47,9 +46,8 @@ std::unique_ptr<Environment> environment_in_cells(const Environment& known, Prog
     return made;
 }
 
-std::unique_ptr<Environment> on_coarser_grid(const Environment& fine, std::int64_t times,
+std::unique_ptr<Environment> on_coarser_grid(const Environment& fine, Program program,
                                              TimeAccount* account) {
-    Program program = coarser_program(*fine.script, *fine.program, times);
     const auto carrier = carrier_to_wider(fine.grid, program.domain.grid);
     auto made = environment_in_cells(fine, std::move(program), *carrier, account);
     made->progress_note = fmt::format(", cells {} times as wide", made->program->domain.coarse);
@@ -94,6 +92,24 @@ StageState on_grid(const StageState& state, const Grid& from, const Grid& to) {
     const auto carrier = before > now ? carrier_to_wider(from, to)
                                       : carrier_to_finer(from, now / before, nullptr, nullptr);
     return carried_state(state, *carrier, to.spacing);
+}
+
+Field in_cells_of(const Simulation& simulation, std::uint32_t stage, ItemId item, Field values) {
+    const Grid &domain = simulation.domain().grid, &own = simulation.domain(stage).grid;
+    if (domain.longest_side() == own.longest_side()) return values;
+    const auto carrier = carrier_to_wider(domain, own);
+    if (item == simulation.domain().program->system_of(stage).frozen_item())
+        return to_field(carrier->carried(to_mask(values)), values.precision());
+    // Where nothing changes the difference is 0, and cells keep their values exactly.
+    Field result(simulation.state(stage).field(item));
+    const Field& shown = simulation.field(stage, item);
+    values.visit([&]<typename Number>(Plane<Number>& plane) {
+        for_each_cell([](Number& to, Number from) { to -= from; }, plane, shown.plane<Number>());
+        const Field change = carrier->carried(values);
+        for_each_cell([](Number& to, Number by) { to += by; }, result.plane<Number>(),
+                      change.plane<Number>());
+    });
+    return result;
 }
 
 void keep_frozen(Field& values, const Mask& frozen, const Field& start) {

@@ -3,6 +3,7 @@
 
 #include "run/domain/cell_carrier.h"
 #include "run/simulation/environment.h"
+#include "run/simulation/simulation.h"
 #include "run/stage/stage_state.h"
 
 #include <cstdint>
@@ -28,8 +29,8 @@ Program program_of_stage(const Script& script, const Program& program, std::uint
 /// Neither domain has a model, a surface or a mask. `account` may be null.
 std::unique_ptr<Environment> environment_in_cells(const Environment& known, Program program,
                                                   const CellCarrier& carrier, TimeAccount* account);
-/// The same with cells `times` as wide.
-std::unique_ptr<Environment> on_coarser_grid(const Environment& fine, std::int64_t times,
+/// The same with wider cells.
+std::unique_ptr<Environment> on_coarser_grid(const Environment& fine, Program program,
                                              TimeAccount* account);
 
 /// The part of a state that other stages and pictures read, in the cells to which `carrier`
@@ -38,6 +39,10 @@ std::unique_ptr<Environment> on_coarser_grid(const Environment& fine, std::int64
 StageState carried_state(const StageState& state, const CellCarrier& carrier, double spacing);
 /// The same on a grid whose cells are a whole number of times as wide or as short.
 StageState on_grid(const StageState& state, const Grid& from, const Grid& to);
+
+/// New values of an item, given in the cells of the domain, in those of the stage. Where they are
+/// those of Simulation::field(), the stage keeps its own.
+Field in_cells_of(const Simulation& simulation, std::uint32_t stage, ItemId item, Field values);
 
 /// Gives frozen cells the values that they had at the start of their stage. `frozen` may be empty.
 void keep_frozen(Field& values, const Mask& frozen, const Field& start);

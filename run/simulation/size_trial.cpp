@@ -82,10 +82,9 @@ struct Outcome {
 class Trial {
 public:
     Trial(Program program, std::uint32_t stage, const TrialTools& tools)
-        : stage_(stage), tools_(tools) {
+        : stage_(stage), tools_(tools), program_(std::make_shared<Program>(std::move(program))) {
         Environment& here = environment_;
-        here.own_program = std::move(program);
-        here.program = &*here.own_program;
+        here.program = program_;
         here.script = &tools.script;
         here.grid = here.program->domain.grid;
         here.threads = tools.threads;
@@ -106,20 +105,19 @@ public:
     Result<Outcome> run() {
         states_.resize(stage_ + 1);
         for (std::uint32_t k = 0; k <= stage_; ++k) {
-            if (environment_.program->system_of(k).cells) continue;
+            if (program_->system_of(k).cells) continue;
             if (auto started = start_stage(environment_, states_, k); !started)
                 return tl::unexpected(started.error());
         }
-        const double duration =
-            duration_of(stage(), environment_.program->system_of(stage_), states_[stage_]);
+        const double duration = duration_of(stage(), program_->system_of(stage_), states_[stage_]);
         return std::isfinite(duration) ? run_for(duration) : run_steps();
     }
 
 private:
-    Stage& stage() { return environment_.own_program->stages[stage_]; }
+    Stage& stage() { return program_->stages[stage_]; }
 
     Result<Outcome> run_steps() {
-        const std::int64_t most = trial_steps(*environment_.program, stage_);
+        const std::int64_t most = trial_steps(*program_, stage_);
         stage().iterations = most;
         StageRun run(environment_, states_, stage_, never_);
         Outcome outcome;
@@ -177,6 +175,7 @@ private:
 
     std::uint32_t stage_;
     const TrialTools& tools_;
+    std::shared_ptr<Program> program_;
     Environment environment_;
     std::vector<StageState> states_;
     Keeping never_;

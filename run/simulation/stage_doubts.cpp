@@ -193,7 +193,7 @@ std::optional<AstrayReport> find_astray(const EndedStage& ended) {
 std::optional<std::string> find_chequerboard(const StageView& view, bool flickers) {
     const std::vector<Field>& species = view.state().species;
     const Environment& here = view.environment();
-    const Links* links = here.model ? &here.model->spread().links : nullptr;
+    const Links* links = here.model ? &here.model->cells->spread().links : nullptr;
     const StageTime& time = view.stage().time;
     const auto alternates = [&](const Field& field) {
         const auto k = static_cast<std::size_t>(&field - species.data());
@@ -313,23 +313,6 @@ std::optional<std::string> find_doubt(const EndedStage& ended) {
     }
     if (const auto lost = find_lost_change(ended)) return describe(*lost);
     return std::nullopt;
-}
-
-bool has_stood_still(const StageView& view) {
-    const StageState& state = view.state();
-    const StageCourse& course = state.course;
-    if (!state.done || course.empty() || course.last().step != state.steps) return false;
-    const auto is_same = [](const Spread& a, const Spread& b) {
-        return a.mean == b.mean && a.squares == b.squares && a.smallest == b.smallest &&
-               a.largest == b.largest;
-    };
-    const auto& first = course.first().species;
-    if (!std::equal(first.begin(), first.end(), course.last().species.begin(), is_same))
-        return false;
-    const std::vector<Field> rates = view.rates();
-    return std::all_of(rates.begin(), rates.end(), [&](const Field& rate) {
-        return root_mean_square(rate, view.environment().counted()) == 0;
-    });
 }
 
 }  // namespace cascade

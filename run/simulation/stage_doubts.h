@@ -19,7 +19,4 @@ struct EndedStage {
 /// The first such sign of a stage that has taken steps, as a warning.
 std::optional<std::string> find_doubt(const EndedStage& ended);
 
-/// Does a stage end with the values that it began with, because its rates are 0 everywhere?
-bool has_stood_still(const StageView& view);
-
 }  // namespace cascade

@@ -1,7 +1,10 @@
 // A record holds copies.
 #include "run/simulation/stage_record.h"
 
+#include "run/simulation/simulation.h"
 #include "tissue/tissue.h"
+
+#include <utility>
 
 namespace cascade {
 
@@ -42,6 +45,27 @@ StageRecord record_of(const StageState& state, const Program& program, std::uint
         record.fields.emplace(name, state.field(item).clone());
     }
     return record;
+}
+
+void restore(Simulation& simulation, std::uint32_t stage, StageRecord record) {
+    const Program& program = *simulation.domain().program;
+    const System& system = program.system_of(stage);
+    simulation.change_stage(stage, [&](StageState& state) {
+        static_cast<StageMoment&>(state) = std::move(record);
+        if (record.cells) {
+            state.tissue = std::make_shared<Tissue>(*record.cells, program.domain.precision);
+            return state.go_to(state.steps, record.cells->time.t);
+        }
+        state.course = {};
+        for (const ItemId item : system.items()) {
+            const auto found = record.fields.find(system.item_name(item));
+            CHECK(found != record.fields.end() || !system.is_species(item),
+                  "every species of the stage is given");
+            if (found != record.fields.end())
+                set_item(state, system, item, std::move(found->second));
+        }
+        state.go_to(state.steps, state.t);
+    });
 }
 
 std::vector<ItemId> recorded_items(const Program& program, std::uint32_t stage) {

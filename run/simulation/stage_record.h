@@ -16,6 +16,7 @@
 
 namespace cascade {
 
+class Simulation;
 struct TissueRecord;
 
 /// A moment of a stage from which its run can continue, in the stage's own cells. If `time` and
@@ -32,6 +33,10 @@ struct StageRecord : StageMoment {
 /// The present moment of a stage that has started, with the named parameters.
 StageRecord record_of(const StageState& state, const Program& program, std::uint32_t stage,
                       const std::set<std::string>& parameters = {});
+
+/// Makes a started stage go on from another moment. The record has all species of a stage of
+/// fields, or all values of cells that crawl; of their moment only steps and ends count.
+void restore(Simulation& simulation, std::uint32_t stage, StageRecord record);
 
 /// The items that a record may hold: species, and parameters that vary by cell.
 std::vector<ItemId> recorded_items(const Program& program, std::uint32_t stage);

@@ -60,7 +60,7 @@ private:
 double cell_width(const Environment& here) {
     const DomainSettings& domain = here.program->domain;
     if (here.model) {
-        const SpreadCells& spread = here.model->spread();
+        const SpreadCells& spread = here.model->cells->spread();
         double area = 0;
         for (const double each : spread.cells.areas) area += each;
         return std::sqrt(area / static_cast<double>(spread.cells.areas.size())) / spread.unit;
@@ -78,7 +78,7 @@ double cell_width(const Environment& here) {
 /// The longest wave, in cells: a side of the grid, or of a square with as many cells as the model.
 double longest_wave(const Environment& here) {
     if (!here.model) return static_cast<double>(here.grid.longest_side());
-    return std::sqrt(static_cast<double>(here.model->count()));
+    return std::sqrt(static_cast<double>(here.model->cells->count()));
 }
 
 /// The same for all ends of the stage, since the trial has an end of its own.
@@ -142,8 +142,7 @@ Result<void> find_sizes(Environment& here, Script& script, const SimulationOptio
     }
     if (!scaled) return {};
     here.plans.reset();
-    here.own_program = std::move(scaled);
-    here.program = &*here.own_program;
+    here.program = std::make_shared<const Program>(*std::move(scaled));
     here.plans = std::make_unique<StagePlans>(*here.program, options.planning);
     return {};
 }
@@ -160,7 +159,7 @@ Result<std::shared_ptr<const Program>> sized_program(Script& script,
     if (!has_sizes(script)) return script.program;
     const auto made = make_environment(script, options);
     if (!made) return tl::unexpected(made.error());
-    return std::make_shared<const Program>(*(*made)->program);
+    return (*made)->program;
 }
 
 }  // namespace cascade

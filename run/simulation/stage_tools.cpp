@@ -81,7 +81,7 @@ ValueAt values_at(const StageView& view, const Formula& formula) {
 std::vector<double> motion_over(const StageView& view, const Formula& formula, double duration) {
     const Environment& here = view.environment();
     const Formula* const formulas[] = {&formula};
-    if (here.surface_values) here.surface_values->prepare(formulas);
+    if (here.model) here.model->values->prepare(formulas);
     PlanRunner runner(plan_view(view.program(), formula, view.number()), here.kernels->once());
     const auto at = [&](double t) {
         BindingContext context = view.context();
@@ -269,6 +269,19 @@ StepInvariants find_step_invariants(const StageView& view) {
         }
     }
     return found;
+}
+
+StepWork step_work(Simulation& simulation, std::uint32_t k) {
+    StepWork work;
+    simulation.change_stage(k, [&](StageState& state) {
+        CHECK(state.started, "a stage is started before its steps are counted");
+        StageView view = simulation.own_view(k);
+        const StepInvariants invariants = find_step_invariants(view);
+        view.use(invariants);
+        StageTimer timer(view.program(), k, state, stage_tools(view, {}));  // Nothing is run.
+        work = work_of(timer.problem());
+    });
+    return work;
 }
 
 }  // namespace cascade

@@ -1,8 +1,12 @@
 // Queries of a stage's time to the simulation, and the step-invariants.
 #pragma once
 
+#include "run/simulation/simulation.h"
 #include "run/simulation/stage_view.h"
 #include "run/stage/stage_time.h"
+#include "run/stage/step_work.h"
+
+#include <cstdint>
 
 namespace cascade {
 
@@ -11,5 +15,8 @@ StageTools stage_tools(const StageView& view, Compile steps);
 
 /// The step-invariants, computed from the present state.
 StepInvariants find_step_invariants(const StageView& view);
+
+/// The work of one step of a started stage, as it would be taken now.
+StepWork step_work(Simulation& simulation, std::uint32_t stage);
 
 }  // namespace cascade

@@ -2,6 +2,7 @@
 #include "run/simulation/stage_view.h"
 
 #include "lang/calculus/derivative.h"
+#include "run/domain/domain_mask.h"
 #include "run/simulation/tissue_stage.h"
 #include "run/stage/plan_runner.h"
 
@@ -12,8 +13,11 @@ namespace cascade {
 
 BindingContext StageView::context() const {
     const Environment& here = *environment_;
-    return {states_,    here.files,  state().steps,    here.grid,     here.precision(),
-            state().t,  here.metric, here.model.get(), here.inside(), here.surface_values.get(),
+    return {states_,          here.files,
+            state().steps,    here.grid,
+            here.precision(), state().t,
+            here.metric,      here.model ? here.model->cells.get() : nullptr,
+            here.inside(),    here.model ? here.model->values.get() : nullptr,
             invariants_};
 }
 
@@ -24,14 +28,14 @@ std::vector<Field> StageView::evaluate(const StepPlan& plan) const {
 }
 
 std::vector<Field> StageView::evaluate(std::span<const Formula* const> formulas) const {
-    if (environment_->surface_values) environment_->surface_values->prepare(formulas);
+    if (environment_->model) environment_->model->values->prepare(formulas);
     const StepPlan plan = plan_view(program(), formulas, number_);
     return state().tissue ? evaluate_in_cells(*this, plan, formulas) : evaluate(plan);
 }
 
 std::vector<Field> StageView::evaluate(const Formula& formula) const {
     const Formula* const formulas[] = {&formula};
-    if (environment_->surface_values) environment_->surface_values->prepare(formulas);
+    if (environment_->model) environment_->model->values->prepare(formulas);
     const StepPlan plan = plan_view(program(), formula, number_);
     return state().tissue ? evaluate_in_cells(*this, plan, formulas) : evaluate(plan);
 }

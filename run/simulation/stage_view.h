@@ -26,6 +26,9 @@ public:
 
     const Environment& environment() const { return *environment_; }
     std::uint32_t number() const { return number_; }
+    std::span<const StageState> states() const { return states_; }
+    /// The step-invariants of steps from now on, which must outlive the view.
+    void use(const StepInvariants& invariants) { invariants_ = &invariants; }
     const Program& program() const { return *environment_->program; }
     const Stage& stage() const { return environment_->stage(number_); }
     const System& system() const { return program().system_of(number_); }

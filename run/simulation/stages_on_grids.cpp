@@ -1,8 +1,6 @@
 // States in the cells of the domain are made when something asks for them.
 #include "run/simulation/stages_on_grids.h"
 
-#include "core/counted_cells.h"
-#include "run/domain/field_values.h"
 #include "run/simulation/finer_run.h"
 #include "run/stage/memory.h"
 
@@ -15,7 +13,8 @@ StagesOnGrids::StagesOnGrids(std::unique_ptr<Environment> domain, std::uint32_t 
     for (std::uint32_t k = 0; k < stages_that_run; ++k) {
         const std::int64_t times = domain_->stage(k).coarse;
         if (times == 1) continue;
-        StagesInOtherCells made{on_coarser_grid(*domain_, times, domain_->account),
+        Program program = coarser_program(*domain_->script, *domain_->program, times);
+        StagesInOtherCells made{on_coarser_grid(*domain_, std::move(program), domain_->account),
                                 std::vector<StageState>(states_.size())};
         domain_->memory += memory_of(*made.environment->program, *made.environment->plans);
         coarser_.emplace(k, std::move(made));
@@ -62,23 +61,6 @@ void StagesOnGrids::take_divided(StagesOnGrids& run) {
         state(k) = carried_state(run.state(k), own ? *own : *of_domain, to.grid.spacing);
         touch(k);
     }
-}
-
-Field StagesOnGrids::in_cells_of(std::uint32_t stage, ItemId item, Field values) {
-    if (!has_own_cells(stage)) return values;
-    const auto carrier = carrier_to_wider(domain_->grid, environment(stage).grid);
-    if (item == domain_->program->system_of(stage).frozen_item())
-        return to_field(carrier->carried(to_mask(values)), values.precision());
-    // Where nothing changes the difference is 0, and cells keep their values exactly.
-    Field result(state(stage).field(item));
-    const Field& shown = in_domain()[stage].field(item);
-    values.visit([&]<typename Number>(Plane<Number>& plane) {
-        for_each_cell([](Number& to, Number from) { to -= from; }, plane, shown.plane<Number>());
-        const Field change = carrier->carried(values);
-        for_each_cell([](Number& to, Number by) { to += by; }, result.plane<Number>(),
-                      change.plane<Number>());
-    });
-    return result;
 }
 
 }  // namespace cascade

@@ -41,9 +41,6 @@ public:
     /// Takes all stages of a run of the same script in divided cells from that of its own cells.
     void take_divided(StagesOnGrids& run);
 
-    /// See Simulation::in_cells_of().
-    Field in_cells_of(std::uint32_t stage, ItemId item, Field values);
-
 private:
     std::unique_ptr<Environment> domain_;
     std::vector<StageState> states_;

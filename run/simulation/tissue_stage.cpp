@@ -289,6 +289,10 @@ std::vector<Field> evaluate_in_cells(const StageView& view, const StepPlan& plan
     return undefined;
 }
 
+std::shared_ptr<const SurfaceMesh> body_under_cells(const StageState& state) {
+    return state.ground ? state.ground->body() : nullptr;
+}
+
 std::string remark_on_cells(const StageView& view) {
     const StageState& state = view.state();
     const Tissue& tissue = *state.tissue;
@@ -318,25 +322,34 @@ Result<void> start_tissue(const Environment& environment, std::span<StageState> 
     return started;
 }
 
-std::vector<std::vector<double>> values_of_start(const Environment& environment,
-                                                 std::span<const StageState> states,
-                                                 std::uint32_t k) {
-    const Tissue& tissue = *states[k].tissue;
-    const StepPlan& plan = environment.plans->start(k);
+std::vector<std::vector<double>> values_of_start(const StageView& view) {
+    const Environment& here = view.environment();
+    const std::uint32_t k = view.number();
+    const Tissue& tissue = *view.state().tissue;
+    const StepPlan& plan = here.plans->start(k);
     if (tissue.count() == 0 || reads_earlier_cells(plan, k)) return {};
-    const TissueStage stage = tissue_stage(environment, states, k);
+    const TissueStage stage = tissue_stage(here, view.states(), k);
     const auto values = evaluate_in(tissue, plan, stage, neighbours_of(stage, 0),
-                                    environment.tissue_kernels->once(), *environment.team);
+                                    here.tissue_kernels->once(), *here.team);
     if (!values) return {};
-    std::vector<std::vector<double>> by_item(environment.program->system_of(k).item_count());
+    std::vector<std::vector<double>> by_item(view.system().item_count());
     for (std::size_t r = 0; r < values->size(); ++r) {
         const ItemId item = plan.results[r];
-        if (environment.stage(k).uniform[item]) continue;
+        if (view.stage().uniform[item]) continue;
         for (const std::uint32_t cell : tissue.by_number()) {
             by_item[item.index()].push_back(value_in((*values)[r], tissue, cell));
         }
     }
     return by_item;
+}
+
+std::size_t remove_cells(Tissue& tissue, const Field& chosen) {
+    std::vector<std::uint32_t> left;
+    for (std::uint32_t cell = 0; cell < tissue.count(); ++cell) {
+        if (value_in(chosen, tissue, cell) == 0) left.push_back(cell);
+    }
+    if (!left.empty()) tissue.rearrange(left);
+    return left.size();
 }
 
 }  // namespace cascade

@@ -32,6 +32,10 @@ double widest_near(const StageView& view, std::span<const Formula* const> others
 std::vector<Field> evaluate_in_cells(const StageView& view, const StepPlan& plan,
                                      std::span<const Formula* const> formulas = {});
 
+/// The surface of the body on which the cells of a stage crawl, in lengths of scripts; null without
+/// one.
+std::shared_ptr<const SurfaceMesh> body_under_cells(const StageState& state);
+
 /// A remark on a stage of cells that has ended, or nothing.
 std::string remark_on_cells(const StageView& view);
 
@@ -41,9 +45,14 @@ std::string remark_on_cells(const StageView& view);
 Result<void> start_tissue(const Environment& environment, std::span<StageState> states,
                           std::uint32_t stage, const std::atomic<bool>& cancel);
 
-/// Simulation::values_of_start().
-std::vector<std::vector<double>> values_of_start(const Environment& environment,
-                                                 std::span<const StageState> states,
-                                                 std::uint32_t stage);
+/// The values that the start of a started stage would give its present cells where they are now:
+/// by item, then in ascending order of the cells' numbers. Empty for items that the start does not
+/// compute, or that are the same in all cells. Empty altogether if the start reads cells of an
+/// earlier stage, of which cells born since have no values.
+std::vector<std::vector<double>> values_of_start(const StageView& view);
+
+/// Removes the cells where `chosen`, a value in each of them, is not 0. Returns the number of cells
+/// that stay; if that is 0, all were chosen, and none is removed.
+std::size_t remove_cells(Tissue& tissue, const Field& chosen);
 
 }  // namespace cascade

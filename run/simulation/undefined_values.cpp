@@ -147,7 +147,7 @@ bool warn_of_undefined_parameters(const StageView& view, const RunControl& contr
 }
 
 bool is_silent(const StageView& view, const RunControl& control) {
-    return !control.warn || view.environment().own_program.has_value();
+    return !control.warn || !view.environment().runs_as_written();
 }
 
 }  // namespace

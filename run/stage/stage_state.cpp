@@ -1,10 +1,14 @@
 // Gives each species its number among those that solvers step.
 #include "run/stage/stage_state.h"
 
+#include "core/check.h"
 #include "core/floating_point.h"
+#include "run/domain/field_values.h"
 #include "tissue/tissue.h"
 
 #include <fmt/format.h>
+
+#include <utility>
 
 namespace cascade {
 
@@ -38,6 +42,21 @@ void StageState::go_to(std::int64_t complete, double time_then) {
         set_side_values(changing_sides, s, {steps, t}, present, layout, {{0, layout.row_count()}},
                         sides[s.index()]);
     }
+}
+
+void set_item(StageState& state, const System& system, ItemId item, Field values) {
+    const auto species = state.species_of_item[item];
+    const bool is_frozen = item == system.frozen_item();
+    if (Tissue* const tissue = state.tissue.get()) {
+        (species ? tissue->species[species->index()] : tissue->kept[item.index()]) =
+            std::move(values);
+        tissue->pad();
+        if (is_frozen) tissue->freeze_by(item.index());
+        return;
+    }
+    CHECK(species || !state.fields[item].empty(), "only an item that varies has a field");
+    if (is_frozen) state.frozen = to_mask(values);
+    (species ? state.species[species->index()] : state.fields[item]) = std::move(values);
 }
 
 std::string describe_place(const Stage& stage, const StageState& state) {

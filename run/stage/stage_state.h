@@ -72,6 +72,10 @@ struct StageState : StageMoment {
 /// A state with room for all items of a system, but without planes.
 StageState empty_state(const System& system);
 
+/// Gives a species other values, or a parameter or `frozen` that varies, in the stage's own cells.
+/// Values outside of a mask must be 0; those of cells that crawl are where evaluations have them.
+void set_item(StageState& state, const System& system, ItemId item, Field values);
+
 /// The progress of a stage: "step 300 of 7000", "step 312, t = 4.5 of 30", or "step 312" if only
 /// `until` ends it.
 std::string describe_place(const Stage& stage, const StageState& state);

@@ -73,12 +73,12 @@ TissueGround::TissueGround(const Grid& grid, const ModelCells* model) : grid_(gr
         surroundings_ = box_of(grid);
         return;
     }
-    mesh_ = std::make_unique<SurfaceMesh>(in_script_lengths(model->mesh));
+    mesh_ = std::make_shared<const SurfaceMesh>(in_script_lengths(model->mesh));
     surroundings_ = around_surface(*mesh_);
 }
 
 TissueGround::TissueGround(const Grid& grid, SurfaceMesh body)
-    : grid_(grid), model_(nullptr), mesh_(std::make_unique<SurfaceMesh>(std::move(body))) {
+    : grid_(grid), model_(nullptr), mesh_(std::make_shared<const SurfaceMesh>(std::move(body))) {
     surroundings_ = around_surface(*mesh_);
 }
 

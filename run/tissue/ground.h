@@ -19,8 +19,8 @@ public:
     TissueGround(const Grid& grid, SurfaceMesh body);
 
     const std::shared_ptr<const Surroundings>& surroundings() const { return surroundings_; }
-    /// The surface of a body. Null without one.
-    const SurfaceMesh* body() const { return model_ == nullptr ? mesh_.get() : nullptr; }
+    /// The surface of a body, in script lengths. Null without one.
+    std::shared_ptr<const SurfaceMesh> body() const { return model_ == nullptr ? mesh_ : nullptr; }
 
     /// The value that a cell senses by the name of a plane. Values in the cells of the domain are
     /// current, read through `fields`, which reads the domain's own planes.
@@ -32,7 +32,7 @@ private:
 
     Grid grid_;
     const ModelCells* model_;
-    std::unique_ptr<SurfaceMesh> mesh_;  ///< The model's or the body's. Otherwise null.
+    std::shared_ptr<const SurfaceMesh> mesh_;  ///< The model's or the body's. Otherwise null.
     /// The model's filter, made for the first value read in its cells.
     mutable std::unique_ptr<CellFilter> filter_;
     std::shared_ptr<const Surroundings> surroundings_;

@@ -152,14 +152,20 @@ TEST(Agreement, HoweverOperandsComeToNeighbours) {
         ASSERT_TRUE(script.program) << text;
         auto simulation = Simulation::create(script, interpreted()).value();
         if (!simulation->start_stage(0)) continue;
-        const Grid& grid = simulation->grid();
+        const Grid& grid = simulation->domain().grid;
         const auto backend = make_interpreter();
         const auto compile = [&](const CellKernel& kernel) {
             return *backend->compile(kernel, grid.stencil());
         };
-        const BindingContext context{
-            {&simulation->state(0), 1}, no_files,          3, grid, Precision::single, 0, {},
-            simulation->model().get(),  simulation->mask()};
+        const BindingContext context{{&simulation->state(0), 1},
+                                     no_files,
+                                     3,
+                                     grid,
+                                     Precision::single,
+                                     0,
+                                     {},
+                                     simulation->domain().shared_model().get(),
+                                     simulation->domain().inside()};
         std::vector<std::vector<Field>> found;
         std::size_t passes = 0;
         for (const Materialise materialise :

@@ -2,6 +2,7 @@
 #include "tests/oracle/test_run.h"
 
 #include "core/file.h"
+#include "run/simulation/end_remarks.h"
 
 #include <gtest/gtest.h>
 
@@ -44,7 +45,7 @@ void TestRun::finish(std::uint32_t stage) {
     check(end ? Result<void>{} : Result<void>(tl::unexpected(end.error())));
     // Of recipes and systems of the library nothing is to be said, but of what dies out on a plane
     // that is smaller than its own.
-    const std::string remark = ok() ? simulation_->remark_on(stage) : "";
+    const std::string remark = ok() ? remark_on(*simulation_, stage) : "";
     if (remark.find("dying out") != std::string::npos) return;
     if (is_cut_short_ && remark.find("still growing") != std::string::npos) return;
     // A threshold that a pattern has not reached yet.

@@ -26,9 +26,11 @@ public:
     /// Starts and finishes every stage.
     void finish_all();
 
-    const Program& program() const { return simulation_->program(); }
-    std::size_t width() const { return static_cast<std::size_t>(simulation_->grid().width); }
-    std::size_t height() const { return static_cast<std::size_t>(simulation_->grid().height); }
+    const Program& program() const { return *simulation_->domain().program; }
+    std::size_t width() const { return static_cast<std::size_t>(simulation_->domain().grid.width); }
+    std::size_t height() const {
+        return static_cast<std::size_t>(simulation_->domain().grid.height);
+    }
     /// The present values of a species, parameter, `frozen` or `speed` of a stage, row by row.
     std::vector<double> values(std::uint32_t stage, const std::string& name) const;
 

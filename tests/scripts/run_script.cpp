@@ -1,4 +1,6 @@
 // From a script with expectations to what is not as expected.
+#include "run/domain/domain_mask.h"
+#include "run/simulation/end_remarks.h"
 #include "run_script.h"
 
 #include "lang/check/check.h"
@@ -85,7 +87,7 @@ void Run::remark() {
         if (!remark.empty()) remarks.push_back(std::move(remark));
     };
     for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
-        if (simulation->state(k).steps > 0) add(simulation->remark_on(k));
+        if (simulation->state(k).steps > 0) add(remark_on(*simulation, k));
     }
     auto painter = Painter::create(script, {});
     if (painter) add(remark_on_picture(*painter, *simulation, painter->canvas(*simulation)));
@@ -184,7 +186,7 @@ void compare_value(Run& run, const ExpectedValue& expected, Errors& errors) {
     const auto right = value_of(run, expected.right, errors);
     if (!left || !right) return;
     const PlaneLayout& layout = left->layout();
-    const DomainMask* mask = run.simulation->mask();
+    const DomainMask* mask = run.simulation->domain().inside();
     std::int64_t wrong = 0;
     double largest = -1;
     std::string worst;

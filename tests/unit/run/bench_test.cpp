@@ -1,5 +1,7 @@
 // What a step costs, counted by hand; what bounds a step.
 #include "run/commands/bench.h"
+#include "run/simulation/stage_tools.h"
+#include "run/stage/step_work.h"
 #include "tests/unit/run/run_fixture.h"
 
 #include <cmath>
@@ -22,7 +24,7 @@ protected:
         EXPECT_TRUE((*simulation)->start_stage(0));
         RunControl control;
         EXPECT_TRUE((*simulation)->advance_stage(0, 1, control, {}));
-        return (*simulation)->step_work(0);
+        return step_work(**simulation, 0);
     }
 };
 

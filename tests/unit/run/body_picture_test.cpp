@@ -145,7 +145,7 @@ TEST(BodyPicture, LeavesSnapshotsOfSessionsTheirCells) {
 TEST(BodyPicture, IsWrittenInUnitsOfTheGrid) {
     const Drawn drawn(ball("body: u", "spacing: 0.5"));
     const auto path = std::filesystem::path(::testing::TempDir()) / "ball.stl";
-    const Grid grid = drawn.ran.simulation->grid();
+    const Grid grid = drawn.ran.simulation->domain().grid;
     ASSERT_TRUE(write_body(path, *drawn.canvas.body, grid, {}, 1));
     auto soup = read_model(path);
     ASSERT_TRUE(soup) << soup.error().message;

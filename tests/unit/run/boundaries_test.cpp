@@ -4,6 +4,7 @@
 #include "run/simulation/simulation.h"
 
 #include "run/script/script.h"
+#include "run/simulation/stage_record.h"
 #include "support/kernel_comparison.h"
 #include "unit/run/ran_text.h"
 
@@ -235,7 +236,7 @@ TEST(Boundaries, ThreadsLanesAndBreaksChangeNothing) {
         ASSERT_TRUE(first->advance_stage(0, 11, control, {}));
         auto second = Simulation::create(script, {"interp", 0, 1}).value();
         ASSERT_TRUE(second->start_stage(0));
-        second->restore(0, record_of(first->state(0), first->program(), 0));
+        restore(*second, 0, record_of(first->state(0), *first->domain().program, 0));
         ASSERT_TRUE(second->advance_stage(0, 25, control, {}));
         EXPECT_EQ(same_bits(one.state().species, second->state(0).species), "");
     }

@@ -36,7 +36,7 @@ protected:
                "system s { u: x; u' = lap(u) }\nstage one: s { iterations: 9 }\n";
     }
 
-    const ModelCells& model() { return *run_.simulation().model(); }
+    const ModelCells& model() { return *run_.simulation().domain().model->cells; }
     std::string bytes() { return print_carried_model(model()); }
     std::shared_ptr<const ModelCells> linked(CarriedModel carried) {
         return link_carried_model(*run_.script().program, std::move(carried));

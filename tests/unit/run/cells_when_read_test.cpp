@@ -49,8 +49,8 @@ TEST_F(CellsWhenReadTest, CellsThatCrawlNeedNoneOfTheModel) {
         "stage a: herd { founders: 20; iterations: 9; r: feature; show: dot(normal, p) + off }");
     EXPECT_EQ(shown(ran).size(), 20u);
     EXPECT_FALSE(has_cells_of_model());
-    EXPECT_EQ(ran.simulation->model()->count(), 300u);
-    EXPECT_EQ(ran.simulation->model()->spread().cells.places.size(), 300u);
+    EXPECT_EQ(ran.simulation->domain().model->cells->count(), 300u);
+    EXPECT_EQ(ran.simulation->domain().model->cells->spread().cells.places.size(), 300u);
     EXPECT_TRUE(has_cells_of_model());
 }
 

@@ -4,6 +4,7 @@
 #include "ran_text.h"
 #include "resumed_run.h"
 
+#include "run/simulation/other_cells.h"
 #include "solvers/field_norms.h"
 #include "support/kernel_comparison.h"
 
@@ -28,8 +29,8 @@ TEST(CoarserGrid, TakesTheStepsOfAGridOfItsCells) {
         const Ran expected = run_text(all_lengths + plain, options);
         const Ran found = run_text(all_lengths + wide, options);
         EXPECT_EQ(same_bits(found.state().species, expected.state().species), "");
-        EXPECT_EQ(found.simulation->grid().width, 96);
-        EXPECT_EQ(found.simulation->grid(0).width, 24);
+        EXPECT_EQ(found.simulation->domain().grid.width, 96);
+        EXPECT_EQ(found.simulation->domain(0).grid.width, 24);
     }
 }
 
@@ -38,16 +39,16 @@ TEST(CoarserGrid, KeepsWhatAStrokeDoesNotReach) {
                              "domain { grid: 48, 32; spacing: 1/2; boundary: noflux }\n"
                              "stage a: s { grid: coarse(2); iterations: 5; frozen: x > 0.7 }\n");
     const Simulation& simulation = *ran.simulation;
-    const System& system = simulation.program().system_of(0);
+    const System& system = simulation.domain().program->system_of(0);
     for (const ItemId item : {ItemId(0), system.frozen_item()}) {
         std::vector<Field> found, own;
-        found.push_back(simulation.in_cells_of(0, item, Field(simulation.field(0, item))));
+        found.push_back(in_cells_of(simulation, 0, item, Field(simulation.field(0, item))));
         own.emplace_back(ran.state().field(item));
         EXPECT_EQ(same_bits(found, own), "");
     }
     Field more(simulation.field(0, ItemId(0)));
     for (std::int64_t j = 0; j < 8; ++j) more.row(j)[9] += 2;
-    const Field painted = simulation.in_cells_of(0, ItemId(0), std::move(more));
+    const Field painted = in_cells_of(simulation, 0, ItemId(0), std::move(more));
     const Field& own = ran.state().species[0];
     EXPECT_NEAR(painted.row(2)[4], own.row(2)[4] + 1, 1e-5) << "half of the cells of a wider one";
     EXPECT_EQ(painted.row(4)[4], own.row(4)[4]);
@@ -62,9 +63,9 @@ TEST(CoarserGrid, GoesOnInDividedCells) {
         const DetailedSimulations run(heat + "stage small: heat { " + last +
                                       "u: u; iterations: 20; speed: 0.2 }\n");
         ASSERT_TRUE(run.finer);
-        EXPECT_EQ(run.finer->grid(0).width, 32);
-        EXPECT_EQ(run.finer->grid(1).width, 2 * run.coarse->grid(1).width);
-        EXPECT_EQ(run.finer->shown_stage(), 1u);
+        EXPECT_EQ(run.finer->domain(0).grid.width, 32);
+        EXPECT_EQ(run.finer->domain(1).grid.width, 2 * run.coarse->domain(1).grid.width);
+        EXPECT_EQ(shown_stage(*run.finer), 1u);
         for (const std::uint32_t stage : {0u, 1u}) {
             const FieldMoments before = moments(run.coarse->field(stage, ItemId(0)));
             const FieldMoments after = moments(run.finer->field(stage, ItemId(0)));

@@ -83,7 +83,7 @@ protected:
         EXPECT_TRUE(simulation->advance_stage(0, 1'000'000, control_, {}));
         const PlacedFrames cells = frames_of(*simulation, 0);
         EXPECT_GT(cells.places.size(), 100U);
-        const SurfaceMesh& mesh = simulation->model()->mesh;
+        const SurfaceMesh& mesh = simulation->domain().model->cells->mesh;
         const ModelBox box(mesh);
         std::vector<Vector3d> points;
         for (const Vector3d& point : mesh.points) points.push_back(box.in_script(point));

@@ -1,5 +1,6 @@
 // Runs that are asked for in a way that does not fit their script, and files of earlier runs that
 // have been damaged since: a message for each, and never a crash.
+#include "run/simulation/stage_record.h"
 #include "run_fixture.h"
 
 #include "run/script/embedded_script.h"
@@ -104,11 +105,11 @@ TEST_F(DamagedTest, AStartThatIsNotFiniteIsToldAtAnyStep) {
     auto simulation = Simulation::create(*script, options);
     ASSERT_TRUE(simulation);
     ASSERT_TRUE((*simulation)->start_stage(0));
-    StageRecord record = record_of((*simulation)->state(0), (*simulation)->program(), 0);
+    StageRecord record = record_of((*simulation)->state(0), *(*simulation)->domain().program, 0);
     record.fields.at("b").at(3, 2) = INFINITY;
     record.steps = 70;
     record.t = 70;
-    (*simulation)->restore(0, std::move(record));
+    restore(**simulation, 0, std::move(record));
     RunControl control;
     const auto end = (*simulation)->advance_stage(0, 300, control, {});
     ASSERT_FALSE(end);

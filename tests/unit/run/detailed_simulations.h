@@ -34,13 +34,13 @@ public:
         for (std::uint32_t k = 0; k < count; ++k) {
             const auto started = coarse->start_stage(k);
             EXPECT_TRUE(started) << (started ? "" : started.error().message);
-            const std::int64_t most = coarse->program().stages[k].iterations;
+            const std::int64_t most = coarse->domain().stage(k).iterations;
             EXPECT_TRUE(coarse->advance_stage(k, most, control, {})) << text;
         }
         const auto carried = finer->go_on_from(*coarse, count - 1);
         EXPECT_TRUE(carried) << (carried ? "" : carried.error().message);
         if (!settles) return;
-        const std::int64_t last = finer->program().stages[count - 1].iterations;
+        const std::int64_t last = finer->domain().program->stages[count - 1].iterations;
         const auto end = finer->advance_stage(count - 1, last, control, {});
         EXPECT_TRUE(end) << text << (end ? "" : end.error().message);
     }
@@ -51,7 +51,7 @@ public:
         return of.state(stage).field(item(of, name, stage));
     }
     static ItemId item(const Simulation& of, const std::string& name, std::uint32_t stage = 0) {
-        const System& system = of.program().system_of(stage);
+        const System& system = of.domain().program->system_of(stage);
         for (const ItemId id : system.items()) {
             if (system.item_name(id) == name) return id;
         }
@@ -59,18 +59,18 @@ public:
         return {};
     }
     static std::vector<double> numbers(const Simulation& of, const Field& field) {
-        if (of.model()) return cell_values(field, *of.model());
+        if (of.domain().model) return cell_values(field, *of.domain().model->cells);
         std::vector<double> result;
-        for (std::int64_t k = 0; k < of.grid().depth; ++k) {
-            for (std::int64_t j = 0; j < of.grid().height; ++j) {
-                for (std::int64_t i = 0; i < of.grid().width; ++i)
+        for (std::int64_t k = 0; k < of.domain().grid.depth; ++k) {
+            for (std::int64_t j = 0; j < of.domain().grid.height; ++j) {
+                for (std::int64_t i = 0; i < of.domain().grid.width; ++i)
                     result.push_back(field.number_at(i, j, k));
             }
         }
         return result;
     }
     static measure::Samples samples(const Simulation& of, const Field& field) {
-        return measure::to_samples(field, of.grid());
+        return measure::to_samples(field, of.domain().grid);
     }
 
     std::unique_ptr<Simulation> coarse, finer;

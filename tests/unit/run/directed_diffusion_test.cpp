@@ -57,13 +57,13 @@ protected:
     std::vector<std::vector<double>> all() const {
         std::vector<std::vector<double>> values;
         for (const Field& field : simulation_->state(0).species)
-            values.push_back(cell_values(field, *simulation_->model()));
+            values.push_back(cell_values(field, *simulation_->domain().model->cells));
         return values;
     }
     std::vector<double> areas() const {
-        const auto& spread = simulation_->model()->spread();
+        const auto& spread = simulation_->domain().model->cells->spread();
         return cell_values(spread.planes[static_cast<std::size_t>(ModelPlane::area)],
-                           *simulation_->model());
+                           *simulation_->domain().model->cells);
     }
     /// Σ area · a · b.
     double product(const std::vector<double>& a, const std::vector<double>& b) const {

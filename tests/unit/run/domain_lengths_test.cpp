@@ -34,7 +34,7 @@ TEST(DomainLengthsInRuns, AgreeWithTheoryOnAnyGrid) {
         const Ran ran = run_text(lengths_of_domain, {"interp", 0, 1}, overrides);
         ASSERT_EQ(ran.failure, "");
         const double h = 3.0 / static_cast<double>(columns);
-        EXPECT_DOUBLE_EQ(ran.simulation->grid().spacing, h);
+        EXPECT_DOUBLE_EQ(ran.simulation->domain().grid.spacing, h);
         const double rate = std::pow(2 * std::numbers::pi / 3, 2);
         const double first = std::cos(2 * std::numbers::pi / 3 * h / 2);
         const double decayed = ran.species(0).number_at(0, 0) / first;

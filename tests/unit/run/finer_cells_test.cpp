@@ -2,6 +2,7 @@
 #include "detailed_simulations.h"
 
 #include "core/resample.h"
+#include "run/domain/domain_mask.h"
 #include "tests/support/mean_of.h"
 
 #include <algorithm>
@@ -37,7 +38,7 @@ TEST(FinerCells, APatternKeepsItsStatistics) {
         "domain { grid: 64, 48; seed: 3 }",
         2, compiled());
     ASSERT_TRUE(runs.finer);
-    EXPECT_EQ(runs.finer->grid(), (Grid{.width = 128, .height = 96, .spacing = 0.5}));
+    EXPECT_EQ(runs.finer->domain().grid, (Grid{.width = 128, .height = 96, .spacing = 0.5}));
     const Field& coarse = runs.field(*runs.coarse, "b");
     const Field& finer = runs.field(*runs.finer, "b");
     EXPECT_NEAR(wavelength_of(*runs.finer, finer) / wavelength_of(*runs.coarse, coarse), 1, 0.03);
@@ -103,7 +104,7 @@ TEST(FinerCells, WhatWasDrawnInEachCellIsCarried) {
     ASSERT_TRUE(runs.finer);
     for (const std::string name : {"p", "q"}) {
         const Field& coarse = runs.field(*runs.coarse, name);
-        const Plane<float> wanted = divided_in_range(coarse.plane(), runs.coarse->grid(), 2);
+        const Plane<float> wanted = divided_in_range(coarse.plane(), runs.coarse->domain().grid, 2);
         for (std::int64_t j = 0; j < 24; ++j) {
             for (std::int64_t i = 0; i < 32; ++i)
                 EXPECT_EQ(runs.field(*runs.finer, name).at(i, j), wanted.at(i, j)) << name;
@@ -143,7 +144,7 @@ TEST(FinerCells, MasksAreEvaluatedAnewAndValuesGoOnBeyondTheirBorder) {
         "domain { grid: 24, 24; mask: disc(0.5, 0.5, 0.37) }\n"
         "stage one: s { iterations: 1 }");
     ASSERT_TRUE(runs.finer);
-    const DomainMask& mask = *runs.finer->mask();
+    const DomainMask& mask = *runs.finer->domain().mask;
     EXPECT_NEAR(static_cast<double>(mask.cells) / (48 * 48), std::numbers::pi * 0.37 * 0.37, 0.007);
     for (std::int64_t j = 0; j < 48; ++j) {
         for (std::int64_t i = 0; i < 48; ++i) {
@@ -250,9 +251,9 @@ std::pair<double, double> error_on_sphere(int cells) {
                     2, interpreted(2), false);
     EXPECT_TRUE(runs.finer);
     if (!runs.finer) return {};
-    const ModelCells& model = *runs.finer->model();
+    const ModelCells& model = *runs.finer->domain().model->cells;
     EXPECT_EQ(model.count(), 4 * static_cast<std::size_t>(cells));
-    EXPECT_NEAR(model.spread().unit / runs.coarse->model()->spread().unit, 1, 1e-9);
+    EXPECT_NEAR(model.spread().unit / runs.coarse->domain().model->cells->spread().unit, 1, 1e-9);
     const auto found = cell_values(runs.field(*runs.finer, "u"), model);
     const auto x =
         cell_values(model.spread().planes[static_cast<std::size_t>(ModelPlane::x)], model);

@@ -1,5 +1,6 @@
 // Bodies that fields have grown: made, given up, and drawn below the cells on them.
 #include "run/pictures/painter.h"
+#include "run/simulation/tissue_stage.h"
 #include "unit/run/ran_text.h"
 
 #include <gtest/gtest.h>
@@ -74,7 +75,7 @@ TEST(GrownBody, IsGivenUpWhenItIsCancelled) {
     EXPECT_FALSE((*simulation)->state(1).started);
     control.cancel = false;
     EXPECT_TRUE((*simulation)->start_stage(1, control.cancel));
-    EXPECT_TRUE((*simulation)->body(1));
+    EXPECT_TRUE(body_under_cells((*simulation)->state(1)));
 }
 
 TEST(GrownBody, NothingAtAllIsAnEmptyPicture) {

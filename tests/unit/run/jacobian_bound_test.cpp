@@ -2,6 +2,7 @@
 #include "lang/calculus/derivative.h"
 #include "lang/library/library.h"
 #include "run/simulation/simulation.h"
+#include "run/simulation/stage_record.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -37,7 +38,7 @@ public:
 
     bool ok() const { return simulation_ != nullptr; }
     std::optional<JacobianBound> bound() const {
-        const auto model = simulation_->model();
+        const auto model = simulation_->domain().shared_model();
         return jacobian_bound(*script_.program, 0, model ? &model->spread() : nullptr);
     }
 
@@ -75,13 +76,13 @@ private:
         species[moved].row(row)[column] += by;
         std::vector<Field> before;
         for (const Field& field : species) before.push_back(field.clone());
-        const System& system = simulation_->program().system_of(0);
+        const System& system = simulation_->domain().program->system_of(0);
         StageRecord record;
         for (const ItemId item : system.species()) {
             const std::size_t k = system.species_of(item)->index();
             record.fields.emplace(system.item_name(item), std::move(species[k]));
         }
-        simulation_->restore(0, std::move(record));
+        restore(*simulation_, 0, std::move(record));
         RunControl control;
         EXPECT_TRUE(simulation_->advance_stage(0, 1, control, {}));
         Vector rates;

@@ -1,4 +1,5 @@
 // Random numbers of late steps, where the number of a step has more digits than binary32.
+#include "run/simulation/stage_record.h"
 #include "started_script.h"
 
 #include <set>
@@ -23,10 +24,11 @@ std::vector<std::vector<double>> draws_from(std::int64_t first, const std::strin
         auto simulation = Simulation::create(script, {backend, 0, 1});
         EXPECT_TRUE(simulation);
         EXPECT_TRUE((*simulation)->start_stage(0));
-        StageRecord record = record_of((*simulation)->state(0), (*simulation)->program(), 0);
+        StageRecord record =
+            record_of((*simulation)->state(0), *(*simulation)->domain().program, 0);
         record.steps = step;
         record.t = static_cast<double>(step);
-        (*simulation)->restore(0, std::move(record));
+        restore(**simulation, 0, std::move(record));
         RunControl control;
         EXPECT_TRUE((*simulation)->advance_stage(0, step + 1, control, {}));
         std::vector<double>& row = draws.emplace_back();

@@ -147,7 +147,7 @@ TEST_F(LiveRunTest, PaintingReplacesValuesOfTheCells) {
         << "all cells are frozen";
     // A parameter that was painted stays so when another one changes.
     apply(*run, SetNumber{"c", "0.2"});
-    const System& system = run->simulation().program().system_of(0);
+    const System& system = run->simulation().domain().program->system_of(0);
     for (const ItemId item : system.items()) {
         if (system.item_name(item) != "k") continue;
         EXPECT_EQ(run->simulation().state(0).field(item).number_at(3, 9), 0.5);

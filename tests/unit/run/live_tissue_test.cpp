@@ -52,7 +52,7 @@ protected:
     static std::vector<double> values(const LiveRun& run, const std::string& name) {
         const std::uint32_t stage = run.place().stage;
         const StageState& state = run.simulation().state(stage);
-        const auto item = find_item(run.simulation().program().system_of(stage), name);
+        const auto item = find_item(run.simulation().domain().program->system_of(stage), name);
         return number_order(state.field(*item), *state.tissue);
     }
     static std::size_t count(const LiveRun& run) {

@@ -23,7 +23,7 @@ struct FinishedScript {
     std::string failure;
 
     const Field& field(const std::string& name, std::uint32_t stage = 0) const {
-        const System& system = simulation->program().system_of(stage);
+        const System& system = simulation->domain().program->system_of(stage);
         for (const ItemId item : system.quantities.ids()) {
             if (system.quantities[item].name == name) return simulation->state(stage).field(item);
         }
@@ -31,7 +31,7 @@ struct FinishedScript {
         return simulation->state(stage).field({});
     }
     double number(const std::string& name, std::uint32_t stage = 0) const {
-        const System& system = simulation->program().system_of(stage);
+        const System& system = simulation->domain().program->system_of(stage);
         for (const ItemId item : system.quantities.ids()) {
             if (system.quantities[item].name == name) return simulation->state(stage).numbers[item];
         }

@@ -98,8 +98,8 @@ TEST(ModelInput, FacesAreCountedBeforeTheirMemoryIs) {
     SimulationOptions options{"interp", 0, 1};
     const auto free = Simulation::create(script, options);
     ASSERT_TRUE(free) << free.error().message;
-    EXPECT_EQ((*free)->grid(), rows_of_cells(4));
-    options.memory_limit = static_cast<std::uint64_t>((*free)->memory());
+    EXPECT_EQ((*free)->domain().grid, rows_of_cells(4));
+    options.memory_limit = static_cast<std::uint64_t>((*free)->domain().memory);
     EXPECT_LT(options.memory_limit, 10'000);
     EXPECT_TRUE(Simulation::create(script, options));
     options.memory_limit -= 1;

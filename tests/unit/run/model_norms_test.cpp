@@ -58,7 +58,7 @@ TEST(ModelNorms, StepsAreChosenByTheErrorsOfCells) {
                                   "duration: 50; solver: rk45; tolerance: 1e-6; speed: 0.001"),
                  Precision::binary64);
     run.start();
-    const ModelCells& model = *run.simulation().model();
+    const ModelCells& model = *run.simulation().domain().model->cells;
     ASSERT_EQ(model.grid().cell_count(), 1024);
     // In the order of memory, in which the last cell is the one that is copied.
     const std::vector<double> values = run.values("u");
@@ -80,7 +80,8 @@ std::int64_t settled_by_hand(const std::string& system, double tolerance, const 
     SteadyWatch watch;
     const auto fields = [&] {
         std::vector<Field> seen;
-        seen.push_back(look(run.simulation().state(0).species[0], *run.simulation().model()));
+        seen.push_back(
+            look(run.simulation().state(0).species[0], *run.simulation().domain().model->cells));
         return seen;
     };
     watch.begin(fields());

@@ -32,7 +32,7 @@ TEST(ModelOrder, PlanesAreThoseOfTheCellsInTheirOwnOrder) {
     Script script = load(on_sphere("  u: 0\n  u' = lap(u)\n"));
     const auto simulation = start(script);
     ASSERT_TRUE(simulation);
-    const ModelCells& model = *simulation->model();
+    const ModelCells& model = *simulation->domain().model->cells;
     ASSERT_EQ(model.count(), some_cells);
     std::vector<std::uint32_t> sorted = model.spread().order;
     EXPECT_FALSE(std::is_sorted(sorted.begin(), sorted.end())) << "cells lie by their links";
@@ -63,7 +63,7 @@ TEST(ModelOrder, RowsOfFilesComeBackAsTheyWere) {
     Script script = load(on_sphere("  u: random(0, 1)\n  u' = lap(u)\n"));
     const auto simulation = start(script);
     ASSERT_TRUE(simulation);
-    const ModelCells& model = *simulation->model();
+    const ModelCells& model = *simulation->domain().model->cells;
     const Field& field = simulation->state(0).species[0];
     const Field back = in_rows(in_one_row(field, model), model);
     for (std::int64_t row = 0; row < model.grid().height; ++row) {
@@ -78,7 +78,7 @@ TEST(ModelOrder, StepsAreThoseOfALoopOverTheCellsInTheirOwnOrder) {
     Script script = load(on_sphere("  u: random(0, 1)\n  u' = lap(u)\n"));
     const auto simulation = start(script);
     ASSERT_TRUE(simulation);
-    const ModelCells& model = *simulation->model();
+    const ModelCells& model = *simulation->domain().model->cells;
     const SurfaceCells& cells = model.spread().cells;
     const auto values = [&] {
         const std::vector<double> found = cell_values(simulation->state(0).species[0], model);
@@ -111,7 +111,7 @@ TEST(ModelOrder, GradientsAreThoseOfTheCellsInTheirOwnOrder) {
     Script script = load(on_sphere("  u: 0\n  u' = 0 * u\n  f: sy * sy\n  r: dz(f) - 2 * dy(f)\n"));
     const auto simulation = start(script);
     ASSERT_TRUE(simulation);
-    const ModelCells& model = *simulation->model();
+    const ModelCells& model = *simulation->domain().model->cells;
     const std::vector<double> f = cell_values(result_of(*simulation, "f"), model);
     const std::vector<double> r = cell_values(result_of(*simulation, "r"), model);
     Team team(1);
@@ -132,7 +132,7 @@ TEST(ModelOrder, AValueThatIsNotFiniteIsThatOfACell) {
     Script script = load(on_sphere("  u: if(y > 0.999, 1, 0)\n  u' = 1e38 * u * u\n"));
     const auto simulation = start(script);
     ASSERT_TRUE(simulation);
-    const ModelCells& model = *simulation->model();
+    const ModelCells& model = *simulation->domain().model->cells;
     RunControl control;
     const auto end = simulation->advance_stage(0, 20, control, {});
     ASSERT_FALSE(end);

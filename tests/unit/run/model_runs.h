@@ -47,10 +47,11 @@ public:
         if (!simulation_) return {};
         const StageState& state = simulation_->state(0);
         const ItemId item = item_named(name);
-        if (simulation_->program().stages[0].uniform[item]) {
-            return std::vector<double>(simulation_->model()->count(), state.numbers[item]);
+        if (simulation_->domain().stage(0).uniform[item]) {
+            return std::vector<double>(simulation_->domain().model->cells->count(),
+                                       state.numbers[item]);
         }
-        return cell_values(state.field(item), *simulation_->model());
+        return cell_values(state.field(item), *simulation_->domain().model->cells);
     }
 
     double number(const std::string& name) const { return values(name).at(0); }
@@ -58,9 +59,10 @@ public:
     /// Of the cells, in square units.
     std::vector<double> areas() const {
         if (!simulation_) return {};
-        return cell_values(
-            simulation_->model()->spread().planes[static_cast<std::size_t>(ModelPlane::area)],
-            *simulation_->model());
+        return cell_values(simulation_->domain()
+                               .model->cells->spread()
+                               .planes[static_cast<std::size_t>(ModelPlane::area)],
+                           *simulation_->domain().model->cells);
     }
 
     /// Σ area · item, in square units; of areas alone where no item is named.
@@ -86,7 +88,7 @@ public:
 
 private:
     ItemId item_named(const std::string& name) const {
-        const System& system = simulation_->program().system_of(0);
+        const System& system = simulation_->domain().program->system_of(0);
         for (const ItemId k : system.quantities.ids()) {
             if (system.quantities[k].name == name) return k;
         }

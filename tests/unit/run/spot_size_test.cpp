@@ -65,14 +65,14 @@ protected:
             simulation.advance_stage(0, script.program->stages[0].iterations, control, {});
         EXPECT_TRUE(end) << (end ? "" : end.error().message);
         const Field& field = simulation.state(0).species[0];
-        if (const auto model = simulation.model()) {
+        if (const auto model = simulation.domain().shared_model()) {
             const double area = std::accumulate(model->spread().cells.areas.begin(),
                                                 model->spread().cells.areas.end(), 0.0);
             EXPECT_NEAR(area / model->spread().unit / model->spread().unit / area_in_units, 1, 1e-6)
                 << "the same surface";
             return count_spots(model->spread().cells, cell_values(field, *model));
         }
-        const measure::Samples samples = measure::to_samples(field, simulation.grid());
+        const measure::Samples samples = measure::to_samples(field, simulation.domain().grid);
         return measure::find_regions(samples, mean_of(samples.values)).above;
     }
 

@@ -1,8 +1,10 @@
 // A stage that runs keeps what its steps take from call to call, and notices when states change.
+#include "run/simulation/end_remarks.h"
 #include "run/simulation/simulation.h"
 
 #include "run/script/script.h"
 #include "run/simulation/environment.h"
+#include "run/simulation/stage_record.h"
 #include "run/simulation/stage_run.h"
 #include "run/simulation/stage_start.h"
 #include "run/simulation/stage_view.h"
@@ -46,10 +48,10 @@ TEST_F(RunningStage, StatesThatAreReplacedAreGoneOnFrom) {
     ASSERT_TRUE(first->start_stage(0));
     ASSERT_TRUE(second->start_stage(0));
     advance(*first, 0, 20);
-    StageRecord record = record_of(first->state(0), first->program(), 0);
+    StageRecord record = record_of(first->state(0), *first->domain().program, 0);
     advance(*first, 0, 45);
     // Back to step 20, in the middle of a stage that runs.
-    first->restore(0, std::move(record));
+    restore(*first, 0, std::move(record));
     advance(*first, 0, 60);
     advance(*second, 0, 60);
     EXPECT_EQ(same_bits(first->state(0).species, second->state(0).species), "");
@@ -95,7 +97,7 @@ TEST_F(RunningStage, RemarksChangeNoBits) {
     }
     advance(*second, 0, 60);
     EXPECT_EQ(same_bits(first->state(0).species, second->state(0).species), "");
-    EXPECT_EQ(first->remark_on(0), second->remark_on(0));
+    EXPECT_EQ(remark_on(*first, 0), remark_on(*second, 0));
 }
 
 // Sides that vary, that change, and both.

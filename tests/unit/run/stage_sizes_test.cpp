@@ -19,15 +19,15 @@ SimulationOptions fastest_options() {
 }
 
 double factor_of(const Ran& ran, std::uint32_t stage = 0) {
-    return ran.simulation->program().stages[stage].size->factor;
+    return ran.simulation->domain().stage(stage).size->factor;
 }
 
 /// In units of the domain.
 double wavelength_of(const Ran& ran) {
     const auto stage = static_cast<std::uint32_t>(ran.script.stage_count() - 1);
-    const Formula& shown = ran.simulation->program().stages[stage].show;
-    const auto samples =
-        measure::to_samples(ran.simulation->evaluate(shown, stage)[0], ran.simulation->grid());
+    const Formula& shown = ran.simulation->domain().stage(stage).show;
+    const auto samples = measure::to_samples(ran.simulation->evaluate(shown, stage)[0],
+                                             ran.simulation->domain().grid);
     return measure::peak_wavelength(measure::in_wide_rings(measure::radial_spectrum(samples)));
 }
 
@@ -113,7 +113,7 @@ std::vector<std::vector<double>> after_steps(const std::string& text, double fac
     EXPECT_TRUE((*made)->advance_stage(0, 20, control, {}));
     std::vector<std::vector<double>> values;
     for (const Field& field : (*made)->state(0).species)
-        values.push_back(measure::to_samples(field, (*made)->grid()).values);
+        values.push_back(measure::to_samples(field, (*made)->domain().grid).values);
     return values;
 }
 
@@ -181,7 +181,7 @@ TEST(SizesOnModels, AreThoseOfThePattern) {
         "stage s: turing_spots { size: 16 }\n",
         fastest_options());
     ASSERT_EQ(ran.failure, "");
-    const ModelCells& model = *ran.simulation->model();
+    const ModelCells& model = *ran.simulation->domain().model->cells;
     EXPECT_NEAR(wavelength_on(model, cell_values(ran.species(1), model)) / 16, 1, 0.02)
         << "factor " << factor_of(ran);
 }

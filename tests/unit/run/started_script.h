@@ -26,7 +26,7 @@ inline std::unique_ptr<Simulation> start(Script& script) {
 
 /// The plane of an item of the first stage that varies.
 inline const Field& result_of(const Simulation& simulation, const std::string& name) {
-    const System& system = simulation.program().system_of(0);
+    const System& system = simulation.domain().program->system_of(0);
     for (const ItemId k : system.quantities.ids()) {
         if (system.quantities[k].name == name) return simulation.state(0).field(k);
     }

@@ -33,7 +33,7 @@ protected:
     }
     std::vector<double> values(const std::string& expression) {
         const auto field = std::move(run_->simulation().evaluate(formula(expression), 0)[0]);
-        return cell_values(field, *run_->simulation().model());
+        return cell_values(field, *run_->simulation().domain().model->cells);
     }
 
     static constexpr const char* script =
@@ -46,7 +46,7 @@ protected:
 
 TEST_F(SurfaceStrokes, OldDistancesAreReleased) {
     Team team(1);
-    SurfaceValues values(*run_->script().program, *run_->simulation().model(), team);
+    SurfaceValues values(*run_->script().program, *run_->simulation().domain().model->cells, team);
     const Formula own = formula("distance(0.5, 0.5, 0.5)");
     const Formula* const of_script[] = {&own};
     values.make(of_script, control_.cancel);
@@ -57,7 +57,7 @@ TEST_F(SurfaceStrokes, OldDistancesAreReleased) {
         EXPECT_LE(values.count(), 2 + SurfaceValues::evaluations_kept);
     }
     const auto id = *own.nodes.back().as<SurfaceValueId>();
-    const auto kept = cell_values(values.value(id), *run_->simulation().model());
+    const auto kept = cell_values(values.value(id), *run_->simulation().domain().model->cells);
     EXPECT_LT(*std::max_element(kept.begin(), kept.end()), 10);
 }
 

@@ -32,7 +32,7 @@ protected:
     std::vector<double> values(const std::string& domain, const std::string& expression) {
         const auto simulation = start(domain, "a: " + expression + "\n");
         if (!simulation) return {};
-        model_ = simulation->model();
+        model_ = simulation->domain().shared_model();
         return cell_values(simulation->state(0).species[0], *model_);
     }
 
@@ -228,7 +228,7 @@ const std::string tower = "surface: box(1, 8, 1); cells: 700; ";
 TEST_F(SurfaceValuesTest, HeatGoesFasterAlongTheDirections) {
     const auto speed = [&](const std::string& settings) {
         const auto simulation = start(tower + settings);
-        return simulation ? speed_along_y(*simulation->model()) : 0;
+        return simulation ? speed_along_y(*simulation->domain().model->cells) : 0;
     };
     const double same = speed("");
     // Diffusion is three times as fast along and a third of it across.
@@ -249,7 +249,7 @@ TEST_F(SurfaceValuesTest, CurvatureSaysADirection) {
     const auto speed = [&](const std::string& settings) {
         const auto simulation = start("surface: torus(1, 0.15); cells: 700; " + settings);
         if (!simulation) return 0.0;
-        const ModelCells& model = *simulation->model();
+        const ModelCells& model = *simulation->domain().model->cells;
         double along = 0, all = 0;
         for (std::size_t cell = 0; cell < model.count(); ++cell) {
             const Vector3d here = position_of(model.mesh, model.spread().cells.places[cell]);

@@ -34,12 +34,13 @@ protected:
         Simulation& simulation = **made;
         EXPECT_TRUE(simulation.start_stage(0));
         const auto u = [&] {
-            return cell_values(simulation.state(0).species[0], *simulation.model());
+            return cell_values(simulation.state(0).species[0], *simulation.domain().model->cells);
         };
         const std::vector<double> before = u();
         RunControl control;
         EXPECT_TRUE(simulation.advance_stage(0, steps, control, {}));
-        const std::vector<double> after = u(), &areas = simulation.model()->spread().cells.areas;
+        const std::vector<double> after = u(),
+                                  &areas = simulation.domain().model->cells->spread().cells.areas;
         double both = 0, square = 0;
         for (std::size_t k = 0; k < before.size(); ++k) {
             both += areas[k] * before[k] * after[k];

@@ -74,7 +74,7 @@ protected:
 
     static std::vector<double> first_species(const std::unique_ptr<Simulation>& simulation) {
         if (!simulation) return {};
-        return cell_values(simulation->state(0).species[0], *simulation->model());
+        return cell_values(simulation->state(0).species[0], *simulation->domain().model->cells);
     }
 
     static std::string up_is(Axis up) { return fmt::format("up: {}", name_of(up)); }
@@ -234,7 +234,7 @@ TEST_F(Upright, FilesHaveTheCoordinatesOfTheModelsOwn) {
 TEST_F(Upright, ReTiledModelsHaveTheCellsWhereTheyAreInTheFile) {
     const auto simulation = grown(Axis::z, "up: z", few_spots);
     ASSERT_TRUE(simulation);
-    const ModelCells& model = *simulation->model();
+    const ModelCells& model = *simulation->domain().model->cells;
     const SurfaceMesh mesh = model.mesh_of_file();
     RunRequest tiled = request();
     tiled.outputs = {path("tiled.ply")};
@@ -257,7 +257,7 @@ TEST_F(Upright, BakedMapsAreThoseOfTheUprightModel) {
         if (!simulation || !painter) return;
         const Canvas canvas = painter->canvas(*simulation);
         const ModelLook look = painter->look(canvas);
-        ModelFileWriter writer(*simulation->model(), {}, look, {}, {false, 64}, {});
+        ModelFileWriter writer(*simulation->domain().model->cells, {}, look, {}, {false, 64}, {});
         EXPECT_TRUE(writer.write(path(fmt::format("{}.glb", name_of(file)))));
     };
     bake(Axis::y);

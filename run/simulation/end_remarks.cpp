@@ -1,13 +1,21 @@
-// Looks at four cells in a row, along each axis, wherever they pass the middle of the range.
-#include "run/simulation/pinned_fronts.h"
+// Fronts that the grid holds in place are found by four cells in a row, along each axis, wherever
+// they pass the middle of the range.
+#include "run/simulation/end_remarks.h"
 
 #include "lang/program/nodes_of_rates.h"
+#include "run/simulation/stage_view.h"
+#include "run/simulation/tissue_stage.h"
 #include "run/stage/bound_kernel.h"
+#include "run/stage/stage_remarks.h"
+#include "solvers/field_norms.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 namespace cascade {
 
@@ -84,6 +92,15 @@ bool are_thin(const Fronts& fronts) {
     return fronts.all > 0 && fronts.thin >= mostly_thin * fronts.all;
 }
 
+bool is_of_neighbours(const Node& node) { return node.is<Call>() && differentiates(node.function); }
+
+/// Is every parameter the same in all cells?
+bool is_uniform_in_space(const Stage& stage, const System& system) {
+    return std::ranges::all_of(system.quantities.ids(), [&](ItemId item) {
+        return system.is_species(item) || stage.uniform[item];
+    });
+}
+
 /// Could what stands there have been put there by anything but the grid?
 bool may_be_pinned(const StageView& view) {
     const StageState& state = view.state();
@@ -93,20 +110,15 @@ bool may_be_pinned(const StageView& view) {
     if (!state.done || state.course.empty() || state.course.last().step != state.steps)
         return false;
     if (!view.stage().uniform[system.speed_item()] || !system.invariants.empty()) return false;
-    for (const ItemId item : system.quantities.ids()) {
-        if (!system.is_species(item) && !view.stage().uniform[item]) return false;
-    }
+    if (!is_uniform_in_space(view.stage(), system)) return false;
     const auto is_place = [](const Node& node) {
         return is_draw(node) || (node.is<Builtin>() && !is_moment(node)) || node.is<StageItem>();
-    };
-    const auto is_of_neighbours = [](const Node& node) {
-        return node.is<Call>() && differentiates(node.function);
     };
     return !holds_in_rates(system, is_place) && holds_in_rates(system, is_of_neighbours);
 }
 
-}  // namespace
-
+/// A remark if almost all fronts of a species jump from one level to another within a cell, and do
+/// not move.
 std::optional<std::string> find_pinned_fronts(const StageView& view) {
     if (!may_be_pinned(view)) return std::nullopt;
     const StageState& state = view.state();
@@ -123,6 +135,60 @@ std::optional<std::string> find_pinned_fronts(const StageView& view) {
             view.stage().name, species_name(view.system(), k));
     }
     return std::nullopt;
+}
+
+/// Does a stage end with the values that it began with, because its rates are 0 everywhere?
+bool has_stood_still(const StageView& view) {
+    const StageState& state = view.state();
+    const StageCourse& course = state.course;
+    if (!state.done || course.empty() || course.last().step != state.steps) return false;
+    const auto is_same = [](const Spread& a, const Spread& b) {
+        return a.mean == b.mean && a.squares == b.squares && a.smallest == b.smallest &&
+               a.largest == b.largest;
+    };
+    const auto& first = course.first().species;
+    if (!std::equal(first.begin(), first.end(), course.last().species.begin(), is_same))
+        return false;
+    const std::vector<Field> rates = view.rates();
+    return std::all_of(rates.begin(), rates.end(), [&](const Field& rate) {
+        return root_mean_square(rate, view.environment().counted()) == 0;
+    });
+}
+
+}  // namespace
+
+std::string remark_on(const Simulation& simulation, std::uint32_t k) {
+    const StageView view = simulation.own_view(k);
+    if (view.state().tissue) return remark_on_cells(view);
+    const Environment& here = view.environment();
+    const std::string remark = describe_end(view.stage(), view.system(), view.state(),
+                                            k == here.script->final_stage(), here.counted());
+    if (!remark.empty()) return remark;
+    if (!has_stood_still(view)) return find_pinned_fronts(view).value_or("");
+    return fmt::format(
+        "stage '{}' ended as it began: its rates are 0 in all cells{}", view.stage().name,
+        here.grid.height == 1 && !here.model ? "; on a line derivatives along y are 0" : "");
+}
+
+bool made_its_pattern(const Simulation& simulation, std::uint32_t k) {
+    // A species whose deviation has grown by this factor owes its pattern to the stage.
+    constexpr double times_at_start = 3;
+    const Stage& stage = simulation.domain().stage(k);
+    const System& system = simulation.domain().program->system_of(k);
+    if (system.cells) return false;
+    if (!is_uniform_in_space(stage, system) || holds_in_rates(system, is_draw) ||
+        !holds_in_rates(system, is_of_neighbours)) {
+        return false;
+    }
+    const StageCourse& course = simulation.state(k).course;
+    if (course.empty()) return false;
+    for (std::size_t s = 0; s < course.last().species.size(); ++s) {
+        const Spread &first = course.first().species[s], &last = course.last().species[s];
+        const bool is_made = last.is_even(course.last().largest[s]) ||
+                             last.deviation() >= times_at_start * first.deviation();
+        if (!is_made) return false;
+    }
+    return true;
 }
 
 }  // namespace cascade
