@@ -42,8 +42,9 @@ ComplexMatrix least_squares(const ComplexMatrix& matrix, const ComplexMatrix& ri
 
 /// By decreasing size: as many as the smaller side of the matrix, which may have any shape.
 Vector singular_values(const Matrix& matrix);
-/// Rows of length 1, orthogonal to each other and to all columns of the matrix: as many as it has
-/// rows minus its rank. Singular values up to `resolution` of the largest count as 0.
+/// Unit row vectors, orthogonal to each other and to all columns of the matrix. There are as many
+/// as the matrix has rows, minus its rank. Singular values of at most `resolution` times the
+/// largest count as 0.
 Matrix rows_across_columns(const Matrix& matrix, double resolution);
 
 }  // namespace cascade::analysis

@@ -36,11 +36,11 @@ inline constexpr double most_samples =
 /// they cover the texture many times, as coordinates for repeating textures do.
 Result<void> check_bakeable(const SurfaceMesh& mesh, double samples = most_samples);
 
-/// Paints every texel with the mean, in linear light, over its samples on the surface, and
-/// extrapolates to all others. Texture coordinates outside 0 … 1 repeat the picture. Non-finite
-/// heights are replaced from their surroundings. The same on any number of threads. Fails as
-/// check_bakeable does, if no sample is on the surface, and if memory runs out. Undefined if
-/// `cancel` became true.
+/// Paints every texel with the mean, in linear light, of its samples on the surface, and
+/// extrapolates to texels without samples. Texture coordinates outside 0 … 1 repeat the picture.
+/// Non-finite heights are replaced from their surroundings. The result is the same on any number of
+/// threads, and undefined if `cancel` became true. Fails where check_bakeable does, and also if no
+/// sample is on the surface or memory runs out.
 Result<Bake> bake(const SurfaceMesh& mesh, const CellFilter& filter, const PaintedCells& cells,
                   const BakeOptions& options, Team& team, const std::atomic<bool>& cancel);
 /// The same with painters, of which each thread has one.

@@ -182,8 +182,8 @@ private:
     const std::atomic<bool>* cancel_;
 };
 
-/// The root of larger magnitude of the polynomial λ² + pλ + q for which w₂ + p w₁ + q w₀ ≈ 0 fits
-/// best, where w₀ has length 1; either root of a complex pair.
+/// Chooses p and q so that |w₂ + p w₁ + q w₀| is smallest, where w₀ has length 1. Returns the root
+/// of λ² + pλ + q of larger magnitude, or either one of a complex pair.
 std::complex<double> leading_root(const Vector& w0, const Vector& w1, const Vector& w2) {
     const double along = dot(w0, w1);  // The Rayleigh quotient.
     const double across = dot(w1, w1) - along * along;

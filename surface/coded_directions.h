@@ -10,8 +10,8 @@ namespace cascade {
 /// Directions whose sum is shorter than this fraction of the sum of their lengths cancel out.
 constexpr double cancelled_part = 1e-6;
 
-/// Directions in the frames of their planes. Lines have twice the angle, so that v and −v are equal
-/// and perpendicular lines cancel out.
+/// Directions as codes: vectors in the frames of their planes. The code of a line has twice the
+/// line's angle, so that v and −v have the same code and perpendicular lines cancel out.
 class CodedDirections {
 public:
     CodedDirections(const TangentPlanes& planes, DirectionKind kind)

@@ -15,13 +15,13 @@ namespace cascade {
 /// One cell around each point, with the point's index. Its area is the mixed Voronoi area. The
 /// weight of the Voronoi edge across an edge is (cot α + cot β) / 2, where α and β are the angles
 /// opposite that edge (M. Meyer, M. Desbrun, P. Schröder and A. Barr, "Discrete
-/// Differential-Geometry Operators for Triangulated 2-Manifolds", 2003, sections 3.3 and 3.5):
-/// linear finite elements with lumped masses.
+/// Differential-Geometry Operators for Triangulated 2-Manifolds", 2003, sections 3.3 and 3.5).
+/// This is the method of linear finite elements with lumped masses.
 ///
 /// Obtuse angles could give negative weights, which let diffusion run uphill. So areas and weights
 /// are taken from the intrinsic Delaunay triangulation of the surface (mesh/intrinsic_delaunay.h),
-/// which is the same if no two opposite angles exceed 180° together. A boundary edge opposite an
-/// obtuse angle has no Voronoi edge. The areas sum to the area of the surface.
+/// which is the mesh itself if the two angles opposite each edge add up to at most 180°. A boundary
+/// edge opposite an obtuse angle has no Voronoi edge. The areas sum to the area of the surface.
 SurfaceCells vertex_cells(const SurfaceMesh& mesh);
 
 /// One cell for each face of the model, in the order of their first triangles. A face is a

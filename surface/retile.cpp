@@ -109,8 +109,8 @@ double EdgeFlipper::openness(const Face& one, HalfedgeHandle side) {
     return other.is_valid() ? openness_between(one.direction, at(other).direction) : 1;
 }
 
-/// Flips an edge if that improves the worst rating of its triangles and of the folds at it and
-/// their sides.
+/// Flips an edge if that raises the lowest of these ratings: of its two triangles, of the fold
+/// along the edge, and of the folds along the triangles' four other sides.
 void EdgeFlipper::flip_if_better(EdgeHandle e) {
     const HalfedgeHandle h = mesh_.halfedge_handle(e, 0), o = mesh_.halfedge_handle(e, 1);
     const VertexHandle c = mesh_.opposite_vh(h), d = mesh_.opposite_vh(o);

@@ -71,7 +71,8 @@ private:
     /// Users' formulas have a few.
     static constexpr std::size_t most_found = 64, most_guards = 64;
 
-    /// A part that must not be 0, or must be 0, and the guards around it.
+    /// What it guards matters where `part` is not 0, or where it is 0 if `is_zero`. `around` is the
+    /// next guard outwards.
     struct Guard {
         NodeId part;
         bool is_zero = false;

@@ -112,8 +112,9 @@ Expressions fuse_products(const Expressions& from, const PassContext& context);
 /// Finds the nodes that are the same in all cells.
 IdVector<NodeId, bool> uniform_nodes(const ExpressionGraph& graph, const PassContext& context);
 
-/// The difference across a side, from a derivative `value` along its outward unit normal: on a
-/// surface cells have lengths. Only for surfaces whose rows and columns meet at right angles there.
+/// Turns `value`, a derivative along the outward unit normal of a side, into the difference between
+/// the cells on both sides of it. They differ only on a surface, whose cells have lengths of their
+/// own. Rows and columns must meet at right angles there.
 NodeId across_side(ExpressionGraph& graph, const PassContext& context, NodeId value, Side side);
 
 }  // namespace cascade::lowering

@@ -67,8 +67,8 @@ class SurfaceOperators : public GraphPass {
         return sum_of_products(p(), along, q, across);
     }
 
-    /// The flow of A v: A is applied to the gradients and vectors of which the old v is made. Nodes
-    /// come before their readers, so they can be built in this order.
+    /// The flow of A v: applies A to the gradients and vectors that v consists of in the old graph.
+    /// Nodes come before their readers there, so flows are built in ascending order.
     NodeId flow_times_tensor(NodeId a, NodeId v) {
         IdVector<NodeId, bool> reached(v.index() + 1, false);
         IdVector<NodeId, NodeId> flows(reached.size());

@@ -78,7 +78,7 @@ Result<void> take_model(Overrides& saved, const Overrides& changes) {
     return {};
 }
 
-/// Checks that what run.json repeats of the script agrees with it.
+/// Checks that the grid and the seed in run.json are those of the script.
 Result<void> check_against_script(const std::filesystem::path& folder, const nlohmann::json& json,
                                   const Script& script, const Simulation& simulation) {
     const Grid& grid = simulation.domain().grid;

@@ -44,7 +44,7 @@ bool is_manifest(const nlohmann::json& json) {
     return json.is_object() && json.contains("cascade");
 }
 
-/// Nothing if the manifest does not name the file, or not in a valid form.
+/// Nothing if the manifest does not name the file, or if its entry is not valid.
 std::optional<SavedFile> saved_file(const nlohmann::json& manifest, const std::string& name) {
     const bool is_array = name.ends_with(".npy") && name.find('/') == std::string::npos;
     const auto files = manifest.find("files");

@@ -1,4 +1,4 @@
-// Computes positions in binary64, like those in files read by cells.
+// Computes the positions in the file in binary64, as file_places.cpp does for cells.
 #include "run/domain/kernel_file.h"
 
 #include "lang/program/evaluate.h"

@@ -136,7 +136,7 @@ Result<Scheme> fixed_scheme(const Program& program, std::uint32_t k,
     if (is_stabilised(stage.time.solver) && !stages) {
         return failure(
             fmt::format("stage '{}' is solved by {}, which chooses its stages as it runs, "
-                        "but a compiled step has a number of them",
+                        "but a compiled step has a fixed number of them",
                         stage.name, name),
             "--stages N says how many: an odd number");
     }

@@ -105,7 +105,8 @@ public:
         undo_texts_ = texts;
     }
 
-    /// The most bytes of texts in undo() and the log. With more texts a change is refused.
+    /// The most bytes of texts in the log, and usually in the moments kept for undo(). A change of
+    /// the text that needs more is refused.
     static constexpr std::size_t most_texts = std::size_t{256} << 20;
 
 private:

@@ -27,8 +27,9 @@ struct SessionLog {
 /// The log as text for parse_session_log().
 std::string print_session_log(const SessionLog& log);
 
-/// Its parts, also used by a growing log (open_log.h): the lines above the changes, the changes
-/// from number `first` on, where `at` is the moment of the line above, and a moment.
+/// The parts of that text, which a growing log (open_log.h) prints one by one: the lines above the
+/// changes; the changes from number `first` on; a line with a moment. `at` is the last moment that
+/// was printed, and is brought up to date.
 std::string print_session_beginning(const SessionLog& log);
 std::string print_logged_changes(const SessionLog& log, std::size_t first,
                                  std::optional<RunPlace>& at);

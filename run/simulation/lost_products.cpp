@@ -59,7 +59,7 @@ double time_of(const StageView& view) {
     return ends ? static_cast<double>(view.stage().iterations) * speed : time_without_end;
 }
 
-/// Is the part infinite, or 0, in a cell in which the rate is not finite?
+/// Is the part lost in a cell whose rate is not finite: infinite if it may be too large, else 0?
 bool spoils_its_rate(const StageView& view, const LostProduct& found) {
     const std::vector<Field> rates = view.rates();
     const Field part = std::move(view.evaluate(found.part)[0]);

@@ -73,7 +73,7 @@ void ExpressionChecker::take_file_value(Function function, const ast::Call& call
     }
     Node& node = formula_.nodes.back();
     if (stands_in_kernel() && reading.place.empty()) {
-        return error(node.span, "in a kernel a file is read at a place",
+        return error(node.span, "a file in a kernel needs the position at which it is read",
                      "as in field(\"k.npy\", distance / 10, 0.5)");
     }
     has_loose_nodes_ = has_loose_nodes_ || parts.size() > 1;
@@ -88,7 +88,7 @@ void ExpressionChecker::take_painted_direction(NodeId image) {
     const Node& painted = formula_.nodes[image];
     FileReading reading = work_.program.literals->reading(painted.as<Call>()->detail);
     if (reading.channel != PictureChannel::lightness) {
-        return error(painted.span, "a direction is painted in two channels",
+        return error(painted.span, "a direction needs two channels of a picture, not one",
                      "along(image(\"f.png\")) reads red and green");
     }
     reading.is_direction = true;

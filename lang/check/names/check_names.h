@@ -51,7 +51,7 @@ struct Workspace {
     IdVector<SystemId, IdVector<ItemId, bool>> items_read;
     IdVector<SystemId, IdVector<DefinitionId, bool>> definitions_read;
     std::size_t names_compared = 0;  ///< For suggestions, so far.
-    /// Operators measure on a surface, where some of them have no meaning.
+    /// The grid lies on a surface, along which operators measure; some have no meaning there.
     bool on_surface = false;
     /// The functions of each script whose expressions have been checked; see user_functions.h.
     std::unordered_map<const ast::Script*, std::shared_ptr<const FunctionTable>> functions = {};
