@@ -213,6 +213,168 @@ std::vector<ParameterSpan> ranged_parameters(const Program& program, std::uint32
     return spans;
 }
 
+namespace {
+
+/// Finds the classes of a map: first along lines that are a block apart, then inside the blocks
+/// whose corners differ.
+class MapFiller {
+public:
+    MapFiller(Follower& follower, const ParameterSpan& across, const ParameterSpan& up,
+              std::size_t side)
+        : follower_(follower), across_(across), up_(up), side_(side), places_(side * side) {
+        for (std::size_t k = 0; k < side - 1; k += block) lines_.push_back(k);
+        lines_.push_back(side - 1);
+    }
+
+    /// Follows the state from the script's own values along the middle row, then along columns.
+    void follow_lines(const std::vector<double>& present, const Vector& state);
+    /// By row and column, once the lines are known.
+    std::vector<std::optional<Stability>> classes();
+
+private:
+    static constexpr std::size_t block = 8;
+    /// The steps from one line to the next, so that Newton's method stays on its branch.
+    static constexpr int careful = 4;
+
+    struct Block {
+        std::size_t left, low, right, high;
+        bool is_divisible() const { return right - left > 1 || high - low > 1; }
+    };
+
+    std::optional<Place>& place(std::size_t i, std::size_t j) { return places_[j * side_ + i]; }
+    double value(const ParameterSpan& span, std::size_t k) const {
+        return span.low +
+               (span.high - span.low) * static_cast<double>(k) / static_cast<double>(side_ - 1);
+    }
+    std::size_t nearest_line(const ParameterSpan& span, double at) const;
+    Place reach(const std::vector<double>& from, std::optional<Vector> beside, std::size_t i,
+                std::size_t j, int parts);
+    void fill(std::size_t i, std::size_t j, std::size_t beside_i, std::size_t beside_j, int parts);
+    void fill_from_corner(const Block& at, std::size_t i, std::size_t j);
+    bool is_uniform(const Block& at);
+    void take_classes(const Block& at, std::vector<std::optional<Stability>>& classes);
+    void divide(const Block& at, std::vector<Block>& waiting);
+
+    Follower& follower_;
+    const ParameterSpan &across_, &up_;
+    std::size_t side_;
+    std::vector<std::optional<Place>> places_;
+    std::vector<std::size_t> lines_;
+};
+
+std::size_t MapFiller::nearest_line(const ParameterSpan& span, double at) const {
+    std::size_t best = 0;
+    for (std::size_t k = 0; k < lines_.size(); ++k) {
+        if (std::abs(value(span, lines_[k]) - at) < std::abs(value(span, lines_[best]) - at)) {
+            best = k;
+        }
+    }
+    return best;
+}
+
+/// From the values `from`, at which the state is `beside`, in so many steps.
+Place MapFiller::reach(const std::vector<double>& from, std::optional<Vector> beside, std::size_t i,
+                       std::size_t j, int parts) {
+    Place found;
+    for (int k = 1; k <= parts; ++k) {
+        const double part = static_cast<double>(k) / parts;
+        found = follower_.at({from[0] + part * (value(across_, i) - from[0]),
+                              from[1] + part * (value(up_, j) - from[1])},
+                             beside);
+        beside = found.state;
+    }
+    return found;
+}
+
+void MapFiller::fill(std::size_t i, std::size_t j, std::size_t beside_i, std::size_t beside_j,
+                     int parts) {
+    if (place(i, j)) return;
+    const auto& beside = place(beside_i, beside_j);
+    place(i, j) = reach({value(across_, beside_i), value(up_, beside_j)},
+                        beside ? beside->state : std::nullopt, i, j, parts);
+}
+
+void MapFiller::follow_lines(const std::vector<double>& present, const Vector& state) {
+    const std::size_t middle_i = nearest_line(across_, present[0]);
+    const std::size_t middle_j = nearest_line(up_, present[1]);
+    place(lines_[middle_i], lines_[middle_j]) =
+        reach(present, state, lines_[middle_i], lines_[middle_j], 64);
+    for (std::size_t i = middle_i; i-- > 0;) {
+        fill(lines_[i], lines_[middle_j], lines_[i + 1], lines_[middle_j], careful);
+    }
+    for (std::size_t i = middle_i + 1; i < lines_.size(); ++i) {
+        fill(lines_[i], lines_[middle_j], lines_[i - 1], lines_[middle_j], careful);
+    }
+    for (const std::size_t i : lines_) {
+        for (std::size_t j = middle_j; j-- > 0;) fill(i, lines_[j], i, lines_[j + 1], careful);
+        for (std::size_t j = middle_j + 1; j < lines_.size(); ++j) {
+            fill(i, lines_[j], i, lines_[j - 1], careful);
+        }
+    }
+}
+
+std::vector<std::optional<Stability>> MapFiller::classes() {
+    std::vector<std::optional<Stability>> result(places_.size());
+    std::vector<Block> waiting;
+    for (std::size_t j = 0; j + 1 < lines_.size(); ++j) {
+        for (std::size_t i = 0; i + 1 < lines_.size(); ++i) {
+            waiting.push_back({lines_[i], lines_[j], lines_[i + 1], lines_[j + 1]});
+        }
+    }
+    while (!waiting.empty()) {
+        const Block at = waiting.back();
+        waiting.pop_back();
+        if (is_uniform(at) || !at.is_divisible()) take_classes(at, result);
+        else divide(at, waiting);
+    }
+    return result;
+}
+
+bool MapFiller::is_uniform(const Block& at) {
+    const auto& first = place(at.left, at.low)->stability;
+    return place(at.right, at.low)->stability == first &&
+           place(at.left, at.high)->stability == first &&
+           place(at.right, at.high)->stability == first;
+}
+
+/// What is not known inside of a block is like its first corner.
+void MapFiller::take_classes(const Block& at, std::vector<std::optional<Stability>>& classes) {
+    const auto& first = place(at.left, at.low)->stability;
+    for (std::size_t j = at.low; j <= at.high; ++j) {
+        for (std::size_t i = at.left; i <= at.right; ++i) {
+            const auto& known = place(i, j);
+            classes[j * side_ + i] = known ? known->stability : first;
+        }
+    }
+}
+
+/// A corner that has a state leads to others.
+void MapFiller::fill_from_corner(const Block& at, std::size_t i, std::size_t j) {
+    for (const std::size_t row : {at.low, at.high}) {
+        for (const std::size_t column : {at.left, at.right}) {
+            if (place(column, row)->state) return fill(i, j, column, row, 1);
+        }
+    }
+    fill(i, j, at.left, at.low, 1);
+}
+
+void MapFiller::divide(const Block& at, std::vector<Block>& waiting) {
+    const std::size_t i = (at.left + at.right) / 2, j = (at.low + at.high) / 2;
+    for (const std::size_t y : {at.low, j, at.high}) {
+        for (const std::size_t x : {at.left, i, at.right}) fill_from_corner(at, x, y);
+    }
+    const auto push = [&](const Block& part) {
+        if (part.right > part.left || part.high > part.low) waiting.push_back(part);
+    };
+    const bool splits_across = i > at.left, splits_up = j > at.low;
+    push({at.left, at.low, splits_across ? i : at.right, splits_up ? j : at.high});
+    if (splits_across) push({i, at.low, at.right, splits_up ? j : at.high});
+    if (splits_up) push({at.left, j, splits_across ? i : at.right, at.high});
+    if (splits_across && splits_up) push({i, j, at.right, at.high});
+}
+
+}  // namespace
+
 Result<ParameterMap> map_parameters(const Program& program, std::uint32_t stage,
                                     const ParameterSpan& across, const ParameterSpan& up,
                                     std::size_t side, const Vector& state) {
@@ -226,118 +388,9 @@ Result<ParameterMap> map_parameters(const Program& program, std::uint32_t stage,
         present.push_back(*value);
     }
     Follower follower(*model, present, state);
-
-    std::vector<std::optional<Place>> places(side * side);
-    const auto value = [&](const ParameterSpan& span, std::size_t k) {
-        return span.low +
-               (span.high - span.low) * static_cast<double>(k) / static_cast<double>(side - 1);
-    };
-    // From a known state in a few steps, so that Newton's method stays on its branch.
-    const auto reach = [&](std::vector<double> from, std::optional<Vector> beside, std::size_t i,
-                           std::size_t j, int parts) {
-        Place place;
-        for (int k = 1; k <= parts; ++k) {
-            const double part = static_cast<double>(k) / parts;
-            place = follower.at({from[0] + part * (value(across, i) - from[0]),
-                                 from[1] + part * (value(up, j) - from[1])},
-                                beside);
-            beside = place.state;
-        }
-        return place;
-    };
-    const auto fill = [&](std::size_t i, std::size_t j, std::size_t beside_i, std::size_t beside_j,
-                          int parts) {
-        auto& place = places[j * side + i];
-        if (place) return;
-        const auto& beside = places[beside_j * side + beside_i];
-        place = reach({value(across, beside_i), value(up, beside_j)},
-                      beside ? beside->state : std::nullopt, i, j, parts);
-    };
-
-    constexpr std::size_t block = 8;
-    std::vector<std::size_t> lines;
-    for (std::size_t k = 0; k < side - 1; k += block) lines.push_back(k);
-    lines.push_back(side - 1);
-    const auto nearest_line = [&](const ParameterSpan& span, double at) {
-        std::size_t best = 0;
-        for (std::size_t k = 0; k < lines.size(); ++k) {
-            if (std::abs(value(span, lines[k]) - at) < std::abs(value(span, lines[best]) - at)) {
-                best = k;
-            }
-        }
-        return best;
-    };
-    const std::size_t middle_i = nearest_line(across, present[0]);
-    const std::size_t middle_j = nearest_line(up, present[1]);
-    places[lines[middle_j] * side + lines[middle_i]] =
-        reach(present, state, lines[middle_i], lines[middle_j], 64);
-    // Along the middle row, then from it along columns.
-    constexpr int careful = 4;
-    for (std::size_t i = middle_i; i-- > 0;) {
-        fill(lines[i], lines[middle_j], lines[i + 1], lines[middle_j], careful);
-    }
-    for (std::size_t i = middle_i + 1; i < lines.size(); ++i) {
-        fill(lines[i], lines[middle_j], lines[i - 1], lines[middle_j], careful);
-    }
-    for (const std::size_t i : lines) {
-        for (std::size_t j = middle_j; j-- > 0;) fill(i, lines[j], i, lines[j + 1], careful);
-        for (std::size_t j = middle_j + 1; j < lines.size(); ++j) {
-            fill(i, lines[j], i, lines[j - 1], careful);
-        }
-    }
-
-    ParameterMap map{across, up, side, {}};
-    map.classes.resize(side * side);
-    struct Block {
-        std::size_t left, low, right, high;
-    };
-    std::vector<Block> waiting;
-    for (std::size_t j = 0; j + 1 < lines.size(); ++j) {
-        for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
-            waiting.push_back({lines[i], lines[j], lines[i + 1], lines[j + 1]});
-        }
-    }
-    while (!waiting.empty()) {
-        const Block at = waiting.back();
-        waiting.pop_back();
-        const auto& first = places[at.low * side + at.left]->stability;
-        const auto is_like = [&](std::size_t i, std::size_t j) {
-            return places[j * side + i]->stability == first;
-        };
-        const bool is_even =
-            is_like(at.right, at.low) && is_like(at.left, at.high) && is_like(at.right, at.high);
-        if (is_even || (at.right - at.left <= 1 && at.high - at.low <= 1)) {
-            for (std::size_t j = at.low; j <= at.high; ++j) {
-                for (std::size_t i = at.left; i <= at.right; ++i) {
-                    const auto& known = places[j * side + i];
-                    map.classes[j * side + i] = known ? known->stability : first;
-                }
-            }
-            continue;
-        }
-        const std::size_t i = (at.left + at.right) / 2, j = (at.low + at.high) / 2;
-        const auto corner = [&](std::size_t x, std::size_t y) {
-            // A corner that has a state leads to others.
-            for (const std::size_t row : {at.low, at.high}) {
-                for (const std::size_t column : {at.left, at.right}) {
-                    if (places[row * side + column]->state) return fill(x, y, column, row, 1);
-                }
-            }
-            fill(x, y, at.left, at.low, 1);
-        };
-        for (const std::size_t y : {at.low, j, at.high}) {
-            for (const std::size_t x : {at.left, i, at.right}) corner(x, y);
-        }
-        const auto push = [&](std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
-            if (c > a || d > b) waiting.push_back({a, b, c, d});
-        };
-        const bool splits_across = i > at.left, splits_up = j > at.low;
-        push(at.left, at.low, splits_across ? i : at.right, splits_up ? j : at.high);
-        if (splits_across) push(i, at.low, at.right, splits_up ? j : at.high);
-        if (splits_up) push(at.left, j, splits_across ? i : at.right, at.high);
-        if (splits_across && splits_up) push(i, j, at.right, at.high);
-    }
-    return map;
+    MapFiller filler(follower, across, up, side);
+    filler.follow_lines(present, state);
+    return ParameterMap{across, up, side, filler.classes()};
 }
 
 }  // namespace cascade::analysis

@@ -66,7 +66,7 @@ Result<std::vector<std::string>> parse_names(std::string_view text);
 /// One of `choices`; a failure lists them and suggests the nearest one.
 Result<std::string> parse_choice(std::string_view text, std::span<const std::string> choices);
 
-/// "0.02": the largest displacement of a surface, −1 … 1 of the model's longest side.
+/// "0.02": the largest displacement of a surface, as a part of the model's longest side, −1 … 1.
 Result<float> parse_bump(std::string_view text);
 
 /// The path of an output of `run -o`; see output_kind() for the endings.

@@ -205,7 +205,7 @@ Result<PageMessage> parse_page_message(std::string_view text) {
     if (text.size() > largest_page_message) return failure("the message is too long");
     const JsonSize size = measure_json(text);
     if (size.depth > 1 || size.values > 16) {
-        return failure("the message is not one object of a few texts and numbers");
+        return failure("the message must be a flat JSON object of at most 16 values");
     }
     const Json object = Json::parse(text, nullptr, false);
     if (!object.is_object()) return failure("the message is no JSON object");

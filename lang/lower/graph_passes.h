@@ -113,8 +113,8 @@ Expressions fuse_products(const Expressions& from, const PassContext& context);
 IdVector<NodeId, bool> uniform_nodes(const ExpressionGraph& graph, const PassContext& context);
 
 /// Turns `value`, a derivative along the outward unit normal of a side, into the difference between
-/// the cells on both sides of it. They differ only on a surface, whose cells have lengths of their
-/// own. Rows and columns must meet at right angles there.
+/// the cells on both sides of it. Off surfaces that is `value` itself; on a surface it depends on
+/// the length of the cell, too. Rows and columns must meet at right angles there.
 NodeId across_side(ExpressionGraph& graph, const PassContext& context, NodeId value, Side side);
 
 }  // namespace cascade::lowering

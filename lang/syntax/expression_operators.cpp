@@ -313,6 +313,39 @@ bool ExpressionParser::begins_applied() {
     return applies_operator(script_, operands_.back().id);
 }
 
+/// What was probably meant by two operands without an operator between them; may be empty.
+std::string ExpressionParser::hint_of_missing_operator() const {
+    const Token before = cursor_.previous();
+    const Token here = cursor_.peek();
+    const Span both = join(before.span, here.span);
+    const bool is_bar =
+        here.kind == TokenKind::name && cursor_.text(here) != cursor_.text(here.span);
+    const bool is_product = before.kind == TokenKind::number ||
+                            here.kind == TokenKind::open_round ||
+                            (is_bar && before.kind != TokenKind::keyword_not);
+    if (before.kind == TokenKind::name && here.kind == TokenKind::name) {
+        const std::string_view function = cursor_.text(before);
+        const bool is_plain = !is_bar && !function_named(cursor_.text(here));
+        if (function_named(function)) {
+            return fmt::format("write {}({})", function,
+                               is_plain ? shortened(cursor_.text(here)) : "…");
+        }
+        const std::string_view advice = advice_about(function, WordContext::function);
+        if (!advice.empty()) return std::string(advice);
+    }
+    if (cursor_.at_name("in") || cursor_.at_name("step")) {
+        return "a range stands after the value of a parameter: p: 1 in 0 .. 2 step 0.1";
+    }
+    if (is_product && here.kind != TokenKind::keyword_not && both.end - both.begin <= 40) {
+        const bool is_as_written = cursor_.text(before) == cursor_.text(before.span);
+        if (here.kind == TokenKind::open_round || !is_as_written || is_bar) {
+            return "write '*' to multiply";
+        }
+        return fmt::format("write '{} * {}' to multiply", cursor_.text(before), cursor_.text(here));
+    }
+    return "";
+}
+
 /// Reports two operands without an operator between them.
 ExpressionParser::Progress ExpressionParser::missing_operator(bool on_new_line) {
     const Token before = cursor_.previous();
@@ -337,52 +370,25 @@ ExpressionParser::Progress ExpressionParser::missing_operator(bool on_new_line) 
         push_binary(Function::multiply, before);
         return Progress::going_on;
     }
-    const bool is_choice = (here.kind == TokenKind::name && cursor_.text(here) == "if") ||
-                           (before.kind == TokenKind::name && cursor_.text(before) == "if");
-    if (is_choice) {
+    const auto is_if = [&](const Token& token) {
+        return token.kind == TokenKind::name && cursor_.text(token) == "if";
+    };
+    const auto fail_here = [&](std::string hint) {
         return fail(here.span, "an operator is missing before " + cursor_.describe(here),
-                    "a choice is written if(condition, a, b)");
-    }
+                    std::move(hint));
+    };
+    if (is_if(here) || is_if(before)) return fail_here("a choice is written if(condition, a, b)");
     if (before.kind == TokenKind::number && here.kind == TokenKind::number) {
-        return fail(here.span, "an operator is missing before " + cursor_.describe(here),
-                    fmt::format("write '{0} * {1}' to multiply, '{0}, {1}' for two values",
-                                cursor_.text(before), cursor_.text(here)));
+        return fail_here(fmt::format("write '{0} * {1}' to multiply, '{0}, {1}' for two values",
+                                     cursor_.text(before), cursor_.text(here)));
     }
     if (before.kind == TokenKind::number && here.kind == TokenKind::name) {
         const std::string_view word = cursor_.text(here);
         std::string advice = word.size() > 1 ? advice_about_unit(cursor_.text(before), word) : "";
         if (word == "to") advice = "a range is written 0 .. 1";
-        if (!advice.empty()) {
-            return fail(here.span, "an operator is missing before " + cursor_.describe(here),
-                        std::move(advice));
-        }
+        if (!advice.empty()) return fail_here(std::move(advice));
     }
-    std::string hint;
-    const Span both = join(before.span, here.span);
-    const bool is_bar =
-        here.kind == TokenKind::name && cursor_.text(here) != cursor_.text(here.span);
-    const bool is_product = before.kind == TokenKind::number ||
-                            here.kind == TokenKind::open_round ||
-                            (is_bar && before.kind != TokenKind::keyword_not);
-    const bool is_word_of_range = cursor_.at_name("in") || cursor_.at_name("step");
-    if (before.kind == TokenKind::name && here.kind == TokenKind::name &&
-        function_named(cursor_.text(before))) {
-        const bool is_plain = !is_bar && !function_named(cursor_.text(here));
-        hint = fmt::format("write {}({})", cursor_.text(before),
-                           is_plain ? shortened(cursor_.text(here)) : "…");
-    } else if (before.kind == TokenKind::name && here.kind == TokenKind::name &&
-               !advice_about(cursor_.text(before), WordContext::function).empty()) {
-        hint = advice_about(cursor_.text(before), WordContext::function);
-    } else if (is_word_of_range) {
-        hint = "a range stands after the value of a parameter: p: 1 in 0 .. 2 step 0.1";
-    } else if (is_product && here.kind != TokenKind::keyword_not && both.end - both.begin <= 40) {
-        hint = fmt::format("write '{} * {}' to multiply", cursor_.text(before), cursor_.text(here));
-        const bool is_as_written = cursor_.text(before) == cursor_.text(before.span);
-        if (here.kind == TokenKind::open_round || !is_as_written || is_bar) {
-            hint = "write '*' to multiply";
-        }
-    }
-    return fail(here.span, "an operator is missing before " + cursor_.describe(here), hint);
+    return fail_here(hint_of_missing_operator());
 }
 
 /// Skips the statement after an error that the lexer has reported.

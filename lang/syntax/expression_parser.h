@@ -77,6 +77,7 @@ private:
     Progress read_component();
     void push_component(int axis, const ast::Word& name);
     Progress unexpected_operator(bool on_new_line);
+    std::string hint_of_missing_operator() const;
     Progress missing_operator(bool on_new_line);
     bool begins_applied();
     Progress unclosed();

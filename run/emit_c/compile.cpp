@@ -134,11 +134,10 @@ Result<Scheme> fixed_scheme(const Program& program, std::uint32_t k,
                          : fmt::format("--set {}.speed=… is that length", stage.name));
     }
     if (is_stabilised(stage.time.solver) && !stages) {
-        return failure(
-            fmt::format("stage '{}' is solved by {}, which chooses its stages as it runs, "
-                        "but a compiled step has a fixed number of them",
-                        stage.name, name),
-            "--stages N says how many: an odd number");
+        return failure(fmt::format("stage '{}' is solved by {}, which chooses the number of its "
+                                   "stages as it runs, but a compiled step has a fixed number",
+                                   stage.name, name),
+                       "--stages N says how many: an odd number");
     }
     if (stages && !is_stabilised(stage.time.solver)) {
         return failure(

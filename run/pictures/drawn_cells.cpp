@@ -212,6 +212,76 @@ Result<std::shared_ptr<const FileShape>> picture_file(Script& script) {
     return failure("the shape of the picture cannot be read");
 }
 
+namespace {
+
+/// Takes the shape that the picture names, or the file that was read for it.
+void take_shape(Script& script, std::shared_ptr<const FileShape> file, DrawnCells& drawn) {
+    PictureShape shape = picture_shape(script.tree, script.sources);
+    drawn.detail = shape.detail;
+    drawn.file = std::move(file);
+    if (!shape.path.empty() && !drawn.file) {
+        auto made = read_shape(script, shape.path);
+        if (made) drawn.file = std::make_shared<const FileShape>(*std::move(made));
+    }
+    drawn.form = shape.form ? *std::move(shape.form) : library_shape(usual_shape);
+}
+
+/// The numbers of the cells, by Measure and then by quantity of the shape.
+struct MeasuredCells {
+    std::vector<std::vector<double>> measures;
+    std::vector<QuantityValues> quantities;
+
+    double operator()(Measure::Kind which, std::size_t cell, double otherwise) const {
+        return measures[which].empty() ? otherwise : measures[which][cell];
+    }
+};
+
+MeasuredCells measured_cells(Script& script, const Simulation& simulation, std::uint32_t stage,
+                             const ShapeForm& form) {
+    std::vector<std::string> names(measure_names.begin(), measure_names.end());
+    std::vector<ItemId> quantities;
+    for (const ItemId item : form.quantities.ids()) {
+        if (item.index() < ShapeForm::known_count) continue;
+        quantities.push_back(item);
+        names.push_back(form.quantities[item].name);
+    }
+    MeasuredCells measured{numbers_of(script, simulation, stage, names), {}};
+    for (std::size_t k = 0; k < quantities.size(); ++k) {
+        std::vector<double>& of_cells = measured.measures[measure_names.size() + k];
+        if (!of_cells.empty()) measured.quantities.push_back({quantities[k], std::move(of_cells)});
+    }
+    return measured;
+}
+
+/// Where and how large a cell is drawn; nothing if it has no size. `model` is null for other shapes
+/// than files.
+std::optional<Placement> placement_of(const PlacedFrames& frames, std::size_t k,
+                                      const MeasuredCells& measure, const FileShape* model) {
+    const double wide = measure(Measure::width, k, 2 * frames.radii[k]);
+    const double high =
+        measure(Measure::height, k, model != nullptr ? wide * model->height : frames.radii[k]);
+    const double length =
+        measure(Measure::length, k, model != nullptr ? wide * model->length : wide);
+    for (const double size : {wide / 2, high, length / 2}) {
+        if (!(size > 0) || !std::isfinite(size)) return std::nullopt;
+    }
+    Placement placement;
+    placement.scale = {wide / 2, high, length / 2};
+    placement.place = frames.places[k];
+    placement.turn = frames.turns[k];
+    const double angle = measure(Measure::tilt, k, 0);
+    if (std::isfinite(angle)) placement.turn = placement.turn * leaning(angle);
+    return placement;
+}
+
+Vector3d extent_in_longest_sides(const Grid& grid) {
+    const auto longest = static_cast<double>(grid.longest_side());
+    return {static_cast<double>(grid.width) / longest, static_cast<double>(grid.height) / longest,
+            grid.depth > 1 ? static_cast<double>(grid.depth) / longest : 0};
+}
+
+}  // namespace
+
 DrawnCells drawn_cells(Script& script, const Simulation& simulation, std::uint32_t stage,
                        std::shared_ptr<const FileShape> file) {
     const StageState& state = simulation.state(stage);
@@ -219,70 +289,30 @@ DrawnCells drawn_cells(Script& script, const Simulation& simulation, std::uint32
     const Tissue& tissue = *state.tissue;
     const PlacedFrames frames = frames_of(simulation, stage);
     DrawnCells placed;
-    PictureShape shape = picture_shape(script.tree, script.sources);
-    placed.detail = shape.detail;
-    placed.file = std::move(file);
-    if (!shape.path.empty() && !placed.file) {
-        auto made = read_shape(script, shape.path);
-        if (made) placed.file = std::make_shared<const FileShape>(*std::move(made));
-    }
-    placed.form = shape.form ? *std::move(shape.form) : library_shape(usual_shape);
-    std::vector<std::string> names(measure_names.begin(), measure_names.end());
-    std::vector<ItemId> quantities;
-    for (const ItemId item : placed.form.quantities.ids()) {
-        if (item.index() < ShapeForm::known_count) continue;
-        quantities.push_back(item);
-        names.push_back(placed.form.quantities[item].name);
-    }
-    std::vector<std::vector<double>> numbers = numbers_of(script, simulation, stage, names);
-    const auto measure = [&](Measure::Kind which, std::size_t k, double otherwise) {
-        return numbers[which].empty() ? otherwise : numbers[which][k];
-    };
-    std::vector<QuantityValues> values;
-    for (std::size_t k = 0; k < quantities.size(); ++k) {
-        std::vector<double>& of_cells = numbers[measure_names.size() + k];
-        if (!of_cells.empty()) values.push_back({quantities[k], std::move(of_cells)});
-    }
-    CellShapes shapes = shapes_of(placed.form, values, tissue.count());
+    take_shape(script, std::move(file), placed);
+    const MeasuredCells measured = measured_cells(script, simulation, stage, placed.form);
+    CellShapes shapes = shapes_of(placed.form, measured.quantities, tissue.count());
     std::size_t faulty = 0;
     placed.count = tissue.count();
-    const Grid& grid = simulation.domain().grid;
-    const auto longest = static_cast<double>(grid.longest_side());
-    placed.extent = {static_cast<double>(grid.width) / longest,
-                     static_cast<double>(grid.height) / longest,
-                     grid.depth > 1 ? static_cast<double>(grid.depth) / longest : 0};
+    placed.extent = extent_in_longest_sides(simulation.domain().grid);
     placed.body = body_under_cells(simulation.state(stage));
     take_skin(script, simulation, stage, placed);
     if (placed.body && placed.body_colours.empty()) {
         placed.body_colours.assign(placed.body->points.size(), placed.skin);
     }
     for (std::size_t k = 0; k < tissue.count(); ++k) {
-        Placement placement;
-        const double wide = measure(Measure::width, k, 2 * frames.radii[k]);
-        const FileShape* const model = placed.file.get();
-        const double high =
-            measure(Measure::height, k, model ? wide * model->height : frames.radii[k]);
-        placement.scale = {wide / 2, high,
-                           measure(Measure::length, k, model ? wide * model->length : wide) / 2};
-        placement.place = frames.places[k];
-        const auto is_size = [](double size) { return size > 0 && std::isfinite(size); };
-        if (!is_size(placement.scale.x) || !is_size(placement.scale.y) ||
-            !is_size(placement.scale.z)) {
-            continue;
-        }
-        placement.turn = frames.turns[k];
-        const double angle = measure(Measure::tilt, k, 0);
-        if (std::isfinite(angle)) placement.turn = placement.turn * leaning(angle);
+        std::optional<Placement> placement = placement_of(frames, k, measured, placed.file.get());
+        if (!placement) continue;
         const std::uint32_t of_cell = shapes.shared.of_cells[k];
         if (of_cell == SharedShapes::none || !shapes.faults[of_cell].empty()) {
             if (faulty++ == 0) {
-                placed.fault = fault_message(placed.form, shapes, values, k,
+                placed.fault = fault_message(placed.form, shapes, measured.quantities, k,
                                              tissue.numbers()[tissue.by_number()[k]]);
             }
             continue;
         }
-        placement.mesh = of_cell;
-        placed.placements.push_back(placement);
+        placement->mesh = of_cell;
+        placed.placements.push_back(*placement);
         placed.cells.push_back(k);
     }
     if (faulty > 0) {

@@ -151,7 +151,7 @@ void FunctionTableMaker::check_body(std::uint32_t index) {
         } else if (std::holds_alternative<ast::Garbage>(part.node)) {
             function.has_error = true;
         } else if (std::holds_alternative<ast::Indexed>(part.node)) {
-            error(function, part.span, fmt::format("a {} cannot read the member of a family", kind),
+            error(function, part.span, fmt::format("a {} cannot read a member of a family", kind),
                   is_constant ? what_constants_read : "give it the member as an argument");
         } else if (std::holds_alternative<ast::Bracketed>(part.node) ||
                    std::holds_alternative<ast::Qualified>(part.node) ||

@@ -396,8 +396,8 @@ TEST_F(CompileTest, StepsOfChosenLengthAreRefused) {
     EXPECT_EQ(message("speed: auto; duration: 10"),
               "stage 'only' chooses its steps as it runs, but compiled steps are of one length");
     EXPECT_EQ(message("solver: rkl1; duration: 10"),
-              "stage 'only' is solved by rkl1, which chooses its stages as it runs, but a compiled "
-              "step has a number of them");
+              "stage 'only' is solved by rkl1, which chooses the number of its stages as it "
+              "runs, but a compiled step has a fixed number");
     EXPECT_EQ(message("", {.stages = 5}),
               "--stages: euler has no stages to choose; rkl1 and rkl2 have");
 }

@@ -112,7 +112,7 @@ TEST(PageMessage, SaysWhatIsWrong) {
           "{\"do\": \"\xff\"}", "\xef\xbb\xbfnull"}) {
         EXPECT_EQ(fault(text), no_object) << text;
     }
-    const std::string not_flat = "the message is not one object of a few texts and numbers";
+    const std::string not_flat = "the message must be a flat JSON object of at most 16 values";
     EXPECT_EQ(fault(R"({"do": {"do": "run"}})"), not_flat);
     EXPECT_EQ(fault(std::string(100000, '[')), not_flat);
     EXPECT_EQ(fault(std::string(100000, ',')), not_flat);
