@@ -8,6 +8,7 @@
 #include "app/progress_display.h"
 #include "app/prompt_text.h"
 #include "core/file.h"
+#include "core/file_format.h"
 #include "run/commands/run.h"
 #include "run/pictures/measured.h"
 #include "run/pictures/painter.h"
@@ -18,8 +19,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <csignal>
 #include <limits>
+#include <string_view>
 
 namespace cascade {
 
@@ -27,6 +30,13 @@ namespace {
 
 /// Steps after which a growing picture may be drawn again: whole passes through memory.
 constexpr std::int64_t steps_between_looks = 64;
+
+/// Endings of formats that Cascade does not write, but newcomers may ask for.
+bool is_often_a_file(std::string_view ending) {
+    static constexpr std::array<std::string_view, 8> endings = {".jpg", ".jpeg", ".tif", ".tiff",
+                                                                ".bmp", ".npy",  ".csv", ".txt"};
+    return std::ranges::find(endings, ending) != endings.end();
+}
 
 /// A run with a progress display that Ctrl-C stops.
 struct WatchedRun {
@@ -283,14 +293,19 @@ void PromptSession::list_stages(const std::string&) {
 
 void PromptSession::save(const std::string& path) {
     if (!begin_run()) return;
-    if (std::filesystem::path(path).extension() == ".session") {
+    const std::string ending = lower_ending(path);
+    if (ending == ".session") {
         if (auto done = write_file(path, print_session_log(run_->log())); !done) {
             return fail(done.error());
         }
         return console_.note(fmt::format("wrote {}", path));
     }
-    if (std::filesystem::path(path).extension() == ".cascade") return save_text(path);
-    if (std::filesystem::path(path).extension() == ".png") return save_picture(path);
+    if (ending == ".cascade") return save_text(path);
+    if (ending == ".png") return save_picture(path);
+    if (find_format(path) != nullptr || is_often_a_file(ending)) {
+        return fail({fmt::format("':save' writes no file that ends with {}", ending),
+                     "it writes NAME.png, NAME.cascade, NAME.session, or a folder of fields"});
+    }
     const auto written = save_run(path, run_->script(), run_->simulation());
     if (!written) return fail(written.error());
     console_.note(fmt::format("wrote {} files in {}", written->size(), path));

@@ -123,6 +123,14 @@ grep -q '^stage s: turing_spots { iterations: 10 }$' mine.cascade || fail "the s
 feed_wrong ':load mine.cascade' ':set ka=1/30' ':save other.cascade'
 says err "that ':set' changed are not in the text"
 [ -e other.cascade ] && fail "another script was saved than was run"
+# The ending decides, in any case of its letters, and no folder gets the name of a picture.
+feed 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 10 }' ':save large.PNG'
+[ -f large.PNG ] || fail "NAME.PNG is not a picture"
+for name in photo.JPG anim.gif table.csv; do
+    feed_wrong 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 10 }' ":save $name"
+    says err "':save' writes no file that ends with"
+    [ -e "$name" ] && fail "a folder is called $name"
+done
 
 # What was painted is in a saved run, too.
 feed 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 100 }' ':run 20' ':paint beta = 13' \

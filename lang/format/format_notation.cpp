@@ -27,6 +27,7 @@ public:
         is_operator_.assign(words_.size(), false);
         for (std::size_t k = 0; k < words_.size(); ++k) respell(k);
         for (std::size_t k = 0; k < words_.size(); ++k) write_operator(k);
+        write_bare_laplacians();
         for (std::size_t k = 0; k < words_.size(); ++k) write_power(k);
         leave_out_products();
     }
@@ -146,6 +147,24 @@ private:
         }
         const bool is_plain = is_plain_operand(open + 1, close) && is_on_one_line(open, close);
         if (is_plain) words_[open].text = words_[close].text = {};
+    }
+
+    /// (1 + lap)^2 u becomes (1 + ∇²)² u, unless the script gives the name lap a value.
+    void write_bare_laplacians() {
+        const auto is_bare = [&](std::size_t k) {
+            return kind(k) == TokenKind::name && words_[k].spelling == "lap" &&
+                   kind(k + 1) != TokenKind::open_round;
+        };
+        const auto ends_sum = [&](std::size_t k) {
+            return kind(k) == TokenKind::close_round || kind(k) == TokenKind::plus ||
+                   kind(k) == TokenKind::minus;
+        };
+        for (std::size_t k = 0; k < words_.size(); ++k) {
+            if (is_bare(k) && !ends_sum(k + 1)) return;
+        }
+        for (std::size_t k = 0; k < words_.size(); ++k) {
+            if (is_bare(k)) words_[k].text = "∇²";
+        }
     }
 
     /// u^2 becomes u², u^-1 becomes u⁻¹.

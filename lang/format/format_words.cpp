@@ -98,7 +98,8 @@ void find_roles(std::vector<FormatWord>& words) {
         if (waiting != nullptr) waiting->is_spaced = waiting->is_spaced || is_apart(word);
         waiting = nullptr;
         if (word.is_comment()) continue;
-        const bool follows_operand = before != nullptr && ends_operand(before->kind);
+        const bool follows_operand =
+            before != nullptr && ends_operand(before->kind) && !before->is_infix;
         word.is_sign = word.kind == TokenKind::minus && !follows_operand;
         word.is_infix = follows_operand && word.kind == TokenKind::name &&
                         is_word_between_operands(word.spelling);

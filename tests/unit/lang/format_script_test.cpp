@@ -140,6 +140,7 @@ TEST(FormatScript, KnowsFamiliesRangesAndFunctions) {
     EXPECT_EQ(statement("i: 1..n"), "i: 1..n");
     EXPECT_EQ(statement("i: 1 ..n"), "i: 1 .. n");
     EXPECT_EQ(statement("a: 1 in 0  .. (2)step 0.1"), "a: 1 in 0 .. (2) step 0.1");
+    EXPECT_EQ(statement("a: 1 in - 2 .. - 1"), "a: 1 in -2 .. -1");
     EXPECT_EQ(statement("u[ i ]'=sum( u[i+1] over i )"), "u[i]' = sum(u[i + 1] over i)");
     EXPECT_EQ(statement("a: [ u[ i ] ]+[b]"), "a: [u[i]] + [b]");
     EXPECT_EQ(statement("a: step (x, 1)*step(y,2)"), "a: step(x, 1)*step(y, 2)");

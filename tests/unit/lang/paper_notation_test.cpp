@@ -130,6 +130,9 @@ TEST(PaperNotation, IsWrittenAndReadBack) {
         {"diff_alpha2: pi*alphabet", "diff_α2: π·alphabet"},
         {"a = (not b and u != 1) * (v)", "a = (not b and u ≠ 1) · (v)"},
         {"phi >= -1", "φ ≥ −1"},
+        {"u' = r*u - (1 + lap)^2 * u", "∂u/∂t = r·u − (1 + ∇²)² u"},
+        {"a = (k*lap - 1)*u", "a = (k·∇² − 1)·u"},
+        {"lap: 2 + b\n  u' = (1 + lap)*u", "lap: 2 + b\n  ∂u/∂t = (1 + lap)·u"},
     };
     for (const auto& [ascii, papers] : cases) {
         EXPECT_EQ(formatted(ascii, ScriptNotation::papers), papers);
