@@ -28,6 +28,15 @@ public:
         if (!made) return tl::unexpected(made.error());
         std::vector<std::string> lines = describe_model(*made);
         if (auto done = change(made->mesh, lines); !done) return in_model(model, done.error());
+        if (options_.lists_points && !cancel_) {
+            const auto points = enough_memory_for(
+                [&]() -> Result<std::vector<std::string>> {
+                    return describe_points(made->mesh, cancel_);
+                },
+                "there is not enough memory to find its points");
+            if (!points) return in_model(model, points.error());
+            lines.insert(lines.end(), points->begin(), points->end());
+        }
         if (cells_) {
             auto about = describe_cells(made->mesh, *cells_, team_, cancel_);
             if (!about) return in_model(model, about.error());

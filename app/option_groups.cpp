@@ -69,6 +69,9 @@ void add_mesh(CLI::App& app, Options& options) {
               [&](auto count) { options.reshaping.simplify = static_cast<std::size_t>(count); });
     app.add_flag("--unwrap", options.mesh_files.unwrap,
                  "Make texture coordinates: charts of little distortion,\npacked into one texture");
+    app.add_flag("--points", options.lists_points,
+                 "Print positions for scripts: extremes along the axes, and tips\n"
+                 "such as the ends of legs and ears");
     add_value(app, "-o,--output", "FILE",
               "The repaired model: " + endings_of(FormatKind::model, "or"),
               path_of(FormatKind::model), [&](auto path) { options.mesh_output = path; });

@@ -77,6 +77,7 @@ struct Options {
     std::optional<CellOptions> cells;                      ///< `mesh --cells`.
     std::optional<std::uint32_t> cell_seed;                ///< `mesh --seed`.
     Reshaping reshaping;                                   ///< `mesh --subdivide`, `--simplify`.
+    bool lists_points = false;                             ///< `mesh --points`.
     ModelFileOptions mesh_files;                           ///< `mesh --unwrap`.
     std::filesystem::path mesh_output;                     ///< `mesh -o`.
     AnalyzeRequest analyze;

@@ -80,6 +80,7 @@ void tell_written(const RunReport& report, const RunRequest& request, Console& c
                                   counted(static_cast<std::int64_t>(frames), "picture"),
                                   request.frames.string()));
     }
+    for (const std::string& note : report.notes) console.note(note);
 }
 
 int tell(const RunReport& report, const Options& options, int signal, bool limit_reached,

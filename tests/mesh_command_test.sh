@@ -26,6 +26,15 @@ says out "closed like a sphere, Euler characteristic 2"
 says out "size 1 × 1 × 1, area 6"
 [ "$(wc -l < out)" = 4 ] || fail "a cube has nothing else to say"
 
+# Points that a script can use: the extremes of the cube, and its corners.
+run 0 mesh cube.obj --points
+says out "left     0.0000, "
+says out "tip 1 "
+tip=$(sed -n 's/^ *tip 1 *//p' out)
+printf 'domain { mesh: "cube.obj"; cells: 400 }\nsystem s { u: distance(%s); u%s = 0 * u }\nstage a: s { iterations: 1 }\n' \
+    "$tip" "'" > at_tip.cascade
+"$CASCADE" run -q at_tip.cascade -o at_tip.png --save at_tip 2>err || fail "a printed point is none of the surface: $(cat err)"
+
 # Cells: their areas are the cube's, and a seed is a seed.
 run 0 mesh cube.obj --cells 600
 says out "600 cells of mean area 0.01,"

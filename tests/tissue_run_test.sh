@@ -26,7 +26,10 @@ for out in all.glb all.obj all.cells.vtp; do
     "$CASCADE" run -q cover.cascade -o "$out" || fail "$out was not written"
     [ -s "$out" ] || fail "$out is empty"
 done
-"$CASCADE" run -q cover.cascade -o merged.glb --merge || fail "--merge"
+"$CASCADE" run cover.cascade -o noted.glb >out 2>err || fail "noted.glb was not written"
+grep -q 'copies by EXT_mesh_gpu_instancing; programs that lack it' err || fail "nobody says who needs --merge"
+"$CASCADE" run cover.cascade -o merged.glb --merge >out 2>err || fail "--merge"
+grep -q EXT_mesh_gpu_instancing err && fail "merged copies are said to be instances"
 [ "$(stat -c %s merged.glb)" -gt "$(stat -c %s all.glb)" ] || fail "--merge merges nothing"
 "$CASCADE" run -q cover.cascade --frames frames -o last.png --steps 30 || fail "--frames"
 ls frames/*.png >/dev/null 2>&1 || fail "there are no frames"

@@ -67,6 +67,7 @@ struct RunReport {
     std::string where;                           ///< "stage 'small', step 312 of 7000".
     bool has_begun = false;                      ///< True if there is something to write.
     std::vector<std::filesystem::path> written;  ///< In order.
+    std::vector<std::string> notes;              ///< On these files, a sentence each.
     std::int64_t steps = 0;                      ///< Steps taken by this run.
     double seconds = 0;                          ///< Time of stepping.
     std::optional<measure::Features> features;   ///< If they were requested.

@@ -140,6 +140,7 @@ Result<void> RunResults::write_each(
             continue;
         }
         report.written.insert(report.written.end(), written->paths.begin(), written->paths.end());
+        report.notes.insert(report.notes.end(), written->notes.begin(), written->notes.end());
         warn_of(written->warnings);
     }
     if (first) return tl::unexpected(*first);

@@ -8,6 +8,7 @@
 #include "mesh/make_mesh.h"
 #include "mesh/model_file.h"
 #include "run/domain/free_memory.h"
+#include "surface/tips.h"
 
 #include <fmt/format.h>
 
@@ -65,6 +66,30 @@ std::vector<std::string> describe_model(const MadeMesh& made) {
     if (!made.mesh.texture.empty()) lines.push_back(describe_texture(made.mesh));
     if (!kept.empty()) lines.push_back("attributes " + kept);
     for (const std::string& repair : made.repairs) lines.push_back("repaired: " + repair);
+    return lines;
+}
+
+std::vector<std::string> describe_points(const SurfaceMesh& mesh, const std::atomic<bool>& cancel) {
+    const SurfaceMesh::Box box = mesh.box();
+    const Vector3d size = box.high - box.low;
+    const double longest = std::max({size.x, size.y, size.z});
+    std::vector<std::string> lines{"points (x, y, z of distance, keys and along):"};
+    const auto add = [&](const std::string& name, Vector3d position) {
+        const Vector3d at = (position - box.low) * (1 / longest);
+        lines.push_back(fmt::format("  {:<8} {:.4f}, {:.4f}, {:.4f}", name, at.x, at.y, at.z));
+    };
+    const auto extreme = [&](const char* name, double Vector3d::*axis, bool is_most) {
+        const auto [least, most] = std::ranges::minmax_element(mesh.points, {}, axis);
+        add(name, is_most ? *most : *least);
+    };
+    extreme("left", &Vector3d::x, false);
+    extreme("right", &Vector3d::x, true);
+    extreme("bottom", &Vector3d::y, false);
+    extreme("top", &Vector3d::y, true);
+    extreme("back", &Vector3d::z, false);
+    extreme("front", &Vector3d::z, true);
+    int number = 0;
+    for (const Vector3d& tip : tips_of(mesh, cancel)) add(fmt::format("tip {}", ++number), tip);
     return lines;
 }
 

@@ -27,6 +27,11 @@ std::vector<std::string> describe_model(const MadeMesh& made);
 /// A line about the texture coordinates of a mesh that has some. Throws std::bad_alloc.
 std::string describe_texture(const SurfaceMesh& mesh);
 
+/// Lines with positions on the surface that have names: its extremes along the axes and its tips
+/// (surface/tips.h), in the coordinates of scripts (spec/models.md). Throws std::bad_alloc.
+/// Meaningless if `cancel` became true.
+std::vector<std::string> describe_points(const SurfaceMesh& mesh, const std::atomic<bool>& cancel);
+
 /// Lines about cells of a model. Fails if they cannot be made (surface/make_cells.h) and on more
 /// cells than fit into the free memory. Throws std::bad_alloc. Meaningless if `cancel` became true.
 Result<std::vector<std::string>> describe_cells(const SurfaceMesh& mesh, const CellOptions& options,

@@ -1,6 +1,7 @@
 // Scripts use upright models of length 1. Files use the coordinates of the model's file.
 #include "run/pictures/cell_files.h"
 
+#include "core/counted.h"
 #include "core/file_format.h"
 #include "core/run_control.h"
 #include "export/bake.h"
@@ -11,8 +12,11 @@
 #include "run/pictures/model_picture.h"
 #include "tissue/tissue.h"
 
+#include <fmt/format.h>
+
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -92,17 +96,31 @@ private:
     std::optional<CellFilter> filter_;
 };
 
-Result<void> write_things(const std::filesystem::path& path, const GrownCells& cells,
-                          const MeshTexture& texture, bool is_merged) {
+/// Says which programs cannot read the copies of a file.
+std::vector<std::string> notes_on(const std::filesystem::path& path, std::size_t copies,
+                                  bool is_merged) {
+    if (is_merged || copies == 0 || !is_of_format(path, FileFormat::glb)) return {};
+    return {fmt::format(
+        "{} has {} by EXT_mesh_gpu_instancing; programs that lack it, such as "
+        "Blender 3.4, need --merge",
+        path.filename().string(), counted(static_cast<std::int64_t>(copies), "copy", "copies"))};
+}
+
+Result<WrittenFiles> write_things(const std::filesystem::path& path, const GrownCells& cells,
+                                  const MeshTexture& texture, bool is_merged) {
     const Instances copies = things_in_file(cells);
+    WrittenFiles written{{path}, {}, notes_on(path, copies.placements.size(), is_merged)};
     const DrawnCells& drawn = cells.drawn;
     const auto model = cells.simulation.domain().shared_model();
-    if (!model) {
-        return write_instanced(path, {drawn.body.get(), drawn.body_colours, copies}, is_merged);
-    }
+    const auto write = [&](const InstancedModel& all) -> Result<WrittenFiles> {
+        if (auto done = write_instanced(path, all, is_merged); !done)
+            return tl::unexpected(done.error());
+        return written;
+    };
+    if (!model) return write({drawn.body.get(), drawn.body_colours, copies});
     Skin skin(*model, texture, drawn);
     const std::vector<Colour> colours = skin.colour_points();
-    return write_instanced(path, {&skin.mesh, colours, copies}, is_merged);
+    return write({&skin.mesh, colours, copies});
 }
 
 Result<WrittenFiles> write_maps(const std::filesystem::path& path, const GrownCells& cells,
@@ -153,10 +171,9 @@ Result<WrittenFiles> write_cells(const std::filesystem::path& path, const GrownC
     if (has_things && options.is_baked(path)) {
         return write_maps(path, cells, texture, options, texts);
     }
-    auto done =
-        has_things ? write_things(path, cells, texture, options.merge) : write_values(path, cells);
-    if (!done) return tl::unexpected(done.error());
-    return WrittenFiles{{path}, {}};
+    if (has_things) return write_things(path, cells, texture, options.merge);
+    if (auto done = write_values(path, cells); !done) return tl::unexpected(done.error());
+    return WrittenFiles{{path}};
 }
 
 }  // namespace cascade
