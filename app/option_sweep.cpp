@@ -17,9 +17,15 @@ void add_sweep(CLI::App& app, Options& options) {
     app.add_option_function<std::vector<std::string>>(
            "--vary", read_all,
            "A parameter or setting and its values: a range and their\nnumber, feed=0.02..0.06:9, "
-           "or a list, ka=1/400,1/200; may\nbe given again: the first runs across, the second up")
+           "or a list, ka=1/400,1/200; with\n:log at equal ratios, 0.001..1:7:log; may be given again:\nthe first "
+           "runs across, the second up")
         ->allow_extra_args(false)
         ->type_name("NAME=VALUES")
+        ->group(varied);
+    add_value(
+        app, "--sets", "FILE.csv",
+        "A table of parameter sets: names in its first line, and a\nrow of numbers for each run",
+        any_text, [&](auto path) { options.sweep_sets = path; })
         ->group(varied);
     const std::string files = "Files";
     add_value(app, "-o,--output", "FOLDER",

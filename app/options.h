@@ -62,16 +62,17 @@ struct Options {
     std::optional<TypedScript> typed;  ///< Stands for the script "-".
     Overrides overrides;
     PictureChanges picture;
-    RunRequest run;                  ///< Its `picture` keeps the defaults.
-    SweepRequest sweep;              ///< Its `picture`, `simulation` and `pace` keep the defaults.
-    double limit_seconds = 0;        ///< `--limit-time`; 0 for none.
-    std::string dump;                ///< The kind of dump; empty to run.
-    bool timing = false;             ///< Print how the time was spent.
-    bool quiet = false;              ///< Neither progress nor remarks.
-    std::vector<std::string> words;  ///< What `systems` searches for; the system of `new`.
-    std::filesystem::path new_script;                      ///< `new -o`
-    std::filesystem::path sheet;                           ///< `palettes -o`
-    bool check_only = false;                               ///< `fmt --check`
+    RunRequest run;      ///< Its `picture` keeps the defaults.
+    SweepRequest sweep;  ///< Its `picture`, `simulation` and `pace` keep the defaults.
+    std::filesystem::path sweep_sets;  ///< `sweep --sets`
+    double limit_seconds = 0;          ///< `--limit-time`; 0 for none.
+    std::string dump;                  ///< The kind of dump; empty to run.
+    bool timing = false;               ///< Print how the time was spent.
+    bool quiet = false;                ///< Neither progress nor remarks.
+    std::vector<std::string> words;    ///< What `systems` searches for; the system of `new`.
+    std::filesystem::path new_script;  ///< `new -o`
+    std::filesystem::path sheet;       ///< `palettes -o`
+    bool check_only = false;           ///< `fmt --check`
     ScriptNotation notation = ScriptNotation::as_written;  ///< `fmt --unicode`, `--ascii`
     std::vector<std::string> models;                       ///< Arguments of `mesh`.
     std::optional<CellOptions> cells;                      ///< `mesh --cells`.

@@ -55,7 +55,7 @@ int tell(const SweepReport& report, const Options& options, int signal, bool lim
 
 /// What to vary: the options, else what the sheet of an earlier sweep that is given varied.
 Result<std::vector<Variation>> variations(const Options& options, const LoadedFile& file) {
-    if (!options.sweep.varied.empty()) return options.sweep.varied;
+    if (!options.sweep.varied.empty() || !options.sweep_sets.empty()) return options.sweep.varied;
     std::vector<Variation> varied;
     for (const std::string& text : file.varied) {
         auto variation = parse_variation(text);
@@ -63,7 +63,8 @@ Result<std::vector<Variation>> variations(const Options& options, const LoadedFi
         varied.push_back(std::move(*variation));
     }
     if (!varied.empty()) return varied;
-    return failure("nothing is varied", "say what with --vary, as in --vary feed=0.02..0.06:9");
+    return failure("nothing is varied",
+                   "say what with --vary, as in --vary feed=0.02..0.06:9, or with --sets FILE.csv");
 }
 
 }  // namespace
@@ -76,12 +77,21 @@ int sweep_command(const Options& options, Console& console) {
     if (!script.program) return exit_status::wrong_script;
 
     SweepRequest request = options.sweep;
+    if (!options.sweep_sets.empty()) {
+        auto sets = read_parameter_sets(options.sweep_sets);
+        if (!sets) {
+            console.fail(sets.error());
+            return exit_status::wrong_script;
+        }
+        request.sets = *std::move(sets);
+    }
     auto varied = variations(options, *file);
     if (!varied) {
         console.fail(varied.error());
         return exit_status::wrong_use;
     }
     request.varied = std::move(*varied);
+    if (request.sets) request.varied.insert(request.varied.begin(), request.sets->variation);
     request.simulation = options.run.simulation;
     request.pace = options.run.film;
     if (!file->picture_options.empty()) {
@@ -109,7 +119,7 @@ int sweep_command(const Options& options, Console& console) {
         return exit_status::wrong_script;
     }
     console.fail(report.error().failure);
-    return exit_status::failed_run;
+    return report.error().is_in_sets ? exit_status::wrong_script : exit_status::failed_run;
 }
 
 }  // namespace cascade

@@ -111,6 +111,8 @@ Sweeper::Done Sweeper::plan_run(std::size_t number) {
     run.overrides = std::move(*overrides);
     Script script = load(run);
     if (!script.program) {
+        const auto fault = request_.sets ? fault_in(*request_.sets, script, number) : std::nullopt;
+        if (fault) return tl::unexpected(SweepError{*fault, std::nullopt, true});
         return tl::unexpected(
             SweepError{{"a script of the sweep is wrong", ""}, std::move(script)});
     }

@@ -5,6 +5,7 @@
 #include "core/result.h"
 #include "core/run_control.h"
 #include "run/commands/film_request.h"
+#include "run/commands/parameter_sets.h"
 #include "run/commands/sweep_result.h"
 #include "run/commands/variation.h"
 #include "run/script/picture_request.h"
@@ -23,8 +24,10 @@ namespace cascade {
 
 struct SweepRequest {
     std::vector<Variation> varied;  ///< The first one runs across the sheet, the second one up.
-    std::filesystem::path folder;   ///< Of all outputs; if empty, SCRIPT_sweep here.
-    std::filesystem::path film;     ///< Of the ends of all runs; empty for none.
+    /// Of a file; they are the first one of `varied`.
+    std::optional<ParameterSets> sets;
+    std::filesystem::path folder;  ///< Of all outputs; if empty, SCRIPT_sweep here.
+    std::filesystem::path film;    ///< Of the ends of all runs; empty for none.
     FilmRequest pace;
     PictureRequest picture;        ///< What to show and measure; its scale is ignored.
     int tile_side = 160;           ///< Larger pictures are averaged down to this, in pixels.
@@ -57,10 +60,12 @@ struct SweepReport {
     std::vector<std::filesystem::path> written;
 };
 
-/// An error of the request, or of a script with its values: then `script` holds the messages.
+/// An error of the request, of a script with its values (then `script` holds the messages), or in
+/// the file of parameter sets.
 struct SweepError {
     Failure failure;
     std::optional<Script> script = {};
+    bool is_in_sets = false;
 };
 
 /// Takes the runs without a result, each on one thread, and writes sheet.png, features.csv, runs/

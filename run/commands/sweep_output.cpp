@@ -61,10 +61,10 @@ MapTile tile_of(const std::optional<SweepResult>& result, ValueRange range, cons
 
 /// "feed = 0.03  kill = 0.06".
 std::string values_as_text(const std::vector<Variation>& varied, std::size_t run) {
-    const std::vector<std::string> values = values_of_run(varied, run);
+    const std::vector<std::string> names = names_of(varied), values = values_of_run(varied, run);
     std::vector<std::string> parts;
-    for (std::size_t k = 0; k < varied.size(); ++k) {
-        parts.push_back(fmt::format("{} = {}", varied[k].name, values[k]));
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        parts.push_back(fmt::format("{} = {}", names[k], values[k]));
     }
     return fmt::format("{}", fmt::join(parts, "  "));
 }
@@ -160,8 +160,7 @@ Result<std::vector<std::filesystem::path>> write_sweep(
 
 std::string sweep_table(const std::vector<std::optional<SweepResult>>& results,
                         const std::vector<Variation>& varied) {
-    std::vector<std::string> row;
-    for (const Variation& variation : varied) row.push_back(variation.name);
+    std::vector<std::string> row = names_of(varied);
     for (const std::string_view name : measure::feature_names()) row.emplace_back(name);
     const bool has_cells =
         std::ranges::any_of(results, [](const auto& result) { return result && result->cells; });

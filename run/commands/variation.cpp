@@ -28,19 +28,13 @@ std::optional<Number> read_all(std::string_view text) {
     return number;
 }
 
-/// "0.02" or "1/400".
-std::optional<double> read_number(std::string_view text) {
-    const std::size_t slash = text.find('/');
-    const auto above = read_all<double>(trimmed(text.substr(0, slash)));
-    if (slash == std::string_view::npos || !above) return above;
-    const auto below = read_all<double>(trimmed(text.substr(slash + 1)));
-    if (!below || *below == 0) return std::nullopt;
-    return *above / *below;
-}
-
 Failure wrong(std::string_view text, const std::string& why) {
     return {fmt::format("'{}' does not say what to vary: {}", text, why),
             "write NAME=LOW..HIGH:COUNT or NAME=VALUE,VALUE, as in feed=0.02..0.06:9"};
+}
+
+bool is_joint(const Variation& variation) {
+    return variation.name.starts_with('(') && variation.name.ends_with(')');
 }
 
 /// For LOW:HIGH:COUNT, the range of other programs; empty for other texts.
@@ -58,13 +52,16 @@ std::optional<Failure> colons_for_dots(std::string_view text, std::string_view n
     return failure;
 }
 
-/// `count` equidistant numbers from low to high, as short texts.
-std::vector<std::string> spread(double low, double high, std::int64_t count) {
+enum class Distances : std::uint8_t { equal, equal_ratios };
+
+/// `count` numbers from low to high, as short texts.
+std::vector<std::string> spread(double low, double high, std::int64_t count, Distances distances) {
     std::vector<std::string> values;
     for (std::int64_t k = 0; k < count; ++k) {
         const double share =
             count == 1 ? 0 : static_cast<double>(k) / static_cast<double>(count - 1);
-        const double value = low + (high - low) * share;
+        const double value = distances == Distances::equal ? low + (high - low) * share
+                                                           : low * std::pow(high / low, share);
         // Rounding must not turn 0 into a tiny number.
         const double least = 1e-12 * std::max(std::abs(low), std::abs(high));
         values.push_back(fmt::format("{:.10g}", std::abs(value) < least ? 0.0 : value));
@@ -88,6 +85,23 @@ std::vector<std::string> split_list(std::string_view text) {
     return values;
 }
 
+/// The parts of "(a, b)".
+std::vector<std::string> parts_of(std::string_view joint) {
+    return split_list(joint.substr(1, joint.size() - 2));
+}
+
+/// Why the values of a list do not fit its name; empty if they do.
+std::string fault_of(const Variation& variation) {
+    if (!is_joint(variation)) return "";
+    const std::size_t count = parts_of(variation.name).size();
+    for (const std::string& value : variation.values) {
+        const bool has_brackets = value.starts_with('(') && value.ends_with(')');
+        const std::size_t parts = has_brackets ? parts_of(value).size() : 0;
+        if (parts != count) return fmt::format("'{}' is not {} values in brackets", value, count);
+    }
+    return "";
+}
+
 /// A value that occurs twice in a list; empty if there is none.
 std::string listed_twice(std::vector<std::string> values) {
     std::sort(values.begin(), values.end());
@@ -97,12 +111,21 @@ std::string listed_twice(std::vector<std::string> values) {
 
 }  // namespace
 
+std::optional<double> read_number(std::string_view text) {
+    const std::size_t slash = text.find('/');
+    const auto above = read_all<double>(trimmed(text.substr(0, slash)));
+    if (slash == std::string_view::npos || !above) return above;
+    const auto below = read_all<double>(trimmed(text.substr(slash + 1)));
+    if (!below || *below == 0) return std::nullopt;
+    return *above / *below;
+}
+
 Result<Variation> parse_variation(std::string_view text) {
     const std::size_t equals = text.find('=');
     if (equals == std::string_view::npos) return tl::unexpected(wrong(text, "there is no '='"));
     Variation variation;
     variation.name = std::string(trimmed(text.substr(0, equals)));
-    const std::string_view values = trimmed(text.substr(equals + 1));
+    std::string_view values = trimmed(text.substr(equals + 1));
     if (variation.name.empty()) return tl::unexpected(wrong(text, "there is no name"));
     const std::size_t dots = values.find("..");
     if (auto failure = colons_for_dots(text, variation.name, values)) {
@@ -120,7 +143,17 @@ Result<Variation> parse_variation(std::string_view text) {
         if (std::any_of(variation.values.begin(), variation.values.end(), is_empty)) {
             return tl::unexpected(wrong(text, "a value is missing"));
         }
+        if (const std::string fault = fault_of(variation); !fault.empty()) {
+            return tl::unexpected(wrong(text, fault));
+        }
         return variation;
+    }
+    if (is_joint(variation)) return tl::unexpected(wrong(text, "a range has one name"));
+    Distances distances = Distances::equal;
+    if (const std::size_t last = values.rfind(':');
+        last != std::string_view::npos && trimmed(values.substr(last + 1)) == "log") {
+        distances = Distances::equal_ratios;
+        values = trimmed(values.substr(0, last));
     }
     const std::size_t colon = values.rfind(':');
     if (colon == std::string_view::npos || colon < dots) {
@@ -135,7 +168,11 @@ Result<Variation> parse_variation(std::string_view text) {
     if (!count || *count < 1 || *count > static_cast<std::int64_t>(most_runs)) {
         return tl::unexpected(wrong(text, fmt::format("a range has 1 to {} values", most_runs)));
     }
-    variation.values = spread(*low, *high, *count);
+    if (distances == Distances::equal_ratios && !(*low * *high > 0)) {
+        return tl::unexpected(
+            wrong(text, "the ends of a range with 'log' have one sign, and none is 0"));
+    }
+    variation.values = spread(*low, *high, *count, distances);
     return variation;
 }
 
@@ -165,14 +202,12 @@ std::string text_of(const Variation& variation) {
 }
 
 Result<std::size_t> count_runs(std::span<const Variation> varied) {
+    if (const std::string twice = listed_twice(names_of(varied)); !twice.empty()) {
+        return failure(fmt::format("'{}' is varied twice", twice),
+                       "list all its values in one --vary");
+    }
     std::size_t runs = 1;
     for (std::size_t k = 0; k < varied.size(); ++k) {
-        for (std::size_t other = 0; other < k; ++other) {
-            if (varied[other].name == varied[k].name) {
-                return failure(fmt::format("'{}' is varied twice", varied[k].name),
-                               "list all its values in one --vary");
-            }
-        }
         if (const std::string twice = listed_twice(varied[k].values); !twice.empty()) {
             return failure(
                 fmt::format("'{}' stands twice in the values of '{}'", twice, varied[k].name));
@@ -186,10 +221,23 @@ Result<std::size_t> count_runs(std::span<const Variation> varied) {
     return runs;
 }
 
+std::vector<std::string> names_of(std::span<const Variation> varied) {
+    std::vector<std::string> names;
+    for (const Variation& variation : varied) {
+        std::vector<std::string> parts = {variation.name};
+        if (is_joint(variation)) parts = parts_of(variation.name);
+        names.insert(names.end(), parts.begin(), parts.end());
+    }
+    return names;
+}
+
 std::vector<std::string> values_of_run(std::span<const Variation> varied, std::size_t number) {
     std::vector<std::string> values;
     for (const Variation& variation : varied) {
-        values.push_back(variation.values[number % variation.values.size()]);
+        const std::string& value = variation.values[number % variation.values.size()];
+        std::vector<std::string> parts = {value};
+        if (is_joint(variation)) parts = parts_of(value);
+        values.insert(values.end(), parts.begin(), parts.end());
         number /= variation.values.size();
     }
     return values;
@@ -197,8 +245,9 @@ std::vector<std::string> values_of_run(std::span<const Variation> varied, std::s
 
 std::string folder_name(std::span<const Variation> varied, std::span<const std::string> values) {
     std::string name;
-    for (std::size_t k = 0; k < varied.size(); ++k) {
-        name += fmt::format("{}{}={}", k > 0 ? "," : "", varied[k].name, values[k]);
+    const std::vector<std::string> names = names_of(varied);
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        name += fmt::format("{}{}={}", k > 0 ? "," : "", names[k], values[k]);
     }
     std::replace(name.begin(), name.end(), '/', '_');
     return name;
@@ -207,9 +256,10 @@ std::string folder_name(std::span<const Variation> varied, std::span<const std::
 Result<Overrides> overrides_of_run(const Overrides& base, std::span<const Variation> varied,
                                    std::span<const std::string> values) {
     Overrides overrides = base;
-    for (std::size_t k = 0; k < varied.size(); ++k) {
-        if (varied[k].name != "seed") {
-            overrides.sets.push_back(fmt::format("{}={}", varied[k].name, values[k]));
+    const std::vector<std::string> names = names_of(varied);
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        if (names[k] != "seed") {
+            overrides.sets.push_back(fmt::format("{}={}", names[k], values[k]));
             continue;
         }
         overrides.seed = read_all<std::uint32_t>(values[k]);

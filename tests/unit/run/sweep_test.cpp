@@ -348,5 +348,71 @@ TEST_F(SweepTest, LargePicturesAreAveraged) {
     EXPECT_TRUE(std::isnan(small.fields[0].at(2, 1)));
 }
 
+class SetsTest : public SweepTest {
+protected:
+    Result<ParameterSets> read(const std::string& text) const {
+        EXPECT_TRUE(write_file(path("sets.csv"), text));
+        return read_parameter_sets(path("sets.csv"));
+    }
+    /// What is wrong, after the name of the file.
+    std::string fault_of(const std::string& text) const {
+        const auto sets = read(text);
+        EXPECT_FALSE(sets) << text;
+        return sets ? "" : sets.error().message.substr(path("sets.csv").string().size());
+    }
+};
+
+TEST_F(SetsTest, ARowIsARun) {
+    const Script script = load(growth);
+    SweepRequest wanted = request({"seed=5,6"});
+    wanted.sets = *read("rate,u\r\n0.1,1/2\r\n2e-1, \"0.25\"\r\n");
+    wanted.varied.insert(wanted.varied.begin(), wanted.sets->variation);
+    EXPECT_EQ(sweep_well(script, wanted).runs, 4U);
+    const auto rows = table();
+    ASSERT_EQ(rows.size(), 5U);
+    EXPECT_THAT(rows[0], StartsWith("rate,u,seed,wavelength"));
+    EXPECT_THAT(rows[1], StartsWith("0.1,1/2,5,"));
+    EXPECT_THAT(rows[4], StartsWith("2e-1,0.25,6,"));
+    // The sheet sweeps the same again.
+    const auto sheet = load_script_file(path("sweep/sheet.png"));
+    ASSERT_TRUE(sheet);
+    ASSERT_EQ(sheet->varied.size(), 2U);
+    EXPECT_EQ(*parse_variation(sheet->varied[0]), wanted.sets->variation);
+}
+
+TEST_F(SetsTest, SayWhereTheyAreWrong) {
+    EXPECT_EQ(fault_of("a,b\n1,x\n"), ":2:3: 'x' is not a number");
+    EXPECT_EQ(fault_of("a,b\n1,1/0\n"), ":2:3: '1/0' is not a number");
+    EXPECT_EQ(fault_of("a,b\n1,\n"), ":2:3: 'b' has no value here");
+    EXPECT_EQ(fault_of("a,b\n1,2\n\n3\n"), ":4:1: this row has 1 cell, and the first line has 2");
+    EXPECT_EQ(fault_of("a,b\n1,2,3\n"), ":2:5: this row has 3 cells, and the first line has 2");
+    EXPECT_EQ(fault_of("a,b\n1,2\n1, 2\n"), ":3:1: this row repeats line 2");
+    EXPECT_EQ(fault_of("a,a\n"), ":1:3: 'a' has a column already");
+    EXPECT_EQ(fault_of("a,,b\n"), ":1:3: there is no name");
+    EXPECT_EQ(fault_of("0.1,0.2\n"), ":1:1: '0.1' is no name");
+    EXPECT_EQ(fault_of("a;b\n1;2\n"), ":1:1: the cells of a table have commas between them");
+    EXPECT_EQ(fault_of("seed\n-1\n"), ":2:1: '-1' is not a seed");
+    EXPECT_EQ(fault_of("a,\"b\n"), ":1:3: this quoted cell has no end");
+    EXPECT_EQ(fault_of("a,b\n"), " has names and no row of values");
+    EXPECT_EQ(fault_of("\n"), " has no names in its first line");
+}
+
+TEST_F(SetsTest, TheCheckersMessagesHaveAPlaceInTheTable) {
+    const Script script = load(growth);
+    const auto fault = [&](const std::string& text) {
+        SweepRequest wanted = request({});
+        wanted.sets = *read(text);
+        wanted.varied = {wanted.sets->variation};
+        SweepControl control;
+        const auto report = sweep(script, wanted, control);
+        EXPECT_FALSE(report);
+        EXPECT_TRUE(report.error().is_in_sets);
+        EXPECT_FALSE(std::filesystem::exists(path("sweep")));
+        return report.error().failure.message.substr(path("sets.csv").string().size());
+    };
+    EXPECT_EQ(fault("rate,raet\n1,2\n"), ":1:6: no stage has a parameter 'raet'");
+    EXPECT_THAT(fault("rate,extent\n1,2\n1,-4\n"), StartsWith(":3:3: the length of a side"));
+}
+
 }  // namespace
 }  // namespace cascade

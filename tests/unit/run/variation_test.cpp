@@ -2,6 +2,7 @@
 #include "core/csv.h"
 #include "run/commands/variation.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cstdlib>
@@ -34,6 +35,31 @@ TEST(Variation, RangesHaveBothEnds) {
                 ElementsAre("0.3", "0.2", "0.1", "0", "-0.1", "-0.2", "-0.3"));
     EXPECT_THAT(values_of("ka=1/400..1/100:4"), ElementsAre("0.0025", "0.005", "0.0075", "0.01"));
     EXPECT_THAT(values_of("a=1e-3..3e3:1"), ElementsAre("0.001"));
+}
+
+TEST(Variation, RangesOfEqualRatios) {
+    EXPECT_THAT(values_of("F=1e-3..1:4:log"), ElementsAre("0.001", "0.01", "0.1", "1"));
+    EXPECT_THAT(values_of("F = -8 .. -1 : 4 : log"), ElementsAre("-8", "-4", "-2", "-1"));
+    EXPECT_THAT(values_of("F=1/3..27:1:log"), ElementsAre("0.3333333333"));
+    for (const char* text : {"F=0..1:3:log", "F=-1..1:3:log", "F=1..0:3:log"}) {
+        EXPECT_THAT(fault_of(text), HasSubstr("have one sign")) << text;
+    }
+    EXPECT_THAT(fault_of("F=1..10:log"), HasSubstr("followed by ':' and the number of values"));
+}
+
+TEST(Variation, NamesMayVaryTogether) {
+    const std::vector<Variation> varied = {*parse_variation("(a, s.b) = (1, x), (2,[y, z])"),
+                                           {"c", {"7"}}};
+    EXPECT_EQ(*count_runs(varied), 2u);
+    EXPECT_THAT(names_of(varied), ElementsAre("a", "s.b", "c"));
+    EXPECT_THAT(values_of_run(varied, 1), ElementsAre("2", "[y, z]", "7"));
+    EXPECT_EQ(*parse_variation(text_of(varied[0])), varied[0]);
+    EXPECT_EQ(folder_name(varied, values_of_run(varied, 0)), "a=1,s.b=x,c=7");
+    EXPECT_THAT(fault_of("(a,b)=(1,2),3"), HasSubstr("'3' is not 2 values in brackets"));
+    EXPECT_THAT(fault_of("(a,b)=0..1:3"), HasSubstr("a range has one name"));
+    EXPECT_FALSE(count_runs(std::vector<Variation>{{"(a, b)", {"(1, 2)"}}, {"b", {"3"}}}));
+    // Brackets of a value are its own.
+    EXPECT_THAT(values_of("a=(1 + 2),(3)"), ElementsAre("(1 + 2)", "(3)"));
 }
 
 TEST(Variation, RangesOfOtherProgramsAreExplained) {
@@ -100,6 +126,26 @@ TEST(Variation, SeedsAreNoParameters) {
     EXPECT_EQ(overrides->seed, 7u);
     const std::vector<Variation> wrong = {{"seed", {"-1"}}};
     EXPECT_FALSE(overrides_of_run(base, wrong, values_of_run(wrong, 0)));
+}
+
+TEST(Csv, ReadsRowsWithTheirPlaces) {
+    const auto rows = read_csv(
+        "\xef\xbb\xbf"
+        "a , \"b\"\"c\"\r\n\n ä, 2\r\"3\n4\", ,\n");
+    ASSERT_TRUE(rows);
+    std::vector<std::string> cells;
+    for (const auto& row : *rows) {
+        for (const CsvCell& cell : row) {
+            cells.push_back(fmt::format("{}:{} {}", cell.line, cell.column, cell.text));
+        }
+        cells.emplace_back("end");
+    }
+    EXPECT_THAT(cells, ElementsAre("1:1 a", "1:5 b\"c", "end", "3:2 ä", "3:5 2", "end", "4:1 3\n4",
+                                   "5:5 ", "5:6 ", "end"));
+    EXPECT_TRUE(read_csv("")->empty());
+    EXPECT_EQ(read_csv("\"\"")->size(), 1u);
+    EXPECT_EQ(read_csv("a,\n \"b").error().message, "2:2: this quoted cell has no end");
+    EXPECT_EQ(read_csv("\"b\" c").error().message, "1:5: there is text after a quoted cell");
 }
 
 TEST(Csv, QuotesWhatNeedsIt) {
