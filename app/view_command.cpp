@@ -52,6 +52,27 @@ private:
     std::string path_;
 };
 
+/// For models that are loaded on the page: a new folder that only this user reads, while it exists.
+class FolderOfModels {
+public:
+    FolderOfModels() {
+        std::string pattern = (std::filesystem::temp_directory_path() / "cascade-XXXXXX").string();
+        if (::mkdtemp(pattern.data()) != nullptr) path_ = pattern;
+    }
+    ~FolderOfModels() {
+        std::error_code ignored;
+        if (!path_.empty()) std::filesystem::remove_all(path_, ignored);
+    }
+    FolderOfModels(const FolderOfModels&) = delete;
+    FolderOfModels& operator=(const FolderOfModels&) = delete;
+
+    /// Empty if it could not be made.
+    const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+};
+
 /// Does this process have a screen on which a browser could be?
 bool has_screen() { return std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY"); }
 
@@ -80,8 +101,11 @@ LoadedFile script_to_replace(const Overrides& overrides) {
 
 int view_command(const Options& options, Console& console) {
     const bool chooses = options.scripts.empty();
-    auto file = chooses ? script_to_replace(options.overrides)
-                        : load(options.scripts[0], options.overrides, console);
+    const FolderOfModels models;
+    Overrides overrides = options.overrides;
+    if (!models.path().empty()) overrides.reads.folders.push_back(models.path());
+    auto file =
+        chooses ? script_to_replace(overrides) : load(options.scripts[0], overrides, console);
     if (!file) return exit_status::wrong_script;
     Script& script = file->script;
     console.say(script.messages(console.error().colour));
@@ -94,7 +118,7 @@ int view_command(const Options& options, Console& console) {
     ProgressDisplay display = make_progress_display(console, false);
     control.report = [&](const Progress& progress) { display.show(progress); };
     const InterruptGuard interrupt(control.cancel);
-    const auto session = session_to_play(*file, options.overrides, console, false);
+    const auto session = session_to_play(*file, overrides, console, false);
     if (!session) {
         console.fail(session.error());
         return exit_status::wrong_script;
@@ -107,7 +131,7 @@ int view_command(const Options& options, Console& console) {
         return exit_status::failed_run;
     }
     const auto kept = SessionFile::of(**run, stem, "view", true);
-    auto server = PageServer::start(std::move(*run), page_files(), chooses);
+    auto server = PageServer::start(std::move(*run), page_files(), chooses, models.path());
     if (!server) {
         console.fail(server.error());
         return exit_status::failed_run;

@@ -102,6 +102,9 @@ void Engine::receive(std::string_view text) {
         send_surface();
     } else if (const auto* question = std::get_if<PageQuestion>(&message->request)) {
         send_text(print_reply(id, *question, turns_->run()));
+    } else if (std::holds_alternative<LoadPart>(message->request)) {
+        send_text(print_failure(id, {"a page without the program makes no cells of models",
+                                     "'cascade view' does"}));
     } else {
         const auto& command = std::get<SessionCommand>(message->request);
         const auto result = turns_->obey(command);

@@ -282,6 +282,11 @@ std::string print_failure(std::uint64_t id, const Failure& failure) {
                   {"messages", Json::array({print_failure(failure)})}});
 }
 
+std::string print_loaded(std::uint64_t id, const Result<std::string>& name) {
+    if (!name) return print_failure(id, name.error());
+    return print({{"kind", "loaded"}, {"id", id}, {"name", *name}});
+}
+
 std::string print_snapshot(const Snapshot& snapshot) {
     const PlaneLayout& layout = snapshot.fields[0].layout();
     const auto row_bytes = static_cast<std::size_t>(layout.width) * sizeof(float);

@@ -30,6 +30,9 @@ std::string print_answer(std::uint64_t id, const Accepted<void>& result, std::st
 /// The answer to a message that could not be read or obeyed.
 std::string print_failure(std::uint64_t id, const Failure& failure);
 
+/// The answer to a part of a model: with its name when all of it is there.
+std::string print_loaded(std::uint64_t id, const Result<std::string>& name);
+
 /// A snapshot: the size of the header, as 4 bytes, least significant first; the header, JSON,
 /// padded with blanks to a multiple of 4 bytes; the shown fields, row after row, as binary32.
 std::string print_snapshot(const Snapshot& snapshot);

@@ -1,6 +1,7 @@
 // The table of requests, and the readers of their fields.
 #include "view/page_message.h"
 
+#include "core/base64.h"
 #include "core/json_size.h"
 #include "core/printable.h"
 
@@ -30,6 +31,13 @@ public:
         if (field != nullptr && field->is_string()) return field->get<std::string>();
         complain(name, "a text");
         return {};
+    }
+
+    /// Bytes in base64.
+    std::string bytes(const char* name) {
+        auto bytes = from_base64(text(name));
+        if (!bytes) complain(name, "bytes in base64");
+        return std::move(bytes).value_or("");
     }
 
     std::int64_t whole(const char* name, std::int64_t low, std::int64_t high) {
@@ -115,7 +123,7 @@ PageRequest change(Change made, FieldReader& fields) {
     return SessionCommand(MakeChange{std::move(made), fields.flag("joins_last")});
 }
 
-constexpr std::array<Verb, 23> verbs{{
+constexpr std::array<Verb, 24> verbs{{
     {"text", [](FieldReader& fields) { return change(SetText{fields.text("text")}, fields); }},
     {"set",
      [](FieldReader& fields) {
@@ -189,6 +197,15 @@ constexpr std::array<Verb, 23> verbs{{
      [](FieldReader& fields) -> PageRequest {
          auto x = fields.text("x");
          return PageQuestion(AskForMeasures{std::move(x), fields.text("y")});
+     }},
+    {"load",
+     [](FieldReader& fields) -> PageRequest {
+         LoadPart part;
+         part.name = fields.text("name");
+         part.at = static_cast<std::uint64_t>(fields.whole("at", 0, most_steps));
+         part.size = static_cast<std::uint64_t>(fields.whole("size", 0, most_steps));
+         part.bytes = fields.bytes("bytes");
+         return part;
      }},
     {"surface", [](FieldReader&) -> PageRequest { return AskForSurface{}; }},
 }};

@@ -4,6 +4,7 @@
 #include "core/result.h"
 #include "run/script/picture_request.h"
 #include "run/session/turns.h"
+#include "view/loaded_models.h"
 
 #include <cstdint>
 #include <string>
@@ -39,7 +40,7 @@ struct AskForSurface {};
 using PageQuestion = std::variant<AskForLog, AskForNames, AskAboutName, AskForFixes, AskForValues,
                                   AskForMeasures, AskForPicture>;
 using PageRequest =
-    std::variant<SessionCommand, NextSnapshot, NamePage, AskForSurface, PageQuestion>;
+    std::variant<SessionCommand, NextSnapshot, NamePage, AskForSurface, PageQuestion, LoadPart>;
 
 struct PageMessage {
     std::uint64_t id = 0;  ///< Chosen by the page for the answer. 0 if there was none.

@@ -3,6 +3,7 @@
 
 #include "run/pictures/shown_surface.h"
 #include "run/session/session.h"
+#include "view/loaded_models.h"
 #include "view/outbox.h"
 #include "view/page_answer.h"
 #include "view/page_message.h"
@@ -141,6 +142,7 @@ struct PageServer::State {
     std::optional<LocalServer> server;
     std::unique_ptr<Session> session;
     std::optional<SurfaceSender> surfaces;
+    std::optional<LoadedModels> models;  ///< Only for the session's thread.
     std::thread sender;
 
     ~State();
@@ -221,6 +223,11 @@ void PageServer::State::obey(PageId page, std::string_view text) {
             server->send_text(page, print_reply(id, asked, run));
         });
     }
+    if (auto* part = std::get_if<LoadPart>(&message->request)) {
+        return session->ask([this, page, id, loaded = std::move(*part)](LiveRun&) {
+            server->send_text(page, print_loaded(id, models->add(loaded)));
+        });
+    }
     if (std::holds_alternative<AskForSurface>(message->request)) {
         const auto snapshot = session->newest();
         if (snapshot->surface) surfaces->ask(page, snapshot->surface, snapshot->surface_number);
@@ -274,8 +281,10 @@ PageServer::PageServer(std::unique_ptr<State> state) : state_(std::move(state)) 
 PageServer::~PageServer() = default;
 
 Result<std::unique_ptr<PageServer>> PageServer::start(std::unique_ptr<LiveRun> run, PageFiles files,
-                                                      bool offers_library) {
+                                                      bool offers_library,
+                                                      std::filesystem::path models) {
     auto state = std::make_unique<State>();
+    state->models.emplace(std::move(models), run->script().folder);
     state->session = std::make_unique<Session>(std::move(run));
     state->offers_library = offers_library;
     if (auto started = state->start(std::move(files)); !started) {

@@ -4,6 +4,7 @@
 #include "run/session/live_run.h"
 #include "view/local_server.h"
 
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -13,9 +14,11 @@ namespace cascade {
 class PageServer {
 public:
     /// Begins a session of a run and opens its page. With `offers_library`, pages receive the
-    /// systems of the library, so that a user can pick one.
+    /// systems of the library, so that a user can pick one. Models that pages load are kept in
+    /// `models`, to which the script has access; without this folder there are none.
     static Result<std::unique_ptr<PageServer>> start(std::unique_ptr<LiveRun> run, PageFiles files,
-                                                     bool offers_library = false);
+                                                     bool offers_library = false,
+                                                     std::filesystem::path models = {});
     /// Closes all pages and ends the session.
     ~PageServer();
 

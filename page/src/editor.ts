@@ -96,8 +96,9 @@ export class Editor {
     }
 
     /// Writes a text as if it were typed.
-    replace(from: Place, to: Place, text: string) {
-        this.view.dispatch({ changes: { from: this.offset(from), to: this.offset(to), insert: text } });
+    replace(from: Place | number, to: Place | number, text: string) {
+        const offset = (place: Place | number) => typeof place === "number" ? place : this.offset(place);
+        this.view.dispatch({ changes: { from: offset(from), to: offset(to), insert: text }, scrollIntoView: true });
         this.view.focus();
     }
 

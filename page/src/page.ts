@@ -1,4 +1,5 @@
 // The page: text, sliders, pattern and stages of one session.
+import { EngineLine } from "./carried_engine";
 import { half_width } from "./cells_in_space";
 import { Answer, Connection, Explanation, KnownName, Message, Palette, Script, Snapshot } from "./connection";
 import { download } from "./download";
@@ -10,6 +11,7 @@ import { Library } from "./library";
 import { Gestures } from "./gestures";
 import { LookControls } from "./look";
 import { Measure } from "./measure";
+import { send_model, take_drops, with_model } from "./models";
 import { Pace } from "./pace";
 import { Pattern } from "./pattern";
 import { picture_fields } from "./picture_fields";
@@ -274,6 +276,7 @@ const actions: Record<string, () => void> = {
     redo: () => go_back("redo"),
     next: () => void ask("next_stage"),
     systems: () => library.open(),
+    load: () => element("model_file").click(),
     fit: () => view().fit(),
     flat: () => {
         pattern.is_laid_flat = !pattern.is_laid_flat;
@@ -308,6 +311,23 @@ const actions: Record<string, () => void> = {
 for (const [id, act] of Object.entries(actions)) document.querySelector(`button#${id}`)?.addEventListener("click", act);
 
 element("help_button").addEventListener("click", actions.help);
+
+async function load_model(file?: File) {
+    if (!file) return;
+    const name = await send_model(file, ask, (sent) => notice(`loading ${file.name} … ${Math.floor(100 * sent)} %`, false, 60));
+    if (!name) return;
+    notice("");
+    const { from, to, text } = with_model(editor.text, name);
+    editor.replace(from, to, text);
+}
+const model_file = element<HTMLInputElement>("model_file");
+model_file.addEventListener("change", () => {
+    void load_model(model_file.files?.[0]);
+    model_file.value = "";
+});
+button("load").hidden = EngineLine.is_carried;
+take_drops(load_model);
+
 obey_keys(actions);
 close_popups(["look", "save"]);
 

@@ -85,6 +85,7 @@ try {
     await open("spots.html");
     await browser.until(is_over);
     await expect_the_picture("grown by itself");
+    expect(await browser.evaluate(`document.getElementById("load").hidden`), "a page without the program offers to load models");
     writeFileSync("exported.png", await browser.screenshot());
 
     // A slider, a stroke and undo, as with the program.

@@ -15,5 +15,14 @@ TEST(Base64, PadsToFourDigits) {
     EXPECT_EQ(base64("\xff\xfe\x3f"), "//4/");
 }
 
+TEST(Base64, IsReadAgain) {
+    for (const std::string_view bytes : {"", "f", "fo", "foo", "foob", "\xff\xfe\x3f", "\x80"}) {
+        EXPECT_EQ(from_base64(base64(bytes)), bytes);
+    }
+    for (const std::string_view wrong : {"Z", "Zg", "Zg=", "Z===", "Zm9v\n", "Zg==Zg==", "Zm9-"}) {
+        EXPECT_EQ(from_base64(wrong), std::nullopt) << wrong;
+    }
+}
+
 }  // namespace
 }  // namespace cascade

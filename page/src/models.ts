@@ -1,0 +1,66 @@
+// Models from files of the user: sent to the engine in parts, and named in the domain of the text.
+import type { Answer } from "./connection";
+
+const part = 1 << 19;  ///< In bytes.
+const usual_cells = 20000;
+
+type Ask = <Reply>(what: string, fields: Record<string, unknown>) => Promise<Answer & Reply>;
+
+const in_base64 = (blob: Blob) => new Promise<string>((resolve, reject) => {
+    const reader = new FileReader();
+    reader.onload = () => resolve((reader.result as string).split(",")[1] ?? "");
+    reader.onerror = () => reject(reader.error);
+    reader.readAsDataURL(blob);
+});
+
+/// The name that scripts have for the model; nothing if it was refused. `tell` gets the part that is sent.
+export async function send_model(file: File, ask: Ask, tell: (sent: number) => void): Promise<string | undefined> {
+    for (let at = 0; at === 0 || at < file.size; at += part) {
+        tell(at / Math.max(file.size, 1));
+        const bytes = await in_base64(file.slice(at, at + part));
+        const { is_done, name } = await ask<{ name?: string }>("load", { name: file.name, at, size: file.size, bytes });
+        if (!is_done) return undefined;
+        if (name) return name;
+    }
+}
+
+/// A change of a text: what stands from `from` to `to` becomes `text`.
+export interface TextChange { from: number; to: number; text: string }
+
+/// Makes a model the domain of a script, in place of its grid, its surface or another model.
+export function with_model(script: string, name: string): TextChange {
+    // Brackets and names in comments and texts count for nothing.
+    const plain = script.replace(/#.*|"[^"\n]*"/g, (part) => part.replace(/[^"]/g, " "));
+    const model = `mesh: "${name}"`, block = /^[ \t]*domain\s*\{/m.exec(plain);
+    if (!block) return { from: 0, to: 0, text: `domain { ${model}; cells: ${usual_cells} }\n` };
+    const start = block.index + block[0].length, end = end_of(plain, start);
+    const inside = plain.slice(start, end), cells = /(?:^|[;\s])cells\s*:/.test(inside) ? "" : `; cells: ${usual_cells}`;
+    const old = /(?:^|[;\s])(mesh|surface|grid)\s*:/.exec(inside);
+    if (!old) return { from: start, to: start, text: ` ${model}${cells}${inside === "" ? " " : inside.trim() === "" ? "" : ";"}` };
+    const from = start + old.index + old[0].search(/[a-z]/);
+    return { from, to: from + plain.slice(from, end_of(plain, from, /[;\n}]/)).trimEnd().length, text: model + cells };
+}
+
+/// Where a statement or a block ends: at the first such sign that is in no brackets opened after `start`.
+function end_of(text: string, start: number, sign = /\}/) {
+    let depth = 0;
+    for (let at = start; at < text.length; ++at) {
+        if (depth === 0 && sign.test(text[at])) return at;
+        if ("([{".includes(text[at])) ++depth;
+        if (")]}".includes(text[at])) --depth;
+    }
+    return text.length;
+}
+
+/// Files that are dropped anywhere on the page; scripts go to the text, which takes them itself.
+export function take_drops(take: (file: File) => void) {
+    const has_files = ({ dataTransfer }: DragEvent) => dataTransfer?.types.includes("Files") === true;
+    addEventListener("dragover", (event) => has_files(event) && event.preventDefault());
+    addEventListener("drop", (event) => {
+        const [file] = event.dataTransfer?.files ?? [];
+        if (!file || file.name.endsWith(".cascade")) return;
+        event.preventDefault();
+        event.stopPropagation();
+        take(file);
+    }, { capture: true });
+}

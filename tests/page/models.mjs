@@ -1,0 +1,105 @@
+// Models from files on the page of `cascade view spots.cascade`: by the button, by a drop, hostile ones. Arguments: the
+// browser, the program and the folder of the sources. Screenshots are left in the current folder.
+import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { Browser, serve } from "./browser.mjs";
+
+const [command, program, source] = process.argv.slice(2);
+process.env.TMPDIR = join(process.cwd(), "temporary");
+rmSync(process.env.TMPDIR, { recursive: true, force: true });
+mkdirSync(process.env.TMPDIR);
+const { cascade, address } = await serve(program, "spots.cascade");
+const browser = await Browser.start(command, join(process.cwd(), "profile_of_models"));
+const limit = setTimeout(() => end(new Error("it took more than 3 minutes")), 180000);
+
+async function end(error) {
+    clearTimeout(limit);
+    if (error) {
+        console.log(error.stack);
+        writeFileSync("failed.png", await browser.screenshot().catch(() => ""));
+        if (browser.heard.length > 0) console.log(browser.heard.join("\n"));
+    }
+    browser.end();
+    cascade.kill("SIGKILL");
+    process.exit(error ? 1 : 0);
+}
+
+function expect(condition, message) { if (!condition) throw new Error(message); }
+const text = `document.getElementById("editor").shadowRoot.querySelector(".cm-content").innerText`;
+const notice = `document.getElementById("notice").textContent`;
+const is_read = `document.getElementById("text").ariaBusy === "false"`;
+const is_solid = `!document.getElementById("solid").hidden`;
+
+async function type_script(script) {
+    await browser.evaluate(`document.getElementById("editor").shadowRoot.querySelector(".cm-content").focus()`);
+    await browser.call("Input.dispatchKeyEvent", { type: "keyDown", key: "a", modifiers: 2, windowsVirtualKeyCode: 65, commands: ["selectAll"] });
+    await browser.call("Input.insertText", { text: script });
+    await browser.until(is_read);
+}
+
+/// Drops a file of these bytes on the canvas.
+const drop = (name, bytes) => browser.evaluate(`{
+    const dataTransfer = new DataTransfer();
+    dataTransfer.items.add(new File([Uint8Array.from(atob("${Buffer.from(bytes).toString("base64")}"), (sign) => sign.charCodeAt(0))], ${JSON.stringify(name)}));
+    for (const kind of ["dragover", "drop"]) document.getElementById("frame").dispatchEvent(new DragEvent(kind, { dataTransfer, bubbles: true, cancelable: true }));
+}`);
+
+/// A ball of triangles with so many comments that it comes in several parts.
+const octahedron = readFileSync(join(source, "tests/support/octahedron.off"), "utf8");
+const large = octahedron + "# a comment\n".repeat(100000);
+
+async function load() {
+    await browser.call("Emulation.setDeviceMetricsOverride", { width: 820, height: 500, deviceScaleFactor: 1, mobile: false });
+    await browser.call("Page.navigate", { url: address });
+    await browser.until(`document.querySelectorAll("#stages li").length === 2`);
+
+    // By the button: the file becomes the domain in place of the grid, and the pattern grows on it.
+    // Another file of its name lies beside the script.
+    writeFileSync("ball.off", "not this one");
+    mkdirSync("elsewhere", { recursive: true });
+    writeFileSync("elsewhere/ball.off", large);
+    const { root } = await browser.call("DOM.getDocument");
+    const { nodeId } = await browser.call("DOM.querySelector", { nodeId: root.nodeId, selector: "#model_file" });
+    await browser.call("DOM.setFileInputFiles", { nodeId, files: [join(process.cwd(), "elsewhere/ball.off")] });
+    await browser.until(`${text}.includes('domain { mesh: "ball-2.off"; cells: 20000 }') && ${is_read} && ${is_solid}`);
+    await browser.until(`document.getElementById("step").disabled`);
+    writeFileSync("loaded.png", await browser.screenshot());
+
+    // By a drop, in the place of what is the domain, whatever the comments say.
+    const of = (domain) => readFileSync("spots.cascade", "utf8").replace("domain { grid: 48, 32 }", domain);
+    const cases = [
+        ['domain { surface: sphere; cells: 500 }', 'domain { mesh: "b_c.off"; cells: 500 }'],
+        ['# domain { grid: 4 }\ndomain {\n  seed: 3 # grid: 7\n  surface: implicit(1 - x^2\n    - y^2 - z^2)   # a ball\n  cells: 400\n}', '  seed: 3 # grid: 7\n  mesh: "b_c.off"'],
+        ['domain { cells: 300; seed: 2 }', 'domain { mesh: "b_c.off"; cells: 300; seed: 2 }'],
+        ['domain {}', 'domain { mesh: "b_c.off"; cells: 20000 }'],
+        ['# no domain', 'domain { mesh: "b_c.off"; cells: 20000 }\n# Spots in two stages.\n# no domain'],
+    ];
+    for (const [before, after] of cases) {
+        await type_script(of(before));
+        await drop("b c.off", octahedron);
+        await browser.until(`${text}.replace(/\\n\\n/g, "\\n").includes(${JSON.stringify(after)}) && ${is_read}`);
+        expect(await browser.evaluate(`document.getElementById("messages").textContent`) === "", `${before} becomes wrong`);
+    }
+    await browser.until(is_solid);
+
+    // What cannot be read is told in one message, and the text stays.
+    const kept = await browser.evaluate(text);
+    for (const [name, bytes, why] of [["notes.pdf", "%PDF", "is no model"], ["broken.ply", "ply\nformat ascii 1.0\nelement vertex 4000000000\n", "'broken.ply'"],
+        ["cut.glb", Buffer.from("676c5446020000000c000000", "hex"), "'cut.glb'"], ["empty.stl", "", "'empty.stl'"]]) {
+        await drop(name, bytes);
+        await browser.until(`${notice}.includes(${JSON.stringify(why)})`);
+        expect(await browser.evaluate(text) === kept, `${name} has changed the text`);
+    }
+    const folders = readdirSync(process.env.TMPDIR).filter((name) => name.startsWith("cascade-") && !name.endsWith(".html"));
+    expect(folders.length === 1 && readdirSync(join(process.env.TMPDIR, folders[0])).sort().join() === "b_c.off,ball-2.off", "other files are kept");
+
+    // The folder goes with the program.
+    cascade.kill("SIGINT");
+    await browser.until(`${notice} === "Cascade has ended."`);
+    for (let k = 0; k < 100 && existsSync(join(process.env.TMPDIR, folders[0])); ++k) await new Promise((resolve) => setTimeout(resolve, 50));
+    expect(!existsSync(join(process.env.TMPDIR, folders[0])), "the models of an ended session are left");
+    const complaints = browser.heard.filter((words) => !words.startsWith("Applying inline style"));
+    expect(complaints.length === 0, `the page complains: ${complaints.join("\n")}`);
+}
+
+await load().then(() => end(), end);
