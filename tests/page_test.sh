@@ -105,11 +105,12 @@ for view in model:30,25 turned:70,33 dragged:-10,17 box:30,25 hole:30,25 crawlin
 done
 "$CASCADE" run hole.cascade --palette zebra --flat -o flat.png --quiet || fail "the plane was not drawn"
 [ -n "${SANITIZE:-}" ] || "$CASCADE" export spots.cascade --html spots.html >said || fail "the page without the program was not written"
-rm -rf profile profile_of_access profile_of_instruments profile_of_solids profile_of_tutorial models saved
+rm -rf profile profile_of_access profile_of_instruments profile_of_link profile_of_solids profile_of_tutorial models saved
 node "$SOURCE/tests/page/page.mjs" "$browser" "$CASCADE" || fail "see above"
 node "$SOURCE/tests/page/instruments.mjs" "$browser" "$CASCADE" || fail "see above"
 node "$SOURCE/tests/page/solids.mjs" "$browser" "$CASCADE" || fail "see above"
 node "$SOURCE/tests/page/access.mjs" "$browser" "$CASCADE" node_modules/axe-core/axe.min.js || fail "see above"
+node "$SOURCE/tests/page/link.mjs" "$browser" "$CASCADE" node_modules || fail "see above"
 mkdir -p models && cp spots.cascade models
 (cd models && node "$SOURCE/tests/page/models.mjs" "$browser" "$CASCADE" "$SOURCE") || fail "see above"
 node "$SOURCE/tests/page/tutorial.mjs" "$browser" "$CASCADE" "$SOURCE/docs/tutorial.md" || fail "see above"

@@ -1,11 +1,11 @@
 // The engine of a page that carries it: a worker that is spoken to as a WebSocket is.
+import { all_of } from "./base64";
 import type { Carried } from "./engine";
+import { script_of_address, wrong_link } from "./linked_script";
 import type { Beginning } from "./worker";
 
 /// What Connection uses of a WebSocket.
 export type Line = Pick<WebSocket, "readyState" | "send" | "close" | "binaryType" | "onopen" | "onmessage" | "onclose">;
-
-const largest_link = 1 << 20;  ///< The most bytes of its script.
 
 const element = (id: string) => document.getElementById(id);
 
@@ -15,22 +15,11 @@ async function stream_of(base64: string, type: string): Promise<Response> {
     return new Response(packed.body!.pipeThrough(new DecompressionStream("deflate")), { headers: { "Content-Type": type } });
 }
 
-async function unpacked(base64: string, largest = Infinity): Promise<Uint8Array<ArrayBuffer>> {
-    const reader = (await stream_of(base64, "application/octet-stream")).body!.getReader(), parts: Uint8Array<ArrayBuffer>[] = [];
-    for (let size = 0, part = await reader.read(); !part.done; part = await reader.read()) {
-        size += part.value.length;
-        if (size > largest) throw new Error(`there are more than ${largest} bytes`);
-        parts.push(part.value);
-    }
-    return new Uint8Array(await new Blob(parts).arrayBuffer());
-}
+const unpacked = async (base64: string) => all_of((await stream_of(base64, "application/octet-stream")).body!);
 
-/// A script in the fragment of the address: its text, compressed, in base64 of addresses.
 async function linked(): Promise<Carried | undefined> {
-    const packed = new URLSearchParams(location.hash.slice(1)).get("script");
-    if (!packed) return undefined;
-    const text = new TextDecoder().decode(await unpacked(packed.replaceAll("-", "+").replaceAll("_", "/"), largest_link));
-    return { name: "linked.cascade", text, overrides: "", is_exact: false, files: [] };
+    const text = await script_of_address();
+    return text === undefined ? undefined : { name: "linked.cascade", text, overrides: "", is_exact: false, files: [] };
 }
 
 async function carried(): Promise<Carried> {
@@ -49,11 +38,7 @@ export class EngineLine implements Line {
     onclose: WebSocket["onclose"] = null;
     private worker?: Worker;
 
-    constructor() {
-        this.begin().catch((reason) => this.end(String(reason)));
-        // Another link in the same tab.
-        addEventListener("hashchange", () => location.reload());
-    }
+    constructor() { this.begin().catch((reason) => this.end(String(reason))); }
 
     send(text: string) { this.worker!.postMessage(text); }
     close() { this.end(""); }
@@ -74,8 +59,7 @@ export class EngineLine implements Line {
     private take(data: unknown) { this.onmessage?.call(this as unknown as WebSocket, new MessageEvent("message", { data })); }
 
     private refuse_link(): undefined {
-        const why = { is_error: true, message: "the script in the address cannot be read", hint: "the link was cut off or changed, or its script has more than 1 MiB" };
-        this.take(JSON.stringify({ kind: "answer", id: 0, is_done: false, messages: [why] }));
+        this.take(JSON.stringify({ kind: "answer", id: 0, is_done: false, messages: [wrong_link] }));
     }
 
     /// For good: what the engine knew is lost with it.

@@ -94,7 +94,7 @@ function read_frame(bytes: ArrayBuffer): Snapshot | Surface {
 const largest_message = 1 << 20;  ///< Of what the engine reads, in bytes.
 
 export class Connection {
-    private readonly token = EngineLine.is_carried ? "" : take_token();
+    readonly token = EngineLine.is_carried ? "" : take_token();
     /// By it the engine knows what this page has asked before its connection was lost.
     private readonly name = [...crypto.getRandomValues(new Uint32Array(4))].map((part) => part.toString(36)).join("");
     private socket?: Line;

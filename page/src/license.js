@@ -1,9 +1,11 @@
-/*! Cascade. This file contains CodeMirror, Lezer and uPlot, under the following license.
+/*! Cascade. This file contains CodeMirror, Lezer, uPlot and uqr, under the following license.
 
 MIT License
 
 Copyright (C) 2018-2021 by Marijn Haverbeke <marijn@haverbeke.berlin> and others
 Copyright (c) 2022 Leon Sorokin
+Copyright (c) Project Nayuki
+Copyright (c) 2023 Anthony Fu <https://github.com/antfu>
 
 Permission is hereby granted, free of charge, to any person obtaining a copy
 of this software and associated documentation files (the "Software"), to deal

@@ -1,17 +1,11 @@
 // Models from files of the user: sent to the engine in parts, and named in the domain of the text.
+import { in_base64 } from "./base64";
 import type { Answer } from "./connection";
 
 const part = 1 << 19;  ///< In bytes.
 const usual_cells = 20000;
 
 type Ask = <Reply>(what: string, fields: Record<string, unknown>) => Promise<Answer & Reply>;
-
-const in_base64 = (blob: Blob) => new Promise<string>((resolve, reject) => {
-    const reader = new FileReader();
-    reader.onload = () => resolve((reader.result as string).split(",")[1] ?? "");
-    reader.onerror = () => reject(reader.error);
-    reader.readAsDataURL(blob);
-});
 
 /// The name that scripts have for the model; nothing if it was refused. `tell` gets the part that is sent.
 export async function send_model(file: File, ask: Ask, tell: (sent: number) => void): Promise<string | undefined> {

@@ -9,6 +9,8 @@ import { Help } from "./help";
 import { obey_keys } from "./keys";
 import { Library } from "./library";
 import { Gestures } from "./gestures";
+import { LinkDialog } from "./link";
+import { script_of_address, wrong_link } from "./linked_script";
 import { LookControls } from "./look";
 import { Measure } from "./measure";
 import { send_model, take_drops, with_model } from "./models";
@@ -49,6 +51,11 @@ let was_opened = false;
 let is_to_start = false;  ///< With the next snapshot that shows a start.
 let noticed_until = 0;
 
+/// A link that was opened brings a script along. Its token is that of the session, so no other site can send one.
+const linked = EngineLine.is_carried || !location.hash.includes("token=") ? undefined
+    : script_of_address().catch(() => void notice(in_words(wrong_link), true, 10));
+addEventListener("hashchange", () => location.reload());
+
 const connection = new Connection({
     palettes(list) {
         palettes = list;
@@ -70,7 +77,8 @@ const connection = new Connection({
         pattern.snapshot = snapshot;
         const is_start = snapshot.stage === 1 && snapshot.steps === 0;
         // A session that nothing was done in yet starts when its page opens, or when a script is chosen.
-        if (!was_opened && is_start && !snapshot.can_undo) {
+        if (!was_opened && linked) void linked.then((text) => text && show_new(text));
+        else if (!was_opened && is_start && !snapshot.can_undo) {
             if (library.is_filled) library.open();
             else is_to_start = true;
         }
@@ -143,7 +151,8 @@ function want_surface({ surface, is_model, cells }: Snapshot) {
 
 const slices = new Slices((fields) => ask("slice", fields));
 
-const library = new Library(async (text) => {
+/// A script in the place of the one that is shown.
+async function show_new(text: string) {
     is_text_open = false;
     await pace.stop();
     const answer = await ask("text", { text });
@@ -151,7 +160,9 @@ const library = new Library(async (text) => {
     // What has the same name in the script before would keep its values.
     await ask("restart");
     is_to_start = true;
-});
+}
+const library = new Library(show_new);
+const link = new LinkDialog(() => connection.token);
 
 const engine_help = {
     names: async (text: string) => (await connection.ask<{ names?: KnownName[] }>("names", { text })).names ?? [],
@@ -300,6 +311,7 @@ const actions: Record<string, () => void> = {
         if (png) download(`${name_of_file()}.png`, new Blob([Uint8Array.from(atob(png), (sign) => sign.charCodeAt(0))], { type: "image/png" }));
     },
     script: () => save("cascade", editor.text),
+    link: () => void link.open(editor.text),
     movie: () => recording.toggle_movie(),
     frames: () => {
         void recording.toggle_frames();

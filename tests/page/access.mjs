@@ -46,6 +46,7 @@ const states = {
     "lines": [`document.getElementById("look").open = true`, `document.getElementById("look").open = false`],
     "save": [`document.getElementById("save").open = true`, `document.getElementById("save").open = false`],
     "measures": [`document.getElementById("measure").open = true`, `document.getElementById("measure").open = false`],
+    "link": [`document.getElementById("link").click()`, `document.getElementById("link_dialog").close()`],
     "library": [`document.getElementById("systems").click()`, `document.getElementById("library").close()`],
 };
 
@@ -73,7 +74,7 @@ async function look_at(engine, url, names) {
 
 async function look() {
     await look_at("native", address, ["first steps", "keys", "lines", "save", "measures"]);
-    if (existsSync("spots.html")) await look_at("exported", pathToFileURL("spots.html").href, ["save", "library"]);
+    if (existsSync("spots.html")) await look_at("exported", pathToFileURL("spots.html").href, ["save", "link", "library"]);
 }
 
 await look().then(() => end(), end);

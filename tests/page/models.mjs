@@ -93,13 +93,14 @@ async function load() {
     const folders = readdirSync(process.env.TMPDIR).filter((name) => name.startsWith("cascade-") && !name.endsWith(".html"));
     expect(folders.length === 1 && readdirSync(join(process.env.TMPDIR, folders[0])).sort().join() === "b_c.off,ball-2.off", "other files are kept");
 
+    const complaints = browser.heard.filter((words) => !words.startsWith("Applying inline style"));
+    expect(complaints.length === 0, `the page complains: ${complaints.join("\n")}`);
+
     // The folder goes with the program.
     cascade.kill("SIGINT");
     await browser.until(`${notice} === "Cascade has ended."`);
     for (let k = 0; k < 100 && existsSync(join(process.env.TMPDIR, folders[0])); ++k) await new Promise((resolve) => setTimeout(resolve, 50));
     expect(!existsSync(join(process.env.TMPDIR, folders[0])), "the models of an ended session are left");
-    const complaints = browser.heard.filter((words) => !words.startsWith("Applying inline style"));
-    expect(complaints.length === 0, `the page complains: ${complaints.join("\n")}`);
 }
 
 await load().then(() => end(), end);
