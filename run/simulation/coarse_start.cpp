@@ -24,7 +24,7 @@ constexpr std::int64_t most_steps = 1'000'000'000;
 /// lengths.
 StagesInOtherCells at_start_of(const Environment& fine, std::span<const StageState> states,
                                std::uint32_t stage, std::int64_t times) {
-    Program program = coarser_program(*fine.script, *fine.program, times);
+    Program program = coarser_program(fine.script, *fine.program, times);
     Stage& own = program.stages[stage];
     own.time.coarse = 1;
     own.iterations = std::min(most_steps, fine.stage(stage).iterations * times * times);

@@ -162,7 +162,7 @@ std::string remark_on(const Simulation& simulation, std::uint32_t k) {
     if (view.state().tissue) return remark_on_cells(view);
     const Environment& here = view.environment();
     const std::string remark = describe_end(view.stage(), view.system(), view.state(),
-                                            k == here.script->final_stage(), here.counted());
+                                            k == here.script.final_stage(), here.counted());
     if (!remark.empty()) return remark;
     if (!has_stood_still(view)) return find_pinned_fronts(view).value_or("");
     return fmt::format(

@@ -48,22 +48,13 @@ std::vector<Formula> written_areas(const Program& program) {
     return areas;
 }
 
-/// Computes the memory that the run needs, and fails if that exceeds `limit` bytes (if above 0) or
-/// the free memory.
-Result<void> check_memory_of(Environment& here, std::uint64_t limit,
-                             const ModelFacts* facts = nullptr) {
-    const TimeAccount::Scope spent(here.account, Spent::compiling);
-    here.memory = memory_of(*here.program, *here.plans, facts);
-    return check_memory(here.grid, here.memory, limit);
-}
-
 /// The cells of the script's model.
-Result<std::shared_ptr<const ModelCells>> make_cells(const Environment& here, Script& script,
-                                                     const SimulationOptions& options,
+Result<std::shared_ptr<const ModelCells>> make_cells(Script& script,
+                                                     const SimulationOptions& options, int threads,
                                                      RunControl& control) {
-    const TimeAccount::Scope spent(here.account, Spent::cells);
+    const TimeAccount::Scope spent(options.account, Spent::cells);
     if (options.known_model) return options.known_model;
-    Team makers(here.threads);
+    Team makers(threads);
     bool is_refused = false;  // By a check, which says why.
     const auto check = [&](const SurfaceMesh& mesh) {
         Result<void> good = options.check_model ? options.check_model(mesh) : Result<void>();
@@ -76,12 +67,12 @@ Result<std::shared_ptr<const ModelCells>> make_cells(const Environment& here, Sc
                              script.overrides.model_is_asked_for,
                              options.cell_cache,
                              check,
-                             !has_stage_of_fields(*here.program)};
-    auto made = make_model_cells(*here.program, access, makers, control);
+                             !has_stage_of_fields(*script.program)};
+    auto made = make_model_cells(*script.program, access, makers, control);
     if (control.cancel) return failure("stopped while the cells of the model were made");
     if (is_refused) return tl::unexpected(made.error());
     if (!made) {
-        script.diagnostics.error(here.program->domain.model->span, made.error().message,
+        script.diagnostics.error(script.program->domain.model->span, made.error().message,
                                  made.error().hint);
         return failure("the model cannot be used");
     }
@@ -96,8 +87,8 @@ Result<std::shared_ptr<const ModelCells>> make_cells(const Environment& here, Sc
 Result<void> take_model(Environment& here, std::shared_ptr<const ModelCells> cells,
                         const RunControl& control) {
     const TimeAccount::Scope spent(here.account, Spent::cells);
-    auto values = std::make_shared<SurfaceValues>(*here.program, *cells, *here.team);
-    here.model = {std::move(cells), std::move(values)};
+    auto values = std::make_unique<SurfaceValues>(*here.program, *cells, here.team);
+    here.model.emplace(std::move(cells), std::move(values));
     here.model->values->make(formulas_of(*here.program), control.cancel);
     if (control.cancel) return failure("stopped while distances on the model were found");
     if (here.program->stages.empty() || !control.warn) return {};
@@ -107,7 +98,7 @@ Result<void> take_model(Environment& here, std::shared_ptr<const ModelCells> cel
         const StageView view(here, states, 0);
         if (largest_value(view.evaluate(area)[0], nullptr) > 0) continue;
         control.warn(fmt::format("no cell of the model lies in {}",
-                                 here.script->sources.text(area.nodes.back().span)));
+                                 here.script.sources.text(area.nodes.back().span)));
     }
     return {};
 }
@@ -121,7 +112,7 @@ Result<void> find_mask(Environment& here, Script& script, const RunControl& cont
     const StageView view(here, states, 0);
     const auto evaluate = [&](const StepPlan& plan) {
         return std::move(
-            run_plan(plan, here.kernels->interpreted(), view.context(), here.grid, *here.team)[0]);
+            run_plan(plan, here.kernels.interpreted(), view.context(), here.grid, here.team)[0]);
     };
     const Field values = evaluate(plan_mask(*here.program));
     if (control.warn) warn_of_undefined_mask(here, evaluate, control);
@@ -136,6 +127,23 @@ Result<void> find_mask(Environment& here, Script& script, const RunControl& cont
 }
 
 }  // namespace
+
+Environment::Environment(const Script& of, std::shared_ptr<const Program> runs,
+                         StagePlans its_plans, const Grid& in, StepTools with, TimeAccount* times,
+                         const std::filesystem::path& kernel_cache)
+    : SimulationDomain{std::move(runs), in},
+      script(of),
+      tools(std::move(with)),
+      kernels(in, tools, times != nullptr ? *times : unread_),
+      plans(std::move(its_plans)),
+      tilings(kernel_cache, tools.stepper->code_identity()),
+      team(kernels.is_small() ? 1 : tools.threads),
+      account(times != nullptr ? *times : unread_) {}
+
+void Environment::use(Program other) {
+    program = std::make_shared<const Program>(std::move(other));
+    plans = StagePlans(*program, plans.options());
+}
 
 bool Environment::takes_long(std::uint32_t k) const {
     const StageTime& time = stage(k).time;
@@ -157,67 +165,64 @@ Result<std::unique_ptr<Environment>> make_environment(Script& script,
     CHECK(script.program, "only a checked script is simulated");
     RunControl unwatched;
     RunControl& control = options.control != nullptr ? *options.control : unwatched;
-    auto made = std::make_unique<Environment>();
-    Environment& here = *made;
-    here.script = &script;
-    here.program = script.program;
-    here.grid = here.program->domain.grid;
-    here.tiling = options.tiling;
-    here.threads = options.threads > 0 ? options.threads : hardware_threads();
-    here.executor = options.executor;
-    here.account = options.account;
-    for (std::uint32_t k = 0; here.account != nullptr && k < script.stage_count(); ++k) {
-        here.account->stage(k).name = here.stage(k).name;
+    const Program& program = *script.program;
+    StepTools tools{options.stepper, options.starts_interpreted,
+                    options.threads > 0 ? options.threads : hardware_threads(), options.tiling,
+                    options.executor};
+    for (std::uint32_t k = 0; options.account != nullptr && k < script.stage_count(); ++k) {
+        options.account->stage(k).name = program.stages[k].name;
     }
-    here.plans = std::make_unique<StagePlans>(*here.program, options.planning);
+    StagePlans plans(program, options.planning);
+    Grid grid = program.domain.grid;
+    double memory = 0;
+    const auto fits_memory = [&](const ModelFacts* facts) {
+        const TimeAccount::Scope spent(options.account, Spent::compiling);
+        memory = memory_of(program, plans, facts);
+        return check_memory(grid, memory, options.memory_limit);
+    };
     // The number of faces or points of a model is known only when it has been read.
-    const auto& model = here.program->domain.model;
+    const auto& model = program.domain.model;
     if (!model || model->cells == ModelCellKind::spread) {
-        if (auto fits = check_memory_of(here, options.memory_limit); !fits)
-            return tl::unexpected(fits.error());
+        if (auto fits = fits_memory(nullptr); !fits) return tl::unexpected(fits.error());
     }
     std::shared_ptr<const ModelCells> cells;
     if (model) {
-        auto made_cells = make_cells(here, script, options, control);
-        if (!made_cells) return tl::unexpected(made_cells.error());
-        cells = std::move(*made_cells);
-        here.grid = cells->grid();
+        auto made = make_cells(script, options, tools.threads, control);
+        if (!made) return tl::unexpected(made.error());
+        cells = std::move(*made);
+        grid = cells->grid();
         // Cells that crawl need none of the model's, which may never be made.
-        const ModelFacts* facts = has_stage_of_fields(*here.program) ? &cells->spread() : nullptr;
-        if (auto fits = check_memory_of(here, options.memory_limit, facts); !fits)
-            return tl::unexpected(fits.error());
+        auto fits = fits_memory(has_stage_of_fields(program) ? &cells->spread() : nullptr);
+        if (!fits) return tl::unexpected(fits.error());
     }
     auto files = [&] {
-        const TimeAccount::Scope spent(here.account, Spent::reading);
+        const TimeAccount::Scope spent(options.account, Spent::reading);
         return read_input_files(script, cells.get());
     }();
     if (!files) return tl::unexpected(files.error());
-    here.files = std::move(*files);
-    auto metric = metric_planes(*here.program);
+    auto metric = metric_planes(program);
     if (!metric) return tl::unexpected(metric.error());
-    here.metric = std::move(*metric);
-
-    std::shared_ptr<TieredBackend> stepper = options.stepper;
-    if (!stepper) {
-        const TimeAccount::Scope spent(here.account, Spent::compiling);
+    if (!tools.stepper) {
+        const TimeAccount::Scope spent(options.account, Spent::compiling);
         auto own = make_stepper(options);
         if (!own) return tl::unexpected(own.error());
-        stepper = std::move(*own);
+        tools.stepper = std::move(*own);
     }
-    here.tilings = std::make_unique<KeptTilings>(options.kernel_cache, stepper->code_identity());
-    here.kernels =
-        std::make_unique<KernelMaker>(here.grid, stepper, options.starts_interpreted, here.account);
-    here.team = std::make_unique<Team>(here.kernels->is_small() ? 1 : here.threads);
+    auto made =
+        std::make_unique<Environment>(script, script.program, std::move(plans), grid,
+                                      std::move(tools), options.account, options.kernel_cache);
+    Environment& here = *made;
+    here.memory = memory;
+    here.files = std::move(*files);
+    here.metric = std::move(*metric);
     if (model) {
         if (auto taken = take_model(here, cells, control); !taken)
             return tl::unexpected(taken.error());
     }
-    if (has_stage_of_cells(*here.program)) {
+    if (has_stage_of_cells(program)) {
         constexpr std::int64_t usual_cells = 4096;
-        here.tissue_kernels =
-            std::make_unique<KernelMaker>(rows_of_cells(usual_cells), std::move(stepper),
-                                          options.starts_interpreted, here.account);
-        here.ground = std::make_shared<TissueGround>(here.grid, cells.get());
+        here.crawling.emplace(KernelMaker(rows_of_cells(usual_cells), here.tools, here.account),
+                              std::make_shared<TissueGround>(grid, cells.get()));
     }
     if (auto found = find_sizes(here, script, options, control); !found)
         return tl::unexpected(found.error());

@@ -13,10 +13,11 @@
 #include "run/stage/kept_tilings.h"
 #include "run/stage/stage_plans.h"
 #include "run/stage/stage_state.h"
+#include "run/stage/time_account.h"
 #include "run/tissue/ground.h"
-#include "solvers/executor.h"
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
@@ -25,24 +26,39 @@
 
 namespace cascade {
 
-struct Environment : SimulationDomain {
-    const Script* script = nullptr;
-    std::string progress_note;  ///< After the stage's name in reports of progress.
-    int threads = 1;
-    MakeExecutor executor = make_thread_executor;
-    std::optional<Tiling> tiling;          ///< None: chosen by size.
-    std::unique_ptr<KeptTilings> tilings;  ///< Null on coarser grids.
-    std::unique_ptr<StagePlans> plans;
-    std::unique_ptr<KernelMaker> kernels;
-    std::unique_ptr<KernelMaker> tissue_kernels;  ///< Of stages of cells that crawl,
-    std::shared_ptr<TissueGround> ground;         ///< and where they do; else null.
-    std::unique_ptr<Team> team;                   ///< Computes starting values and pictures.
-    InputFiles files;
-    std::vector<Field> metric;       ///< By MetricPlane; empty without a surface.
-    TimeAccount* account = nullptr;  ///< Null if times are not recorded.
+/// What stages of cells that crawl need besides.
+struct CrawlingTools {
+    KernelMaker kernels;
+    std::shared_ptr<const TissueGround> ground;  ///< Where no body is grown.
+};
 
+class Environment : public SimulationDomain {
+    TimeAccount unread_;  ///< Takes the times that nobody asked for.
+
+public:
+    /// `plans` are those of the program. The fastest tilings are kept in `kernel_cache`, if that is
+    /// not empty. Script and account, which may be null, must outlive the environment.
+    Environment(const Script& of, std::shared_ptr<const Program> runs, StagePlans its_plans,
+                const Grid& in, StepTools with, TimeAccount* times = nullptr,
+                const std::filesystem::path& kernel_cache = {});
+
+    const Script& script;
+    std::string progress_note;  ///< After the stage's name in reports of progress.
+    InputFiles files;
+    std::vector<Field> metric;  ///< By MetricPlane; empty without a surface.
+    StepTools tools;
+    KernelMaker kernels;
+    std::optional<CrawlingTools> crawling;  ///< None if all stages are of fields.
+    // These remember and work; no result depends on what they did before.
+    mutable StagePlans plans;
+    mutable KeptTilings tilings;
+    mutable Team team;  ///< Computes starting values and pictures.
+    TimeAccount& account;
+
+    /// Replaces the program by a similar one.
+    void use(Program other);
     /// Is the program the script's own, in its own cells and with its own lengths?
-    bool runs_as_written() const { return program == script->program; }
+    bool runs_as_written() const { return program == script.program; }
     /// Of a model, whose cells this makes if they are not yet; null on grids.
     const ModelFacts* model_facts() const { return model ? &model->cells->spread() : nullptr; }
     /// The cells that count, with a mask or on a model.

@@ -104,16 +104,12 @@ void take_moment(const Program& program, std::uint32_t k, StageState carried, St
 }  // namespace
 
 std::unique_ptr<CellCarrier> carrier_to_finer(const Environment& from, const Environment& here) {
-    if (from.model) return carrier_on_model(*from.model->cells, *here.model->cells, *here.team);
+    if (from.model) return carrier_on_model(*from.model->cells, *here.model->cells, here.team);
     return carrier_to_finer(from.grid, here.program->domain.detail, from.inside(), here.inside());
 }
 
 Result<void> settle_in_finer_cells(Environment& here, std::span<StageState> into, std::uint32_t k) {
-    Program settling = settling_program(*here.program, k, into[k]);
-    const PlanOptions planning = here.plans->options();
-    here.plans.reset();
-    here.program = std::make_shared<const Program>(std::move(settling));
-    here.plans = std::make_unique<StagePlans>(*here.program, planning);
+    here.use(settling_program(*here.program, k, into[k]));
     StageState carried = std::move(into[k]);
     if (auto started = start_stage(here, into, k); !started) return started;
     take_moment(*here.program, k, std::move(carried), into[k]);

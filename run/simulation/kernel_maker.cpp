@@ -7,13 +7,6 @@
 
 namespace cascade {
 
-KernelMaker::KernelMaker(const Grid& grid, std::shared_ptr<TieredBackend> stepper,
-                         bool starts_interpreted, TimeAccount* account)
-    : grid_(grid),
-      stepper_(std::move(stepper)),
-      starts_interpreted_(starts_interpreted),
-      account_(account) {}
-
 Compile KernelMaker::interpreted_on(const Grid& grid) const {
     return [this, stencil = grid.stencil()](const CellKernel& kernel) {
         auto compiled = stepper_->interpreter().compile(kernel, stencil);

@@ -8,18 +8,31 @@
 #include "run/stage/bound_kernel.h"
 #include "run/stage/step_kernels.h"
 #include "run/stage/time_account.h"
+#include "solvers/advance.h"
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 namespace cascade {
 
+/// How steps are computed. No result depends on it.
+struct StepTools {
+    std::shared_ptr<TieredBackend> stepper;
+    bool starts_interpreted = false;  ///< Are steps interpreted until their code is ready?
+    int threads = 1;
+    std::optional<Tiling> tiling = {};  ///< None: chosen by size and by time.
+    MakeExecutor executor = make_thread_executor;
+};
+
 class KernelMaker {
 public:
-    /// Steps are run by `stepper`. If it `starts_interpreted`, they are interpreted until their
-    /// code is ready.
-    KernelMaker(const Grid& grid, std::shared_ptr<TieredBackend> stepper, bool starts_interpreted,
-                TimeAccount* account);
+    /// For the cells of `grid`. The account must outlive this.
+    KernelMaker(const Grid& grid, const StepTools& tools, TimeAccount& account)
+        : grid_(grid),
+          stepper_(tools.stepper),
+          starts_interpreted_(tools.starts_interpreted),
+          account_(account) {}
 
     const std::shared_ptr<TieredBackend>& stepper() const { return stepper_; }
     bool starts_interpreted() const { return starts_interpreted_; }
@@ -50,7 +63,7 @@ private:
     Grid grid_;
     std::shared_ptr<TieredBackend> stepper_;
     bool starts_interpreted_;
-    TimeAccount* account_;
+    TimeAccount& account_;
 };
 
 }  // namespace cascade

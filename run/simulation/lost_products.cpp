@@ -110,7 +110,7 @@ void LostProducts::look(const StageView& view, const RunControl& control) {
         control.warn(fmt::format(
             "stage '{}': {} in the rate of {} is {} {:.2g} {}, too {} for single precision, which "
             "takes it for {}; 'precision: double' in the domain keeps it",
-            view.stage().name, here.script->sources.text(found.span),
+            view.stage().name, here.script.sources.text(found.span),
             view.system().item_name(found.species), found.is_too_large ? "up to" : "at most",
             found.value, steps == 0 ? "at the start" : fmt::format("after step {}", steps),
             found.is_too_large ? "large" : "small", found.is_too_large ? "infinite" : "0"));

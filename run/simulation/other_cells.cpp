@@ -29,20 +29,12 @@ Program program_of_stage(const Script& script, const Program& program, std::uint
 std::unique_ptr<Environment> environment_in_cells(const Environment& known, Program program,
                                                   const CellCarrier& carrier,
                                                   TimeAccount* account) {
-    auto made = std::make_unique<Environment>();
-    Environment& here = *made;
-    here.script = known.script;
-    here.program = std::make_shared<const Program>(std::move(program));
-    here.grid = here.program->domain.grid;
-    here.threads = known.threads;
-    here.executor = known.executor;
-    here.tiling = known.tiling;
-    here.plans = std::make_unique<StagePlans>(*here.program, known.plans->options());
-    here.kernels = std::make_unique<KernelMaker>(here.grid, known.kernels->stepper(),
-                                                 known.kernels->starts_interpreted(), account);
-    here.team = std::make_unique<Team>(here.kernels->is_small() ? 1 : here.threads);
-    here.account = account;
-    here.files = known.files.mapped([&](const Field& plane) { return carrier.carried(plane); });
+    auto runs = std::make_shared<const Program>(std::move(program));
+    StagePlans plans(*runs, known.plans.options());
+    const Grid grid = runs->domain.grid;
+    auto made = std::make_unique<Environment>(known.script, std::move(runs), std::move(plans), grid,
+                                              known.tools, account);
+    made->files = known.files.mapped([&](const Field& plane) { return carrier.carried(plane); });
     return made;
 }
 

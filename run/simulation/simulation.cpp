@@ -57,10 +57,10 @@ struct Simulation::Implementation {
 
     /// Lets the stepper compile the kernels of stages after `k`, if their steps take long.
     void expect_stages_after(std::uint32_t k) {
-        const KernelMaker& kernels = *environment().kernels;
+        const KernelMaker& kernels = environment().kernels;
         if (!kernels.starts_interpreted() || std::exchange(has_expected, true)) return;
         const TimeAccount::Scope spent(environment().account, Spent::compiling);
-        for (std::uint32_t later = k + 1; later < environment().script->stage_count(); ++later) {
+        for (std::uint32_t later = k + 1; later < environment().script.stage_count(); ++later) {
             const bool is_of_fields = !environment().program->system_of(later).cells;
             if (!is_of_fields || stages->has_own_cells(later) || !environment().takes_long(later))
                 continue;
@@ -68,7 +68,7 @@ struct Simulation::Implementation {
             const auto species = environment().program->system_of(later).species_count();
             const Scheme scheme = make_scheme(stage.time.solver, species, steps_by_item(stage));
             for (const SweepForm& form : scheme.forms) {
-                for (const Pass& pass : environment().plans->sweep(later, form).passes) {
+                for (const Pass& pass : environment().plans.sweep(later, form).passes) {
                     kernels.expect(*pass.bound.kernel);
                 }
             }
@@ -107,7 +107,7 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
                                            const std::function<void()>& observe,
                                            std::int64_t every) {
     Implementation& self = *self_;
-    TimeAccount* account = self.environment().account;
+    TimeAccount& account = self.environment().account;
     const TimeAccount::Scope spent(account, Spent::stepping, k);
     if (self.run && self.run->stage() != k) self.end_run();
     if (!self.run) {
@@ -125,7 +125,7 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
     self.stages->touch(k);
     if (!self.run->can_go_on()) self.end_run();
     self.warn_of_refused(control);
-    if (account != nullptr) account->kernels = self.environment().kernels->stepper()->counts();
+    account.kernels = self.environment().kernels.stepper()->counts();
     return end;
 }
 
@@ -141,7 +141,7 @@ void Simulation::settle(RunControl& control) {
     self_->end_run();
     if (self_->unsettled.empty()) return;
     const TimeAccount::Scope spent(self_->environment().account, Spent::compiling);
-    self_->environment().kernels->stepper()->settle();
+    self_->environment().kernels.stepper()->settle();
     self_->warn_of_refused(control);
 }
 

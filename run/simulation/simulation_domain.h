@@ -17,18 +17,18 @@ namespace cascade {
 /// A model as a domain.
 struct DomainModel {
     std::shared_ptr<const ModelCells> cells;
-    std::shared_ptr<SurfaceValues> values;  ///< What formulas read from places on it.
+    std::unique_ptr<SurfaceValues> values;  ///< What formulas read from places on it.
 };
 
 struct SimulationDomain {
     /// As it runs: lengths of stages with a size are scaled.
     std::shared_ptr<const Program> program;
     Grid grid;  ///< Of a model: the rows in which its cells lie.
-    std::optional<DomainMask> mask;
-    std::optional<DomainModel> model;
+    std::optional<DomainMask> mask = {};
+    std::optional<DomainModel> model = {};
     double memory = 0;  ///< Bytes of all planes that the simulation holds at one time.
     /// By what lengths of stages were multiplied, under keys that say for what.
-    std::map<std::string, double> known_sizes;
+    std::map<std::string, double> known_sizes = {};
 
     const Stage& stage(std::uint32_t k) const { return program->stages[k]; }
     Precision precision() const { return program->domain.precision; }

@@ -82,17 +82,12 @@ struct Outcome {
 class Trial {
 public:
     Trial(Program program, std::uint32_t stage, const TrialTools& tools)
-        : stage_(stage), tools_(tools), program_(std::make_shared<Program>(std::move(program))) {
-        Environment& here = environment_;
-        here.program = program_;
-        here.script = &tools.script;
-        here.grid = here.program->domain.grid;
-        here.threads = tools.threads;
-        here.plans = std::make_unique<StagePlans>(*here.program, tools.planning);
-        here.kernels = std::make_unique<KernelMaker>(here.grid, tools.stepper,
-                                                     tools.starts_interpreted, nullptr);
-        here.team = std::make_unique<Team>(here.kernels->is_small() ? 1 : tools.threads);
-        here.progress_note = ", a trial run for its size";
+        : stage_(stage),
+          tools_(tools),
+          program_(std::make_shared<Program>(std::move(program))),
+          environment_(tools.script, program_, {*program_, tools.planning}, program_->domain.grid,
+                       tools.steps) {
+        environment_.progress_note = ", a trial run for its size";
         control_.report = [this](const Progress& progress) {
             if (tools_.control.cancel) control_.cancel = true;
             if (progress.stage_done || !tools_.control.report) return;

@@ -4,23 +4,20 @@
 
 #include "core/result.h"
 #include "core/run_control.h"
-#include "ir/tiered_backend.h"
 #include "lang/lower/lower.h"
 #include "lang/program/program.h"
 #include "run/script/script.h"
+#include "run/simulation/kernel_maker.h"
 
 #include <cstdint>
-#include <memory>
 
 namespace cascade {
 
 /// What trial runs have in common with the run that needs them.
 struct TrialTools {
     const Script& script;  ///< For the names of its stages in messages.
-    std::shared_ptr<TieredBackend> stepper;
-    bool starts_interpreted = false;
+    StepTools steps;
     PlanOptions planning;
-    int threads = 1;
     RunControl& control;  ///< Receives progress and may cancel; the result is then a failure.
 };
 

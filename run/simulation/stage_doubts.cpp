@@ -48,7 +48,7 @@ bool take_trial_steps(const EndedStage& ended, StageTimer& timer, std::int64_t c
     schedule.check = 0;
     schedule.ends = {};
     schedule.most_kept_bytes = 0;
-    schedule.threads = ended.view.environment().threads;
+    schedule.threads = ended.view.environment().tools.threads;
     // The last step of a duration may have been shorter.
     const double speed = state.numbers[ended.view.system().speed_item()];
     if (schedule.time.clock.step > 0) schedule.time.clock.set_step(state.steps, speed);
@@ -168,7 +168,7 @@ std::optional<AstrayReport> find_astray(const EndedStage& ended) {
     double& speed = ended.state.numbers[system.speed_item()];
     const double own_speed = std::exchange(speed, speed / shorter_steps);
     StageTimer shorter(view.program(), view.number(), ended.state,
-                       stage_tools(view, view.environment().kernels->often()));
+                       stage_tools(view, view.environment().kernels.often()));
     const bool is_finite = follow(shorter, least_trial_steps * shorter_steps, fine);
     speed = own_speed;
     if (!is_finite) return std::nullopt;

@@ -55,7 +55,7 @@ Failure explain(const StageOutcome& outcome, const StageView& view, StageState& 
     if (report.found.at_start() || is_partly_implicit(report.use.solver)) return describe(report);
     const auto estimate = [&](std::span<const Field> species) {
         StabilityEstimate found;
-        const KernelMaker& kernels = *view.environment().kernels;
+        const KernelMaker& kernels = view.environment().kernels;
         complete([&] { found = view.stability(species, kernels.once(), &cancel); });
         return found;
     };
@@ -101,8 +101,7 @@ StageRun::StageRun(const Environment& environment, std::span<StageState> states,
           const auto refused = [this](const Failure& refusal) {
               if (control_ != nullptr) kernels_.warn(refusal, *control_);
           };
-          StageTools tools =
-              stage_tools(view_, environment.kernels->steps(when, kernels_, refused));
+          StageTools tools = stage_tools(view_, environment.kernels.steps(when, kernels_, refused));
           tools.condition_holds = [this, holds = std::move(tools.condition_holds)] {
               if (control_ != nullptr) undefined_.look_at_until(view_, *control_);
               return holds();
@@ -150,7 +149,7 @@ std::optional<Result<StageEnd>> StageRun::begin(std::int64_t last_step) {
     }
     invariants_ = find_step_invariants(view_);
     const StepProblem& problem = timer_.problem();
-    if (here.tilings) tilings_.emplace(*here.tilings, problem, kernels_.identity());
+    tilings_.emplace(here.tilings, problem, kernels_.identity());
     loop_.emplace(problem, schedule(), state_.species, progress_of(here, view_.number()));
     return std::nullopt;
 }
@@ -173,10 +172,10 @@ Schedule StageRun::schedule() {
         state_.go_to(step, t);
         look();
     };
-    schedule.threads = here.threads;
-    schedule.executor = here.executor;
-    schedule.tiling = here.tiling;
-    if (tilings_) schedule.tilings = &*tilings_;
+    schedule.threads = here.tools.threads;
+    schedule.executor = here.tools.executor;
+    schedule.tiling = here.tools.tiling;
+    schedule.tilings = &*tilings_;
     schedule.keep_is_due = keeping_.is_due;
     schedule.keep = [this](std::int64_t step, double t, const TimeState& time) {
         state_.time = time;
@@ -217,7 +216,7 @@ Result<StageEnd> StageRun::take_steps(std::int64_t last_step, const std::functio
     if (outcome.not_finite || outcome.too_short)
         return tl::unexpected(explain(outcome, view_, state_, control_->cancel));
     if (outcome.cancelled) {
-        view_.environment().kernels->stepper()->abandon();
+        view_.environment().kernels.stepper()->abandon();
         return StageEnd::cancelled;
     }
     if (looks_for_doubts) look_for_doubts();
@@ -241,8 +240,7 @@ void StageRun::look_for_doubts() {
 /// Adds the steps taken to the account of times.
 void StageRun::account_for(std::int64_t steps, const StageOutcome& outcome) const {
     const Environment& here = view_.environment();
-    if (here.account == nullptr) return;
-    TimeAccount::Stage& entry = here.account->stage(view_.number());
+    TimeAccount::Stage& entry = here.account.stage(view_.number());
     entry.steps += steps;
     entry.cells = here.grid.cell_count();
     entry.threads = outcome.threads;

@@ -120,12 +120,9 @@ Result<void> find_sizes(Environment& here, Script& script, const SimulationOptio
         const std::string key = key_of(*trial, k, cell, cells);
         std::optional<double> factor = kept.find(key);
         if (!factor) {
-            const TrialTools tools{script,
-                                   here.kernels->stepper(),
-                                   here.kernels->starts_interpreted(),
-                                   here.plans->options(),
-                                   here.threads,
-                                   control};
+            StepTools steps = here.tools;
+            steps.tiling.reset();
+            const TrialTools tools{script, std::move(steps), options.planning, control};
             const auto found = find_length_factor(*trial, k, cell, cells, tools);
             if (control.cancel) return failure("stopped while sizes were found");
             if (!found) return refuse(found.error().message, found.error().hint);
@@ -140,10 +137,7 @@ Result<void> find_sizes(Environment& here, Script& script, const SimulationOptio
         }
         scaled = with_lengths(scaled ? *scaled : *here.program, k, *factor);
     }
-    if (!scaled) return {};
-    here.plans.reset();
-    here.program = std::make_shared<const Program>(*std::move(scaled));
-    here.plans = std::make_unique<StagePlans>(*here.program, options.planning);
+    if (scaled) here.use(*std::move(scaled));
     return {};
 }
 

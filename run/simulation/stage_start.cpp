@@ -28,7 +28,7 @@ namespace cascade {
 namespace {
 
 void start_varying_items(const StageView& view, StageState& state) {
-    const StepPlan& plan = view.environment().plans->start(view.number());
+    const StepPlan& plan = view.environment().plans.start(view.number());
     std::vector<Field> values = view.evaluate(plan);
     for (std::size_t r = 0; r < values.size(); ++r) {
         const ItemId item = plan.results[r];
@@ -135,8 +135,8 @@ public:
             }
             if (value.changes) {
                 changing_.push_back(bind_side(value, view_.number(), number,
-                                              static_cast<Side>(side), here_.kernels->interpreted(),
-                                              view_.context(), *here_.team));
+                                              static_cast<Side>(side), here_.kernels.interpreted(),
+                                              view_.context(), here_.team));
                 continue;
             }
             const Field values = std::move(view_.evaluate(value.each)[0]);
@@ -199,7 +199,7 @@ Result<void> check_reaches(const StageView& view) {
         if (!kernel.reach.nodes.empty()) {
             const Grid one{1, 1, Boundary::periodic};
             reach = run_plan(plan_view(view.program(), kernel.reach, view.number()),
-                             here.kernels->interpreted_on(one), view.context(), one, *here.team)[0]
+                             here.kernels.interpreted_on(one), view.context(), one, here.team)[0]
                         .number_at(0, 0);
         }
         if (!good || lags_in_box(here.grid, reach) <= most_lags) return;
@@ -223,7 +223,7 @@ void start_uniform_items(const StageView& view, StageState& state) {
     const Grid one{1, 1, Boundary::periodic};
     const Environment& here = view.environment();
     const std::vector<Field> values =
-        run_plan(plan, here.kernels->interpreted_on(one), view.context(), one, *here.team);
+        run_plan(plan, here.kernels.interpreted_on(one), view.context(), one, here.team);
     for (std::size_t r = 0; r < values.size(); ++r) {
         state.numbers[plan.results[r]] = values[r].number_at(0, 0);
     }

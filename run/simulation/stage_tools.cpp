@@ -64,7 +64,7 @@ ValueAt values_at(const StageView& view, const Formula& formula) {
     const Grid one{1, 1, Boundary::periodic};
     const auto runner =
         std::make_shared<PlanRunner>(plan_view(view.program(), formula, view.number()),
-                                     view.environment().kernels->interpreted_on(one));
+                                     view.environment().kernels.interpreted_on(one));
     const auto alone = std::make_shared<Team>(1);
     return [view, runner, alone, one](double t) -> double {
         BindingContext context = view.context();
@@ -82,11 +82,11 @@ std::vector<double> motion_over(const StageView& view, const Formula& formula, d
     const Environment& here = view.environment();
     const Formula* const formulas[] = {&formula};
     if (here.model) here.model->values->prepare(formulas);
-    PlanRunner runner(plan_view(view.program(), formula, view.number()), here.kernels->once());
+    PlanRunner runner(plan_view(view.program(), formula, view.number()), here.kernels.once());
     const auto at = [&](double t) {
         BindingContext context = view.context();
         context.t = t;
-        return runner.run(context, *here.team)[0].clone();
+        return runner.run(context, here.team)[0].clone();
     };
     constexpr auto most_moments = static_cast<std::int64_t>(Forcing::intervals_of_motion);
     const std::int64_t moments =
@@ -189,9 +189,9 @@ void BoundDiffusion::add_to(StepProblem& problem) const {
 NumberSource numbers_of(const StageView& view, std::span<const Formula* const> formulas) {
     const auto runner =
         std::make_shared<PlanRunner>(plan_view(view.program(), formulas, view.number()),
-                                     view.environment().kernels->often());
+                                     view.environment().kernels.often());
     return [view, runner] {
-        return first_values(runner->run(view.context(), *view.environment().team));
+        return first_values(runner->run(view.context(), view.environment().team));
     };
 }
 
@@ -200,7 +200,7 @@ StepProblem bind_steps(const StageView& view, const Scheme& scheme, const Compil
     const std::uint32_t k = view.number();
     const TimeAccount::Scope spent(here.account, Spent::compiling);
     std::vector<StepPlan> sweeps;
-    for (const SweepForm& form : scheme.forms) sweeps.push_back(here.plans->sweep(k, form));
+    for (const SweepForm& form : scheme.forms) sweeps.push_back(here.plans.sweep(k, form));
     const auto bind = [&](const StepPlan& before) {
         return bind_scheme(scheme, sweeps, before, compile, view.context(), view.system(), k);
     };
@@ -240,7 +240,7 @@ StageTools stage_tools(const StageView& view, Compile steps) {
         }
         return condition()[0] != 0;
     };
-    tools.estimate = [view, compile = here.kernels->often()] {
+    tools.estimate = [view, compile = here.kernels.often()] {
         const auto limit = view.stability(view.state().species, compile).largest_speed;
         return limit ? 2 / *limit : 0;
     };
@@ -252,7 +252,7 @@ StageTools stage_tools(const StageView& view, Compile steps) {
 StepInvariants find_step_invariants(const StageView& view) {
     const Environment& here = view.environment();
     const TimeAccount::Scope spent(here.account, Spent::starting);
-    const StepPlan& once = here.plans->step_invariants(view.number());
+    const StepPlan& once = here.plans.step_invariants(view.number());
     StepInvariants found(once.result_count);
     if (found.empty()) return found;
     std::vector<Field> planes = view.evaluate(once);

@@ -23,8 +23,8 @@ BindingContext StageView::context() const {
 
 std::vector<Field> StageView::evaluate(const StepPlan& plan) const {
     if (state().tissue) return evaluate_in_cells(*this, plan);
-    return run_plan(plan, environment_->kernels->once(), context(), environment_->grid,
-                    *environment_->team);
+    return run_plan(plan, environment_->kernels.once(), context(), environment_->grid,
+                    environment_->team);
 }
 
 std::vector<Field> StageView::evaluate(std::span<const Formula* const> formulas) const {
@@ -43,7 +43,7 @@ std::vector<Field> StageView::evaluate(const Formula& formula) const {
 std::vector<Field> StageView::rates() const { return evaluate(plan_rates(program(), number_)); }
 
 std::vector<Field> StageView::starting_species() const {
-    const StepPlan& plan = environment_->plans->start(number_);
+    const StepPlan& plan = environment_->plans.start(number_);
     std::vector<Field> values = evaluate(plan);
     std::vector<Field> species(state().species.size());
     for (std::size_t r = 0; r < values.size(); ++r) {

@@ -47,7 +47,7 @@ public:
 
     /// Stability of the rates at a state of the species.
     StabilityEstimate stability(std::span<const Field> species) const {
-        return stability(species, environment_->kernels->once());
+        return stability(species, environment_->kernels.once());
     }
     StabilityEstimate stability(std::span<const Field> species, const Compile& compile,
                                 const std::atomic<bool>* cancel = nullptr) const;

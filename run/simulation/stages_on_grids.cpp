@@ -13,10 +13,10 @@ StagesOnGrids::StagesOnGrids(std::unique_ptr<Environment> domain, std::uint32_t 
     for (std::uint32_t k = 0; k < stages_that_run; ++k) {
         const std::int64_t times = domain_->stage(k).coarse;
         if (times == 1) continue;
-        Program program = coarser_program(*domain_->script, *domain_->program, times);
-        StagesInOtherCells made{on_coarser_grid(*domain_, std::move(program), domain_->account),
+        Program program = coarser_program(domain_->script, *domain_->program, times);
+        StagesInOtherCells made{on_coarser_grid(*domain_, std::move(program), &domain_->account),
                                 std::vector<StageState>(states_.size())};
-        domain_->memory += memory_of(*made.environment->program, *made.environment->plans);
+        domain_->memory += memory_of(*made.environment->program, made.environment->plans);
         coarser_.emplace(k, std::move(made));
     }
 }

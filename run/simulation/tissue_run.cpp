@@ -110,8 +110,8 @@ std::string largest_term(const StageView& view, SpeciesId species, std::uint32_t
 
 ScriptRules::Makers makers(const Environment& here, StepKernels& kernels,
                            std::function<void(const Failure&)> refused) {
-    const KernelMaker& maker = *here.tissue_kernels;
-    return {*here.plans, maker.steps(TieredBackend::When::when_used, kernels, std::move(refused)),
+    const KernelMaker& maker = here.crawling->kernels;
+    return {here.plans, maker.steps(TieredBackend::When::when_used, kernels, std::move(refused)),
             maker.often()};
 }
 
@@ -175,7 +175,7 @@ TissueSchedule TissueRun::schedule(const Keeping& keeping) {
     schedule.stage = stage_;
     const TissueStage stage = tissue_stage(environment_, states_, stage_);
     schedule.neighbours = neighbours_of(stage, widest_near(view));
-    schedule.threads = environment_.threads;
+    schedule.threads = environment_.tools.threads;
     reaches_all_ = schedule.neighbours.near >= length(state_.ground->surroundings()->extent());
     schedule.most_cells = most_cells_in_memory(view.system(), environment_.precision());
     schedule.most_list_bytes = static_cast<double>(available_memory()) / 4;
@@ -263,7 +263,7 @@ Result<StageEnd> TissueRun::advance(std::int64_t last_step, RunControl& control,
         return tl::unexpected(
             explain(*outcome.failure, StageView(environment_, states_, stage_), outcome.steps + 1));
     if (outcome.cancelled) {
-        environment_.tissue_kernels->stepper()->abandon();
+        environment_.crawling->kernels.stepper()->abandon();
         return StageEnd::cancelled;
     }
     state_.done = outcome.ended || state_.steps >= stage.iterations;

@@ -34,7 +34,7 @@ Result<std::shared_ptr<const TissueGround>> ground_of(const Environment& here,
                                                       const std::atomic<bool>& cancel) {
     const Stage& stage = here.stage(k);
     if (stage.body.nodes.empty()) {
-        if (stage.founders) return here.ground;
+        if (stage.founders) return here.crawling->ground;
         return states[*stage_of_cells_before(*here.program, k)].ground;
     }
     std::uint32_t last = 0;  // Of the stages that the body reads.
@@ -171,11 +171,11 @@ private:
 
     Result<std::vector<Field>> evaluate(const StepPlan& plan) {
         return evaluate_in(tissue(), plan, stage_, neighbours_of(stage_, 0),
-                           here_.tissue_kernels->once(), *here_.team);
+                           here_.crawling->kernels.once(), here_.team);
     }
 
     Result<void> evaluate_items() {
-        const StepPlan& plan = here_.plans->start(k_);
+        const StepPlan& plan = here_.plans.start(k_);
         auto values = evaluate(plan);
         if (!values) return tl::unexpected(values.error());
         for (std::size_t r = 0; r < values->size(); ++r) {
@@ -266,7 +266,7 @@ double widest_near(const StageView& view, std::span<const Formula* const> others
         const Environment& here = view.environment();
         const StepPlan plan = plan_view(view.program(), formulas, view.number());
         const std::vector<Field> value =
-            run_plan(plan, here.kernels->interpreted_on(one), view.context(), one, *here.team);
+            run_plan(plan, here.kernels.interpreted_on(one), view.context(), one, here.team);
         widest = std::max(widest, value[0].number_at(0, 0));
     }
     return widest;
@@ -279,7 +279,7 @@ std::vector<Field> evaluate_in_cells(const StageView& view, const StepPlan& plan
     const TissueStage stage{view.program(), view.number(), *view.state().ground, view.context()};
     const double widest = widest_near(view, formulas);
     auto values = evaluate_in(tissue, plan, stage, neighbours_of(stage, widest),
-                              here.tissue_kernels->once(), *here.team);
+                              here.crawling->kernels.once(), here.team);
     if (values) return std::move(*values);
     std::vector<Field> undefined;
     for (std::uint32_t k = 0; k < plan.result_count; ++k) {
@@ -326,11 +326,11 @@ std::vector<std::vector<double>> values_of_start(const StageView& view) {
     const Environment& here = view.environment();
     const std::uint32_t k = view.number();
     const Tissue& tissue = *view.state().tissue;
-    const StepPlan& plan = here.plans->start(k);
+    const StepPlan& plan = here.plans.start(k);
     if (tissue.count() == 0 || reads_earlier_cells(plan, k)) return {};
     const TissueStage stage = tissue_stage(here, view.states(), k);
     const auto values = evaluate_in(tissue, plan, stage, neighbours_of(stage, 0),
-                                    here.tissue_kernels->once(), *here.team);
+                                    here.crawling->kernels.once(), here.team);
     if (!values) return {};
     std::vector<std::vector<double>> by_item(view.system().item_count());
     for (std::size_t r = 0; r < values->size(); ++r) {

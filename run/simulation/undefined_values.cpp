@@ -110,7 +110,7 @@ bool warn_of_lost(const StageView& view, std::span<const UndefinedWatch> watched
                                       : " at " + here.place_in_words(place->column, place->row);
         control.warn(
             fmt::format("stage '{}': {} {} is not a number{}, {}: {}", view.stage().name,
-                        here.script->sources.text(watched[n].number.span), watched[n].where, where,
+                        here.script.sources.text(watched[n].number.span), watched[n].where, where,
                         view.state().steps == 0 ? "at the start"
                                                 : fmt::format("after step {}", view.state().steps),
                         watched[n].effect));
@@ -203,7 +203,7 @@ void warn_of_undefined_mask(const Environment& environment,
         if (!place) continue;
         return control.warn(
             fmt::format("the mask of the domain: {} is not a number at {}, which is outside by it",
-                        environment.script->sources.text(each.span),
+                        environment.script.sources.text(each.span),
                         environment.place_in_words(place->column, place->row)));
     }
 }

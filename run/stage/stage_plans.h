@@ -15,7 +15,7 @@ class StagePlans {
 public:
     /// `program` must outlive the plans.
     StagePlans(const Program& program, const PlanOptions& options)
-        : program_(program),
+        : program_(&program),
           options_(options),
           starts_(program.stages.size()),
           step_invariant_(program.stages.size()),
@@ -30,7 +30,7 @@ public:
     const StepPlan& sweep(std::uint32_t stage, const SweepForm& form);
 
 private:
-    const Program& program_;
+    const Program* program_;
     PlanOptions options_;
     std::vector<std::optional<StepPlan>> starts_, step_invariant_;
     std::vector<std::deque<std::pair<SweepForm, StepPlan>>> sweeps_;  ///< By stage.

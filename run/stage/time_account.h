@@ -55,6 +55,8 @@ public:
     public:
         /// Of a stage, by number; without one, of the stage of the enclosing scope.
         Scope(TimeAccount* account, Spent what, std::optional<std::uint32_t> stage = std::nullopt);
+        Scope(TimeAccount& account, Spent what, std::optional<std::uint32_t> stage = std::nullopt)
+            : Scope(&account, what, stage) {}
         ~Scope();
         Scope(const Scope&) = delete;
         Scope& operator=(const Scope&) = delete;
