@@ -9,6 +9,7 @@
 #include "run/stage/step_kernels.h"
 #include "run/stage/time_account.h"
 #include "solvers/advance.h"
+#include "solvers/executor.h"
 
 #include <functional>
 #include <memory>
