@@ -86,6 +86,22 @@ std::optional<Critical> critical_wave(const Matrix& jacobian, double resolution)
     return Critical{scaled, *adjoint / product};
 }
 
+/// x in L x = −f.
+Vector answer(const Matrix& matrix, const Vector& forcing) { return -solution_of(matrix, forcing); }
+
+/// The answer to k₁ + k₂ = −k₃, whose forcing along the critical wave is the quadratic coefficient:
+/// that to the rest of the forcing, across the wave.
+Vector resonant_answer(const Matrix& at_wave, const Critical& critical, const Vector& square) {
+    const auto& [wave, adjoint] = critical;
+    Matrix bordered = Matrix::Zero(wave.size() + 1, wave.size() + 1);
+    bordered.topLeftCorner(wave.size(), wave.size()) = at_wave;
+    bordered.topRightCorner(wave.size(), 1) = wave;
+    bordered.bottomLeftCorner(1, wave.size()) = adjoint.transpose();
+    Vector forcing = Vector::Zero(wave.size() + 1);
+    forcing.head(wave.size()) = square - wave * adjoint.dot(square);
+    return answer(bordered, forcing).head(wave.size());
+}
+
 }  // namespace
 
 bool AmplitudeEquations::has_plane() const { return !std::isnan(cross); }
@@ -143,25 +159,14 @@ std::optional<AmplitudeEquations> amplitude_equations(const LocalRates& rates, c
     result.quadratic = adjoint.dot(square);
     if (std::abs(result.quadratic) <= no_product * largest) result.quadratic = 0;
     const auto by = [&](const Vector& mode) { return adjoint.dot(polynomial.second(wave, mode)); };
-    const auto answer = [](const Matrix& matrix, const Vector& forcing) {
-        return Vector(-solution_of(matrix, forcing));
-    };
     const double from_mean = by(answer(at_rest, square));
     result.self = -(from_mean + by(answer(at(2 * phase, 0), square / 2)) + adjoint.dot(cube) / 2);
     result.cross = std::numeric_limits<double>::quiet_NaN();
     if (!has_plane) return result;
-    // k₁ − k₂ is √3 as long. k₁ + k₂ is −k₃: its forcing along φ is v, and the rest responds.
+    // k₁ − k₂ is √3 as long.
     const double root = std::numbers::sqrt3;
-    const Vector other = square - wave * adjoint.dot(square);
-    Matrix bordered = Matrix::Zero(wave.size() + 1, wave.size() + 1);
-    bordered.topLeftCorner(wave.size(), wave.size()) = at_wave;
-    bordered.topRightCorner(wave.size(), 1) = wave;
-    bordered.bottomLeftCorner(1, wave.size()) = adjoint.transpose();
-    Vector forcing = Vector::Zero(wave.size() + 1);
-    forcing.head(wave.size()) = other;
-    const Vector resonant = answer(bordered, forcing).head(wave.size());
     result.cross = -(from_mean + by(answer(at(1.5 * phase, root / 2 * phase), square)) +
-                     by(resonant) + adjoint.dot(cube));
+                     by(resonant_answer(at_wave, *critical, square)) + adjoint.dot(cube));
     return result;
 }
 

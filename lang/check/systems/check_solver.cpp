@@ -79,67 +79,74 @@ void check_local_solver(const Program& program, std::uint32_t stage, Span span,
     }
 }
 
+namespace {
+
+struct Refusal {
+    std::string message, hint;
+};
+
+/// Why a semi-implicit solver cannot take the steps of a stage in its domain; nothing if it can.
+std::optional<Refusal> refusal_of_domain(const Program& program, const Stage& stage) {
+    const DomainSettings& domain = program.domain;
+    const std::string_view solver = name_of(stage.time.solver);
+    if (domain.model) {
+        return Refusal{fmt::format("stage '{}': the solver {} needs the waves of a grid, which a "
+                                   "model does not have",
+                                   stage.name, solver),
+                       "rkl1 takes long steps on models"};
+    }
+    if (domain.surface && domain.surface->has_metric) {
+        return Refusal{fmt::format("stage '{}': {} needs cells that are squares, and these lie on "
+                                   "a surface",
+                                   stage.name, solver),
+                       "rkl1 takes long steps there"};
+    }
+    if (domain.mask) {
+        return Refusal{fmt::format("stage '{}': {} needs all cells of the grid, and the domain has "
+                                   "a mask",
+                                   stage.name, solver),
+                       "rkl1 takes long steps there"};
+    }
+    if (domain.stencil != StencilKind::cross) {
+        return Refusal{fmt::format("stage '{}': {} knows the waves of stencil: cross alone",
+                                   stage.name, solver),
+                       "rkl2 takes long steps with any stencil"};
+    }
+    return std::nullopt;
+}
+
+/// The same for its system.
+std::optional<Refusal> refusal_of_system(const Program& program, std::uint32_t number) {
+    const Stage& stage = program.stages[number];
+    const System& system = program.system_of(number);
+    const std::string_view solver = name_of(stage.time.solver);
+    if (!stage.uniform[system.frozen_item()]) {
+        return Refusal{fmt::format("stage '{}' freezes cells, which {} cannot: its waves run "
+                                   "through all of them",
+                                   stage.name, solver),
+                       "rkl1 takes long steps around frozen cells"};
+    }
+    const auto diffusion = diffusion_of(program, number);
+    if (const auto held = held_and_nested(stage, diffusion)) {
+        return Refusal{fmt::format("stage '{}': {} cannot hold {} at a side, for its rate applies "
+                                   "lap to lap of it",
+                                   stage.name, solver, system.item_name(system.species()[*held])),
+                       "rkl1 can"};
+    }
+    if (has_diffusion(diffusion)) return std::nullopt;
+    return Refusal{
+        fmt::format("stage '{}': {} finds no diffusion to take implicitly", stage.name, solver),
+        "it looks for lap, dxx, diffuse or div(k * grad(u)) in the rate of u; rk45 takes any rate"};
+}
+
+}  // namespace
+
 void check_semi_implicit(const Program& program, std::uint32_t stage, Span span,
                          Diagnostics& diagnostics) {
-    const Stage& checked = program.stages[stage];
-    const System& system = program.system_of(stage);
-    const Solver solver = checked.time.solver;
-    if (!is_semi_implicit(solver)) return;
-    if (program.domain.model) {
-        diagnostics.error(span,
-                          fmt::format("stage '{}': the solver {} needs the waves of a grid, which "
-                                      "a model does not have",
-                                      checked.name, name_of(solver)),
-                          "rkl1 takes long steps on models");
-        return;
-    }
-    if (program.domain.surface && program.domain.surface->has_metric) {
-        diagnostics.error(span,
-                          fmt::format("stage '{}': {} needs cells that are squares, and these "
-                                      "lie on a surface",
-                                      checked.name, name_of(solver)),
-                          "rkl1 takes long steps there");
-        return;
-    }
-    if (program.domain.mask) {
-        diagnostics.error(
-            span,
-            fmt::format("stage '{}': {} needs all cells of the grid, and the domain has "
-                        "a mask",
-                        checked.name, name_of(solver)),
-            "rkl1 takes long steps there");
-        return;
-    }
-    if (program.domain.stencil != StencilKind::cross) {
-        diagnostics.error(span,
-                          fmt::format("stage '{}': {} knows the waves of stencil: cross alone",
-                                      checked.name, name_of(solver)),
-                          "rkl2 takes long steps with any stencil");
-        return;
-    }
-    if (!checked.uniform[system.frozen_item()]) {
-        diagnostics.error(span,
-                          fmt::format("stage '{}' freezes cells, which {} cannot: its waves run "
-                                      "through all of them",
-                                      checked.name, name_of(solver)),
-                          "rkl1 takes long steps around frozen cells");
-        return;
-    }
-    const auto diffusion = diffusion_of(program, stage);
-    if (const auto held = held_and_nested(checked, diffusion)) {
-        diagnostics.error(span,
-                          fmt::format("stage '{}': {} cannot hold {} at a side, for its rate "
-                                      "applies lap to lap of it",
-                                      checked.name, name_of(solver),
-                                      system.item_name(system.species()[*held])),
-                          "rkl1 can");
-    } else if (!has_diffusion(diffusion)) {
-        diagnostics.error(span,
-                          fmt::format("stage '{}': {} finds no diffusion to take implicitly",
-                                      checked.name, name_of(solver)),
-                          "it looks for lap, dxx, diffuse or div(k * grad(u)) in the rate of u; "
-                          "rk45 takes any rate");
-    }
+    if (!is_semi_implicit(program.stages[stage].time.solver)) return;
+    auto refusal = refusal_of_domain(program, program.stages[stage]);
+    if (!refusal) refusal = refusal_of_system(program, stage);
+    if (refusal) diagnostics.error(span, refusal->message, refusal->hint);
 }
 
 }  // namespace cascade::checking
