@@ -1,0 +1,88 @@
+// Resolves the slots of a plan's passes to registers, planes and numbers, and notes which planes
+// need a halo, and for which moment.
+#pragma once
+
+#include "run/stage/bound_kernel.h"
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace cascade {
+
+/// The number of cells that means are taken over; 0: all.
+std::int64_t cells_inside(const BindingContext& context);
+
+/// Binds one plan, once. All arguments must outlive the binder.
+class PlanBinder {
+public:
+    PlanBinder(const StepPlan& plan, const BindingContext& context, const System* system,
+               std::uint32_t stage, const SweepForm* form = nullptr, const Sweep* sweep = nullptr,
+               std::vector<double> read_at = {});
+
+    /// Results of the plan become the last temporaries of the problem.
+    void keep_results() { keeps_results_ = true; }
+    /// By species: is it read at neighbours? Other plans of the same step may need more.
+    std::vector<bool>& species_needs_halo() { return problem_.species_needs_halo; }
+    /// By register of the scheme: does any sweep read it at neighbours?
+    void set_halo_registers(const IdVector<RegisterId, bool>& registers) {
+        halo_registers_ = registers;
+    }
+
+    StepProblem bind(const Compile& compile);
+
+private:
+    using PlaneRef = StepProblem::PlaneRef;
+    using SpeciesPlane = StepProblem::SpeciesPlane;
+    bool is_species(StageItem item) const {
+        return system_ != nullptr && item.stage == stage_ && system_->is_species(item.item);
+    }
+
+    std::optional<TemporaryId> sensed(const PlaneSource& source) const;
+    bool reads_what_is_sensed() const;
+
+    /// What the plans of a constraint read and write, and their binders.
+    struct OfConstraint {
+        BindingContext context;
+        std::shared_ptr<Field> unknown;
+        std::shared_ptr<StepInvariants> constant;
+        std::vector<PlanBinder>
+            binders;  ///< Of the plans whole, linear and, if there is one, parts.
+    };
+    void add_constraint(const Solve& solve);
+    StepProblem::Solve bind_constraint(const Solve& solve, const Compile& compile);
+    StepProblem::Pass sense();
+    PlaneRef bind_plane(const PlaneSource& source) const;
+
+    /// The plane of a species that rates read.
+    RegisterId register_of(SpeciesId species) const {
+        if (sweep_ == nullptr) return old_register;
+        return species.index() < sweep_->renewed ? new_register : sweep_->inputs[0];
+    }
+
+    SideRules sides_of(const PlaneSource& source) const;
+    void find_halos(const Pass& pass);
+    StepProblem::Pass bind_pass(const Pass& pass) const;
+    static void check_overwritten(const CellKernel& kernel, const StepProblem::Pass& bound);
+    void bind_uniform(const UniformSource& source, StepProblem::Pass& bound) const;
+    StepProblem::Result bind_result(const PassTarget& target) const;
+
+    const StepPlan& plan_;
+    const BindingContext& context_;
+    const System* system_;  ///< Null: no species is a register.
+    std::uint32_t stage_;
+    const SweepForm* form_;  ///< Of a sweep; null for a plan outside of a scheme.
+    const Sweep* sweep_;
+    std::vector<double> read_at_;  ///< By output of the sweep: the moment at which rates read it.
+    bool senses_ = false;          ///< Do passes read what cells sense at their places?
+    bool keeps_results_ = false;
+    std::map<const Solve*, std::unique_ptr<OfConstraint>> constraints_;
+    StepProblem problem_;
+    IdVector<TemporaryId, bool> temporary_needs_halo_;
+    IdVector<RegisterId, bool> halo_registers_;
+};
+
+}  // namespace cascade
