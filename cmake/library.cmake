@@ -1,11 +1,13 @@
-# The library libcascade, its public header, and the rules of `cmake --install`.
+# The library libcascade, its public headers, and the rules of `cmake --install`.
 
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# The rooms are linked in but not exported: only the functions of cascade.h can be called.
+# The rooms are linked in but not exported: only the functions of the public headers can be called.
 # They are objects by themselves, which tests link, too.
-add_library(cascade_pattern OBJECT run/commands/pattern.cpp)
+add_library(cascade_pattern OBJECT
+  run/commands/pattern.cpp run/commands/pattern_values.cpp
+  run/commands/c_calls.cpp run/commands/c_functions.cpp run/commands/c_values.cpp)
 target_link_libraries(cascade_pattern PRIVATE cascade_run)
 target_compile_options(cascade_pattern PRIVATE ${usual_options})
 add_library(cascade_library SHARED $<TARGET_OBJECTS:cascade_pattern>)
@@ -45,7 +47,8 @@ if(TARGET cascade_openvdb)
   install(TARGETS cascade_openvdb LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 endif()
 install(TARGETS cascade_library EXPORT CascadeTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(FILES include/cascade/cascade.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cascade)
+install(FILES include/cascade/cascade.h include/cascade/cascade_c.h
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cascade)
 install(EXPORT CascadeTargets NAMESPACE Cascade:: DESTINATION ${package_folder})
 install(FILES
   ${PROJECT_BINARY_DIR}/CascadeConfig.cmake

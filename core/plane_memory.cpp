@@ -3,10 +3,13 @@
 // freed plane is reused for the next of its size.
 #include "core/enough_memory.h"
 #include "core/plane.h"
+#include "core/shared_plane.h"
 
 #include <atomic>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <new>
 
 #include <sys/mman.h>
 
@@ -20,7 +23,13 @@ constexpr std::size_t huge_page = std::size_t{2} << 20;
 struct Block {
     void* begin;
     std::size_t mapped_bytes;  ///< 0 if the block is on the heap.
+    std::atomic<std::size_t> owners{1};
 };
+
+Block& block_of(const void* plane) {
+    char* const begin = static_cast<char*>(const_cast<void*>(plane));
+    return *std::launder(reinterpret_cast<Block*>(begin - sizeof(Block)));
+}
 
 /// The offset of a plane in its memory block. Planes at equal offsets in their pages map rows to
 /// the same cache sets, which have too few ways for a tile of five planes. The processor also
@@ -96,19 +105,26 @@ void* allocate_plane(std::size_t bytes) {
                         : is_large ? map_pages(rounded)
                                    : std::aligned_alloc(cache_line, rounded);
     if (begin == nullptr) lack_memory();
-    const Block block{begin, is_large ? rounded : 0};
     char* const plane = static_cast<char*>(begin) + shift;
-    std::memcpy(plane - sizeof block, &block, sizeof block);
+    new (plane - sizeof(Block)) Block{begin, is_large ? rounded : 0};
     if (spare || !is_large) std::memset(plane, 0, bytes);
     return plane;
 }
 
 void free_plane(void* plane) {
     if (plane == nullptr) return;
-    Block block;
-    std::memcpy(&block, static_cast<char*>(plane) - sizeof block, sizeof block);
+    Block& block = block_of(plane);
+    if (block.owners.fetch_sub(1, std::memory_order_acq_rel) > 1) return;
     if (block.mapped_bytes > 0) free_pages(block.begin, block.mapped_bytes);
     else std::free(block.begin);
+}
+
+void add_owner_of_plane(const void* plane) {
+    block_of(plane).owners.fetch_add(1, std::memory_order_relaxed);
+}
+
+bool has_several_owners(const void* plane) {
+    return block_of(plane).owners.load(std::memory_order_acquire) > 1;
 }
 
 }  // namespace cascade

@@ -3,6 +3,7 @@
 #include "core/check.h"
 #include "core/floating_point.h"
 #include "core/parallel.h"
+#include "core/shared_plane.h"
 #include "solvers/executor.h"
 #include "solvers/field_norms.h"
 #include "solvers/finite.h"
@@ -56,6 +57,7 @@ public:
     std::vector<Field>& copy(int number) { return copies_[static_cast<std::size_t>(number)]; }
     /// Gives a copy away; fields of the same kind must be put before the next step.
     std::vector<Field> take(int number) { return std::move(copy(number)); }
+    /// Steps change planes in place, so of shared ones a copy is put.
     void put(int number, std::vector<Field> species);
 
     /// Makes planes for this number of registers, the old and the new step included.
@@ -83,9 +85,8 @@ private:
 StepPlanes::StepPlanes(const PlaneLayout& layout, Precision precision, std::vector<Field> species,
                        bool keeps)
     : layout_(layout), precision_(precision), species_(species.size()) {
-    copies_[0] = std::move(species);
-    for (const Field& field : copies_[0]) {
-        check(field);
+    put(0, std::move(species));
+    for (std::size_t s = 0; s < species_; ++s) {
         copies_[1].emplace_back(layout_, precision_);
         if (keeps) copies_[2].emplace_back(layout_, precision_);
     }
@@ -93,7 +94,10 @@ StepPlanes::StepPlanes(const PlaneLayout& layout, Precision precision, std::vect
 
 void StepPlanes::put(int number, std::vector<Field> species) {
     CHECK(species.size() == species_, "all species come back");
-    for (const Field& field : species) check(field);
+    for (Field& field : species) {
+        check(field);
+        if (is_shared(field)) field = field.clone();
+    }
     copy(number) = std::move(species);
 }
 

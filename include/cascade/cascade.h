@@ -6,11 +6,14 @@
 //     std::vector<float> b = pattern.values("b");      // height() rows of width() numbers
 //
 // Link with the CMake target Cascade::cascade. No function throws or prints. One thread at a time
-// may use a Pattern, but any thread or signal handler may call cancel().
+// may use a Pattern, but any thread or signal handler may call cancel(). From C, and from languages
+// that call C, cascade/cascade_c.h does the same.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,12 +35,68 @@ struct Message {
     std::string hint;  ///< What to write instead; may be empty.
 };
 
-/// How a pattern is computed. Does not affect results.
+/// How a pattern is computed. Only `sets` affect results.
 struct PatternOptions {
     bool native_code = true;        ///< Compile the equations; false interprets them.
     int threads = 0;                ///< 0 for all that the machine has.
     std::string name = "<script>";  ///< The script's name in messages.
     std::string folder = ".";       ///< Paths in the script are relative to it.
+    /// Values of parameters and settings, as `--set` takes them: "ka=1/80", "spots.ka=1/80".
+    std::vector<std::string> sets = {};
+};
+
+/// A parameter of a stage.
+struct PatternParameter {
+    struct Range {
+        double low = 0, high = 1;
+        std::optional<double> step;
+    };
+    std::string stage;
+    std::string name;
+    std::string doc;             ///< Its doc comment; may be empty.
+    std::optional<Range> range;  ///< `in low .. high step s`.
+    bool is_uniform = true;      ///< One number for all cells.
+    double value = 0;            ///< NaN if it varies, or if its stage has not begun.
+};
+
+/// A measured feature of a pattern (spec/command_line.md). NaN if the pattern lacks it.
+struct PatternFeature {
+    std::string name;
+    double value = 0;
+};
+
+/// How far a stage has come.
+struct PatternProgress {
+    std::string stage;
+    int stage_number = 1;  ///< Counted from 1.
+    int stage_count = 1;
+    std::int64_t step = 0;        ///< Complete steps of this stage.
+    std::int64_t steps = 0;       ///< Steps that it will take.
+    double t = 0;                 ///< Its time if it ends at a time,
+    double duration = 0;          ///< and that end; 0 if it ends after some steps.
+    double steps_per_second = 0;  ///< 0 while unknown.
+    double seconds_left = -1;     ///< Of this stage; negative while unknown.
+};
+
+/// Receives progress about ten times a second. Returns false to cancel.
+using ProgressWatcher = std::function<bool(const PatternProgress&)>;
+
+/// The values of all cells at the moment when the view was made. They stay readable and the same
+/// while a copy of `owner` exists, also when the pattern goes on or is destroyed: then it goes on
+/// in other memory.
+struct PatternView {
+    enum class Number { binary32, binary64 };
+    const void* data = nullptr;  ///< The first cell of the first row; null if there are no values.
+    Number number = Number::binary32;  ///< binary64 with `precision: double`.
+    std::int64_t width = 0;            ///< Cells of a row, one after the other.
+    std::int64_t height = 0;
+    std::int64_t depth = 0;
+    std::int64_t row_bytes = 0;    ///< From a row to the next.
+    std::int64_t slice_bytes = 0;  ///< From a slice to the next.
+    /// True if the values are computed for the view, false if they lie in the pattern's own memory.
+    bool is_computed = false;
+    std::uint64_t moment = 0;  ///< Pattern::moment() at which they are the present ones.
+    std::shared_ptr<const void> owner;
 };
 
 /// A checked script and the state of its run.
@@ -57,6 +116,13 @@ public:
     std::string messages() const;
     /// Why a run failed (non-finite values, no memory); empty if it has not.
     std::string error() const;
+    /// The same with place and hint, where there are any; otherwise line and column are 0.
+    Message problem() const;
+
+    /// Opens a script, a picture that carries one, a session, or the folder of a saved run, which
+    /// goes on where it was saved. Paths in a script are relative to its folder; `options.name` and
+    /// `options.folder` are not used.
+    static Pattern open(const std::string& path, const PatternOptions& options = {});
 
     /// Columns of the grid; 0 if the script is wrong. The cells of a model form one row.
     std::int64_t width() const;
@@ -73,18 +139,31 @@ public:
     /// value is found within 64 steps, at the end of a stage or by values(). The pattern has then
     /// failed, and returns to the last step at which all values were finite.
     std::int64_t step(std::int64_t count);
+    /// The same with a watcher, which may be empty.
+    std::int64_t step(std::int64_t count, const ProgressWatcher& watcher);
+    /// Takes all steps. False if they were cancelled or have failed.
+    bool run(const ProgressWatcher& watcher = {});
     /// True when every stage has taken all its steps.
     bool finished() const;
     /// Name of the stage that steps are taken in now (the last one when finished).
     std::string current_stage() const;
     /// Complete steps of that stage.
     std::int64_t steps() const;
+    /// Changes with every step and every change: values read earlier are then those of the past.
+    std::uint64_t moment() const;
+
+    /// The parameters of all stages, in the order of the script.
+    std::vector<PatternParameter> parameters() const;
+    /// What `cascade run` would remark on the stages so far, a sentence each.
+    std::vector<std::string> remarks() const;
 
     // A pattern can be changed between two steps (spec/session.md). Each change returns false if it
     // is refused. Then error() says why, nothing has changed, and the pattern stays ok.
 
     /// Gives a parameter or setting another value, as `--set NAME=EXPRESSION` does: "ka", "1/80".
     bool set(const std::string& name, const std::string& expression);
+    /// The same with a number, which reaches the pattern unrounded.
+    bool set(const std::string& name, double value);
     /// Continues with another script. Items of the same name keep their values. With other cells
     /// (grid, mask, model, seed, precision) the run begins anew.
     bool set_script(const std::string& script);
@@ -109,11 +188,28 @@ public:
     /// (spec/cells.md). Empty if the expression is wrong; then error() says why, and the pattern
     /// stays ok. Also empty if a value of the state is not finite, as for step().
     std::vector<float> values(const std::string& expression);
+    /// The same without rounding to single precision.
+    std::vector<double> numbers(const std::string& expression);
+    /// The same without a copy, where the expression is a species or a varying parameter of a grid
+    /// without a mask: the view then lies in the pattern's memory. While somebody owns it, the next
+    /// step copies that plane once.
+    PatternView view(const std::string& expression);
+
+    /// The features of the picture, or of `expression`: wavelength, spots, area and others. Empty
+    /// if it is wrong, as values().
+    std::vector<PatternFeature> features(const std::string& expression = "");
+    /// What will grow, as `cascade analyze` tells it, in words or as JSON. Empty if a stage cannot
+    /// be analysed. Then error() says why, and the pattern stays ok.
+    std::string analysis(const std::string& stage = "", bool as_json = false);
 
     /// The present step as a PNG file in memory: what `cascade run` would draw, or `expression`. It
     /// carries the session, so that `cascade run FILE` draws it again. Empty if there is no
     /// picture. Then error() says why, and the pattern stays ok.
     std::string picture(const std::string& expression = "");
+    /// Writes that picture to a file, whose name ends in .png.
+    bool write_picture(const std::string& path, const std::string& expression = "");
+    /// Saves all values in a folder, as `--save` does, for open() and `cascade run --resume`.
+    bool save(const std::string& folder);
 
     /// Makes a running step() return after its present step. The next step() continues.
     void cancel();

@@ -1,82 +1,22 @@
-// The public library (include/cascade/cascade.h), implemented by Script and Simulation.
+// The public library (include/cascade/cascade.h), implemented by a LiveRun: making, stepping and
+// changing a pattern.
 
-#include "cascade/cascade.h"
-
-#include "core/failure_line.h"
+#include "core/file.h"
 #include "core/version.h"
+#include "run/commands/pattern_state.h"
+#include "run/commands/run.h"
 #include "run/script/embedded_script.h"
-#include "run/pictures/drawn_cells.h"
 #include "run/session/session_picture.h"
-#include "tissue/tissue.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
+#include <cmath>
+#include <filesystem>
+#include <limits>
 #include <utility>
 
 namespace cascade {
-
-struct Pattern::Implementation {
-    std::unique_ptr<LiveRun> run;            ///< Null if the script is wrong.
-    std::shared_ptr<const Program> program;  ///< Of a script that could not be run; may be null.
-    Diagnostics diagnostics;                 ///< Of the script,
-    Sources sources;                         ///< and its sources, where there is no run.
-    RunControl control;
-    std::string error;
-    bool failed = false;
-    std::map<std::string, Formula> formulas;  ///< Of values(), by stage and text.
-
-    std::shared_ptr<const ModelCells> model() const {
-        return run ? run->simulation().domain().shared_model() : nullptr;
-    }
-    bool running() const { return run && !failed; }
-    const Program* known_program() const {
-        return run ? run->script().program.get() : program.get();
-    }
-
-    void fail(const Failure& failure) {
-        failed = true;
-        error = line_of(failure);
-    }
-
-    /// Takes over a run, or why there is none.
-    void begin(Accepted<std::unique_ptr<LiveRun>> begun) {
-        if (begun) {
-            run = std::move(*begun);
-            return;
-        }
-        Refusal& refused = begun.error();
-        if (refused.failure) fail(*refused.failure);
-        diagnostics = std::move(refused.diagnostics);
-        sources = std::move(refused.sources);
-    }
-
-    /// Notes why a change was refused.
-    bool note(const Accepted<void>& done) {
-        error = done ? "" : done.error().messages(false);
-        if (done) formulas.clear();
-        return done.has_value();
-    }
-    bool change(const Change& made) { return running() && note(run->apply(made, control)); }
-
-    /// The checked expression; null, with `error` set, if it has errors.
-    const Formula* formula(const std::string& text);
-
-    std::uint32_t stage() const { return run->place().stage; }
-    const Stage& current() const { return run->script().program->stages[stage()]; }
-    /// Of all stages so far.
-    std::int64_t steps() const {
-        std::int64_t steps = 0;
-        for (std::uint32_t k = 0; k <= stage(); ++k) steps += run->simulation().state(k).steps;
-        return steps;
-    }
-
-    /// Are all values of the present step finite? Fails as the steps would have where not.
-    bool check() {
-        control.cancel = control.checks_later = false;
-        if (const auto good = run->check(control); !good) fail(good.error());
-        return !failed;
-    }
-};
 
 namespace {
 
@@ -96,12 +36,37 @@ Result<SessionLog> log_of(const std::string& session) {
     return parse_session_log(embedded->session);
 }
 
+PatternProgress progress_of(const Progress& progress) {
+    return {progress.stage,       progress.stage_number,
+            progress.stage_count, progress.step,
+            progress.steps,       progress.t,
+            progress.duration,    progress.steps_per_second,
+            progress.seconds_left};
+}
+
 }  // namespace
+
+Message message_of(const Diagnostic& diagnostic, const Sources& sources) {
+    const Source& source = sources[diagnostic.span.source];
+    const Location place = source.locate(diagnostic.span.begin);
+    return {
+        diagnostic.severity == Severity::error, source.name(),      static_cast<int>(place.line),
+        static_cast<int>(place.column),         diagnostic.message, diagnostic.hint};
+}
+
+Message first_of(const Diagnostics& diagnostics, const Sources& sources) {
+    for (const Diagnostic& diagnostic : diagnostics.sorted()) {
+        if (diagnostic.severity == Severity::error) return message_of(diagnostic, sources);
+    }
+    return {};
+}
 
 Pattern::Pattern() : self_(std::make_unique<Implementation>()) {}
 
 Pattern::Pattern(const std::string& text, const PatternOptions& options) : Pattern() {
-    Script script = load_script(options.name, text, options.folder);
+    Overrides overrides;
+    overrides.sets = options.sets;
+    Script script = load_script(options.name, text, options.folder, std::move(overrides));
     self_->program = script.program;
     self_->begin(LiveRun::begin(std::move(script), simulation_options(options), self_->control));
 }
@@ -118,6 +83,50 @@ Pattern Pattern::play(const std::string& session, const PatternOptions& options)
     return pattern;
 }
 
+Pattern Pattern::open(const std::string& path, const PatternOptions& options) {
+    Pattern pattern;
+    Implementation& self = *pattern.self_;
+    const SimulationOptions simulation = simulation_options(options);
+    Overrides overrides;
+    overrides.sets = options.sets;
+    std::error_code error;
+    if (std::filesystem::is_directory(path, error)) {
+        auto saved = load_saved_script(path, overrides);
+        if (!saved) {
+            self.fail(saved.error());
+            return pattern;
+        }
+        self.program = saved->program;
+        self.begin(LiveRun::resume(std::move(*saved), simulation, self.control,
+                                   [&](const Script& script, Simulation& begun) {
+                                       return restore_run(path, script, begun);
+                                   }));
+        return pattern;
+    }
+    const std::string folder = std::filesystem::path(path).parent_path().string();
+    if (is_session_log(first_bytes(path, longest_log_beginning))) {
+        const auto log = read_file(path, largest_session_log);
+        PatternOptions of_log = options;
+        of_log.folder = folder;
+        if (log) return play(*log, of_log);
+        self.fail(log.error());
+        return pattern;
+    }
+    auto file = load_script_file(path, std::move(overrides));
+    const auto session = file ? session_of(*file) : tl::unexpected(file.error());
+    if (!session) {
+        self.fail(session.error());
+        return pattern;
+    }
+    if (*session) {
+        self.begin(LiveRun::play(**session, file->script.folder, simulation, self.control));
+        return pattern;
+    }
+    self.program = file->script.program;
+    self.begin(LiveRun::begin(std::move(file->script), simulation, self.control));
+    return pattern;
+}
+
 Pattern::~Pattern() = default;
 Pattern::Pattern(Pattern&&) noexcept = default;
 Pattern& Pattern::operator=(Pattern&&) noexcept = default;
@@ -130,11 +139,7 @@ std::vector<Message> Pattern::diagnostics() const {
     const Sources& sources = has_run ? self_->run->script().sources : self_->sources;
     const Diagnostics& all = has_run ? self_->run->script().diagnostics : self_->diagnostics;
     for (const Diagnostic& diagnostic : all.sorted()) {
-        const Source& source = sources[diagnostic.span.source];
-        const Location place = source.locate(diagnostic.span.begin);
-        messages.push_back({diagnostic.severity == Severity::error, source.name(),
-                            static_cast<int>(place.line), static_cast<int>(place.column),
-                            diagnostic.message, diagnostic.hint});
+        messages.push_back(message_of(diagnostic, sources));
     }
     return messages;
 }
@@ -144,6 +149,7 @@ std::string Pattern::messages() const {
                       : render(self_->diagnostics, self_->sources, {});
 }
 std::string Pattern::error() const { return self_->error; }
+Message Pattern::problem() const { return self_->problem; }
 
 std::int64_t Pattern::width() const {
     if (const auto model = self_->model()) return static_cast<std::int64_t>(model->count());
@@ -182,78 +188,65 @@ std::vector<std::string> Pattern::species(const std::string& stage) const {
     return names;
 }
 
-std::int64_t Pattern::step(std::int64_t count) {
+std::int64_t Pattern::step(std::int64_t count) { return step(count, {}); }
+
+std::int64_t Pattern::step(std::int64_t count, const ProgressWatcher& watcher) {
     if (!self_->running()) return 0;
-    self_->control.cancel = false;
-    self_->control.checks_later = true;
+    RunControl& control = self_->control;
+    control.cancel = false;
+    control.checks_later = true;
+    if (watcher) {
+        control.report = [&](const Progress& progress) {
+            if (!watcher(progress_of(progress))) control.cancel = true;
+        };
+    }
     const std::int64_t before = self_->steps();
     Watching watching;
     watching.begins_next = true;
-    const auto end =
-        self_->run->advance(std::max<std::int64_t>(count, 0), self_->control, watching);
+    const auto end = self_->run->advance(std::max<std::int64_t>(count, 0), control, watching);
+    control.report = {};
+    ++self_->moment;
     if (!end) self_->fail(end.error());
     // Fewer than none where a value that is not finite takes back steps of earlier calls.
     return std::max<std::int64_t>(self_->steps() - before, 0);
+}
+
+bool Pattern::run(const ProgressWatcher& watcher) {
+    step(std::numeric_limits<std::int64_t>::max(), watcher);
+    return finished();
 }
 
 bool Pattern::finished() const { return self_->running() && self_->run->is_over(); }
 
 std::string Pattern::current_stage() const { return self_->run ? self_->current().name : ""; }
 std::int64_t Pattern::steps() const { return self_->run ? self_->run->place().steps : 0; }
+std::uint64_t Pattern::moment() const { return self_->moment; }
 
 bool Pattern::set(const std::string& name, const std::string& expression) {
     return self_->change(SetNumber{name, expression});
+}
+bool Pattern::set(const std::string& name, double value) {
+    if (std::isfinite(value)) return set(name, fmt::format("{}", value));
+    self_->note({fmt::format("'{}' cannot be {}", name, value), "parameters are finite numbers"});
+    return false;
 }
 bool Pattern::set_script(const std::string& script) { return self_->change(SetText{script}); }
 bool Pattern::paint(const std::string& item, const std::string& expression) {
     return self_->change(Paint{item, expression});
 }
 bool Pattern::begin_next_stage() { return self_->change(NextStage{}); }
-bool Pattern::undo() { return self_->running() && self_->note(self_->run->undo(self_->control)); }
-bool Pattern::redo() { return self_->running() && self_->note(self_->run->redo(self_->control)); }
+bool Pattern::undo() { return self_->running() && self_->took(self_->run->undo(self_->control)); }
+bool Pattern::redo() { return self_->running() && self_->took(self_->run->redo(self_->control)); }
 std::string Pattern::session() const {
     return self_->run ? print_session_log(self_->run->log()) : "";
 }
 
-std::string Pattern::picture(const std::string& expression) {
-    if (!self_->running() || !self_->check()) return "";
-    auto file = session_picture(*self_->run, picture_of(expression));
-    self_->error = file ? "" : file.error().messages(false);
-    return file ? std::move(*file) : "";
-}
-
-const Formula* Pattern::Implementation::formula(const std::string& text) {
-    // The same text in another stage is another expression.
-    const std::string key = current().name + ":" + text;
-    if (const auto known = formulas.find(key); known != formulas.end()) return &known->second;
-    Diagnostics errors;
-    auto checked = run->number("<values>", text, errors);
-    if (!checked) {
-        error = render(errors, run->script().sources, {});
-        return nullptr;
-    }
-    return &formulas.emplace(key, std::move(*checked)).first->second;
-}
-
-std::vector<float> Pattern::values(const std::string& text) {
-    if (!self_->running() || !self_->check()) return {};
-    self_->error.clear();
-    const Formula* formula = self_->formula(text);
-    if (!formula) return {};
-    Field field = std::move(self_->run->simulation().evaluate(*formula, self_->stage())[0]);
-    if (const Tissue* cells = self_->run->simulation().state(self_->stage()).tissue.get()) {
-        const std::vector<double> in_order = number_order(field, *cells);
-        return {in_order.begin(), in_order.end()};
-    }
-    if (const auto model = self_->model()) field = in_one_row(field, *model);
-    std::vector<float> values;
-    field.visit([&](const auto& plane) {
-        for (std::int64_t row = 0; row < plane.layout().row_count(); ++row) {
-            std::transform(plane.row(row), plane.row(row) + width(), std::back_inserter(values),
-                           [](auto value) { return static_cast<float>(value); });
-        }
-    });
-    return values;
+bool Pattern::save(const std::string& folder) {
+    if (!self_->running() || !self_->check()) return false;
+    self_->forget_error();
+    const auto saved = save_run(folder, self_->run->script(), self_->run->simulation());
+    if (!saved) self_->note(saved.error());
+    return saved.has_value();
 }
 
 void Pattern::cancel() { self_->control.cancel = true; }

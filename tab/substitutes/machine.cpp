@@ -5,6 +5,7 @@
 #include "core/floating_point.h"
 #include "core/parallel.h"
 #include "core/plane.h"
+#include "core/shared_plane.h"
 #include "core/transform_planner.h"
 #include "run/domain/free_memory.h"
 
@@ -72,6 +73,9 @@ void free_plane(void* plane) {
     bytes_of_planes -= size;
     std::free(block);
 }
+
+/// Pages keep no planes.
+bool has_several_owners(const void*) { return false; }
 
 /// Addresses have 32 bits, so browsers give a module at most 4 GiB, in which freed blocks may leave
 /// gaps. 1 if memory is full, since 0 means that the amount is unknown.

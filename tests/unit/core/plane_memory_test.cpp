@@ -1,5 +1,6 @@
 // Memory of planes: zeroed, aligned, and touched only where it is used.
 #include "core/plane.h"
+#include "core/shared_plane.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -77,6 +78,27 @@ TEST(PlaneMemory, OfALargePlaneIsTouchedWhereItIsUsed) {
 TEST(PlaneMemory, ThatDoesNotExistIsRefused) {
     // More than an address can reach.
     EXPECT_THROW(plane_of(std::size_t{1} << 60), std::bad_alloc);
+}
+
+TEST(PlaneMemory, LivesUntilItsLastOwnerIsGone) {
+    for (const std::int64_t width : {8, 2048}) {
+        Grid grid;
+        grid.width = grid.height = width;
+        Field field{PlaneLayout(grid)};
+        field.at(3, 2) = 7;
+        const float* const cell = field.row(2) + 3;
+        auto kept = share(field);
+        EXPECT_TRUE(is_shared(field));
+        auto also_kept = share(field);
+        also_kept.reset();
+        EXPECT_TRUE(is_shared(field));
+        field = Field(PlaneLayout(grid));
+        EXPECT_FALSE(is_shared(field));
+        EXPECT_EQ(*cell, 7);
+        kept = share(field);
+        kept.reset();
+        EXPECT_FALSE(is_shared(field));
+    }
 }
 
 }  // namespace

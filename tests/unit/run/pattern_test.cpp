@@ -6,7 +6,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -245,6 +248,122 @@ TEST(Pattern, IsTheSameInterpretedAndCompiled) {
     first.step(50);
     second.step(50);
     EXPECT_EQ(first.values("a"), second.values("a"));
+}
+
+TEST(Pattern, AViewLiesInThePatternsMemoryAndKeepsItsMoment) {
+    Pattern pattern(spots_in_two_stages);
+    pattern.step(10);
+    const PatternView first = pattern.view("b"), second = pattern.view("b");
+    ASSERT_NE(first.data, nullptr) << pattern.error();
+    EXPECT_EQ(first.data, second.data);
+    EXPECT_FALSE(first.is_computed);
+    EXPECT_EQ(first.moment, pattern.moment());
+    EXPECT_TRUE(pattern.view("2 * b").is_computed);
+    EXPECT_TRUE(pattern.view("ka").is_computed);
+    const std::vector<float> before = pattern.values("b");
+    pattern.step(1);
+    EXPECT_NE(first.moment, pattern.moment());
+    EXPECT_NE(pattern.values("b"), before);
+    pattern.paint("b", "0");
+    pattern.step(100);
+    pattern = Pattern("nonsense");
+    const auto at = [&](std::int64_t column, std::int64_t row) {
+        return reinterpret_cast<const float*>(static_cast<const char*>(first.data) +
+                                              row * first.row_bytes)[column];
+    };
+    for (std::int64_t row = 0; row < 12; ++row) {
+        for (std::int64_t i = 0; i < 20; ++i) {
+            EXPECT_EQ(at(i, row), before[static_cast<std::size_t>(20 * row + i)]);
+        }
+    }
+}
+
+/// Whoever keeps views changes no result, whatever steps keep between calls.
+TEST(Pattern, NoResultDependsOnViewsThatAreKept) {
+    for (const char* how : {"iterations: 90", "iterations: 40; solver: rk4",
+                            "duration: 30; solver: rk45", "iterations: 400; until: steady(0.05)",
+                            "iterations: 30; solver: etdrk4", "iterations: 40; frozen: x > 0.6"}) {
+        const std::string script =
+            "domain { grid: 24, 18 }\n"
+            "system s { u: 1 + 0.3 * sin(7 * x + 3 * y); u' = 0.2 * lap(u) - 0.1 * u * u }\n"
+            "stage one: s { " +
+            std::string(how) + " }\n";
+        Pattern alone(script), looked_at(script);
+        alone.run();
+        std::vector<PatternView> kept;
+        std::vector<std::vector<float>> values;
+        while (looked_at.step(7) > 0) {
+            kept.push_back(looked_at.view("u"));
+            values.push_back(looked_at.values("u"));
+        }
+        EXPECT_EQ(bits_of(alone, "u"), bits_of(looked_at, "u")) << how;
+        ASSERT_FALSE(kept.empty());
+        for (std::size_t k = 0; k < kept.size(); ++k) {
+            EXPECT_EQ(*static_cast<const float*>(kept[k].data), values[k].front()) << how;
+        }
+    }
+}
+
+TEST(Pattern, NumbersAreNotRounded) {
+    Pattern pattern(
+        "domain { grid: 8, 8; precision: double }\n"
+        "system s { u: 1/3; u' = lap(u) }\nstage one: s { iterations: 3 }\n");
+    EXPECT_EQ(pattern.numbers("u").front(), 1.0 / 3);
+    EXPECT_EQ(pattern.values("u").front(), 1.0F / 3);
+    EXPECT_EQ(pattern.view("u").number, PatternView::Number::binary64);
+}
+
+/// Elsewhere values are computed in the order that values() has.
+TEST(Pattern, AViewHasTheOrderAndTheGapsOfValues) {
+    for (const char* domain : {"domain { grid: 20, 12; mask: x + y > 0.5 }\n",
+                               "domain { surface: sphere; cells: 300 }\n"}) {
+        Pattern pattern(std::string(domain) + "stage one: turing_spots { iterations: 5 }\n");
+        pattern.step(5);
+        const PatternView view = pattern.view("b");
+        ASSERT_NE(view.data, nullptr) << pattern.messages() << pattern.error();
+        EXPECT_TRUE(view.is_computed);
+        EXPECT_EQ(view.width, pattern.width());
+        const std::vector<float> values = pattern.values("b");
+        const auto* const row = static_cast<const float*>(view.data);
+        for (std::int64_t i = 0; i < view.width; ++i) {
+            const float value = values[static_cast<std::size_t>(i)];
+            EXPECT_TRUE(row[i] == value || (row[i] != row[i] && value != value));
+        }
+    }
+}
+
+TEST(Pattern, TellsItsParametersAndTakesNumbers) {
+    Pattern pattern(
+        "system s { ## Speed.\n rate: 0.1 in 0 .. 1 step 0.05\n u: x\n u' = rate * lap(u) }\n"
+        "stage one: s { iterations: 3 }\nstage two: s { iterations: 3 }\n");
+    const auto parameters = pattern.parameters();
+    ASSERT_EQ(parameters.size(), 2u) << pattern.messages();
+    EXPECT_EQ(parameters[0].stage + "." + parameters[0].name, "one.rate");
+    EXPECT_EQ(parameters[0].range->step, 0.05);
+    EXPECT_EQ(parameters[0].value, 0.1F);
+    EXPECT_TRUE(std::isnan(parameters[1].value)) << "its stage has not begun";
+    EXPECT_TRUE(pattern.set("one.rate", 1.0 / 3)) << pattern.error();
+    EXPECT_EQ(pattern.parameters()[0].value, 1.0F / 3);
+    EXPECT_FALSE(pattern.set("one.rate", std::numeric_limits<double>::infinity()));
+    EXPECT_NE(pattern.error().find("inf"), std::string::npos);
+    EXPECT_FALSE(pattern.set("rote", 1));
+    EXPECT_EQ(pattern.problem().line, 1);
+    EXPECT_TRUE(pattern.ok());
+    PatternOptions options;
+    options.sets = {"rate=0.25"};
+    EXPECT_EQ(Pattern("stage one: turing_spots { }", options).problem().file, "<--set>");
+}
+
+TEST(Pattern, ARunIsWatchedAndEnds) {
+    Pattern pattern(spots_in_two_stages);
+    EXPECT_FALSE(pattern.run([](const PatternProgress& progress) {
+        EXPECT_EQ(progress.stage_count, 2);
+        return false;
+    }));
+    EXPECT_TRUE(pattern.ok());
+    EXPECT_TRUE(pattern.run());
+    EXPECT_TRUE(pattern.finished());
+    EXPECT_FALSE(pattern.features("b").empty());
 }
 
 }  // namespace
