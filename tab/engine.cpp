@@ -37,6 +37,13 @@ void send_text(const std::string& text) { host_send_text(text.data(), text.size(
 
 void send_frame(const std::string& bytes) { host_send_frame(bytes.data(), bytes.size()); }
 
+void tell_progress(const Progress& progress) {
+    static bool has_told = false;
+    if (progress.doing.empty() && !has_told) return;
+    has_told = !progress.doing.empty();
+    send_text(print_progress(progress));
+}
+
 class Engine {
 public:
     bool begin(const std::string& name, const std::string& text, const std::string& overrides,
@@ -72,6 +79,7 @@ bool Engine::begin(const std::string& name, const std::string& text, const std::
     if (is_exact) make_modules_exact();
     options.stepper = std::make_shared<TieredBackend>(make_module_backend());
     RunControl control;
+    control.report = tell_progress;
     if (turns_) {
         const LiveRun& before = turns_->run();
         if (have_same_cells(*before.script().program, *script.program)) {
@@ -107,7 +115,10 @@ void Engine::receive(std::string_view text) {
                                      "'cascade view' does"}));
     } else {
         const auto& command = std::get<SessionCommand>(message->request);
+        turns_->control().report = tell_progress;
         const auto result = turns_->obey(command);
+        turns_->control().report = {};
+        tell_progress({});
         send_text(print_answer(id, result, text_of(command)));
     }
 }

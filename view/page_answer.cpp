@@ -282,6 +282,14 @@ std::string print_failure(std::uint64_t id, const Failure& failure) {
                   {"messages", Json::array({print_failure(failure)})}});
 }
 
+std::string print_progress(const Progress& progress) {
+    Json json = {{"kind", "progress"}, {"doing", progress.doing}};
+    if (progress.steps > 0) {
+        json["part"] = static_cast<double>(progress.step) / static_cast<double>(progress.steps);
+    }
+    return print(json);
+}
+
 std::string print_loaded(std::uint64_t id, const Result<std::string>& name) {
     if (!name) return print_failure(id, name.error());
     return print({{"kind", "loaded"}, {"id", id}, {"name", *name}});

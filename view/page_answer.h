@@ -1,6 +1,7 @@
 // Messages to a page: JSON texts, and snapshots as binary frames. spec/page.md has the layout.
 #pragma once
 
+#include "core/run_control.h"
 #include "run/pictures/shown_surface.h"
 #include "run/session/turns.h"
 
@@ -29,6 +30,9 @@ std::string print_answer(std::uint64_t id, const Accepted<void>& result, std::st
 
 /// The answer to a message that could not be read or obeyed.
 std::string print_failure(std::uint64_t id, const Failure& failure);
+
+/// What the session is doing that takes long; nothing after it.
+std::string print_progress(const Progress& progress);
 
 /// The answer to a part of a model: with its name when all of it is there.
 std::string print_loaded(std::uint64_t id, const Result<std::string>& name);

@@ -150,6 +150,7 @@ struct PageServer::State {
     void greet(PageId page);
     void obey(PageId page, std::string_view text);
     void tell_script(std::vector<PageId> to);
+    std::vector<PageId> open_pages();
     void send_snapshots();
 };
 
@@ -170,6 +171,9 @@ Result<void> PageServer::State::start(PageFiles files) {
         if (frame) return server->send_frame(page, surface_frame, std::move(frame));
         server->send_text(page,
                           print_failure(0, {"there is not enough memory to show the surface", ""}));
+    });
+    session->watch([this](const Progress& progress) {
+        for (const PageId page : open_pages()) server->send_text(page, print_progress(progress));
     });
     sender = std::thread([this] { send_snapshots(); });
     return {};
@@ -202,6 +206,13 @@ void PageServer::State::tell_script(std::vector<PageId> to) {
         const std::string text = print_script(run);
         for (const PageId page : to) server->send_text(page, text);
     });
+}
+
+std::vector<PageId> PageServer::State::open_pages() {
+    const std::lock_guard lock(mutex);
+    std::vector<PageId> open;
+    for (const auto& page : pages) open.push_back(page.first);
+    return open;
 }
 
 void PageServer::State::obey(PageId page, std::string_view text) {

@@ -50,6 +50,7 @@ export interface Listener {
     script(script: Script): void;
     snapshot(snapshot: Snapshot): void;
     surface(surface: Surface): void;
+    progress(doing: string, part?: number): void;  ///< Of what takes long.
     lost(reason: string): void;
     refused(why: Message): void;  ///< What was no question, or could not be read.
 }
@@ -149,6 +150,7 @@ export class Connection {
         const message = JSON.parse(data);
         if (message.kind === "palettes") this.listener.palettes(message.palettes);
         else if (message.kind === "systems") this.listener.systems(message.systems);
+        else if (message.kind === "progress") this.listener.progress(message.doing, message.part);
         else if (message.kind === "script") this.listener.script(message);
         else if (message.id === 0) this.listener.refused(message.messages.find(({ is_error }: Message) => is_error));
         else {

@@ -20,6 +20,7 @@ import { picture_fields } from "./picture_fields";
 import { PlaneView } from "./plane_view";
 import { Pointed } from "./pointed";
 import { close_popups } from "./popups";
+import { Preparing } from "./preparing";
 import { Progress } from "./progress";
 import { Recording } from "./recording";
 import { Slices } from "./slices";
@@ -50,9 +51,10 @@ let is_drawing = false;
 let was_opened = false;
 let is_to_start = false;  ///< With the next snapshot that shows a start.
 let noticed_until = 0;
+const preparing = new Preparing();
 
 /// A link that was opened brings a script along. Its token is that of the session, so no other site can send one.
-const linked = EngineLine.is_carried || !location.hash.includes("token=") ? undefined
+const linked = EngineLine.is_carried || !/token=.*&script=/.test(location.hash) ? undefined
     : script_of_address().catch(() => void notice(in_words(wrong_link), true, 10));
 addEventListener("hashchange", () => location.reload());
 
@@ -98,6 +100,7 @@ const connection = new Connection({
                 slices.show(pattern.snapshot!);
                 void measure.look_at(pattern.snapshot!);
                 want_surface(pattern.snapshot!);
+                preparing.blank = pattern.snapshot!.is_model && solid.is_possible && !pattern.is_solid;
                 show_state(pattern.snapshot!);
                 if (!pattern.is_solid) keep_what_is_seen();
             } finally {
@@ -110,7 +113,9 @@ const connection = new Connection({
         solid.take(surface);
         pattern.draw();
     },
+    progress: (doing, part) => preparing.tell(doing, part),
     lost(reason) {
+        preparing.tell("");
         asked_surface = 0;
         notice(reason, true);
     },

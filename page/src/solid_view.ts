@@ -236,7 +236,7 @@ export class SolidView implements View {
         requestAnimationFrame(() => {
             this.is_waiting = false;
             const { canvas, camera, drawer, shown, surface } = this;
-            if (!drawer || !shown || !surface || canvas.hidden || canvas.clientWidth === 0) return;
+            if (!drawer || !shown || !surface || canvas.hidden || canvas.clientWidth * canvas.clientHeight === 0) return;
             const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((side) => Math.round(side * devicePixelRatio));
             if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
             if (this.has_moved) this.frame();

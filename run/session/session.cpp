@@ -29,6 +29,7 @@ struct Session::Implementation {
     std::shared_ptr<const Snapshot> newest;
     bool is_wanted = false;  ///< Whether the newest snapshot has been read.
     bool is_ending = false;
+    std::function<void(const Progress&)> watcher;
     std::thread thread;
 
     void work();
@@ -70,7 +71,22 @@ void Session::Implementation::obey(Task task) {
         (*question)(turns.run());
         return;
     }
+    const auto tell = [&] {
+        const std::lock_guard lock(mutex);
+        return watcher;
+    }();
+    bool has_told = false;
+    // Only now: steps are as fast as without it.
+    if (tell) {
+        turns.control().report = [&](const Progress& progress) {
+            if (progress.doing.empty()) return;
+            has_told = true;
+            tell(progress);
+        };
+    }
     const auto result = turns.obey(std::get<SessionCommand>(task.what));
+    turns.control().report = {};
+    if (has_told) tell({});
     if (task.done) task.done(result);
 }
 
@@ -98,6 +114,11 @@ Accepted<std::unique_ptr<Session>> Session::begin(Script script, const Simulatio
     auto run = LiveRun::begin(std::move(script), options, control);
     if (!run) return tl::unexpected(std::move(run.error()));
     return std::make_unique<Session>(std::move(*run));
+}
+
+void Session::watch(std::function<void(const Progress&)> watcher) {
+    const std::lock_guard lock(self_->mutex);
+    self_->watcher = std::move(watcher);
 }
 
 Session::~Session() {

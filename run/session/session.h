@@ -30,6 +30,10 @@ public:
     /// the log. It must not change the run.
     void ask(std::function<void(LiveRun&)> question);
 
+    /// Gets, in the session's thread, what a command that takes long is doing, such as spreading
+    /// the cells of a model, and a Progress of nothing after it.
+    void watch(std::function<void(const Progress&)> watcher);
+
     /// Interrupts long work, such as values that are grown again, and pauses.
     void cancel();
 

@@ -49,9 +49,15 @@ const octahedron = readFileSync(join(source, "tests/support/octahedron.off"), "u
 const large = octahedron + "# a comment\n".repeat(100000);
 
 async function load() {
-    await browser.call("Emulation.setDeviceMetricsOverride", { width: 820, height: 500, deviceScaleFactor: 1, mobile: false });
+    await browser.call("Emulation.setDeviceMetricsOverride", { width: 1000, height: 640, deviceScaleFactor: 1, mobile: false });
     await browser.call("Page.navigate", { url: address });
-    await browser.until(`document.querySelectorAll("#stages li").length === 2`);
+    await browser.until(`document.querySelectorAll("#stages li").length === 2 && document.getElementById("step").disabled`);
+
+    // The page says what is being done until the model is there, and nothing after it.
+    await browser.evaluate(`{
+        window.said = [];
+        new MutationObserver(() => window.said.push(document.getElementById("preparing").textContent)).observe(document.getElementById("preparing"), { childList: true });
+    }`);
 
     // By the button: the file becomes the domain in place of the grid, and the pattern grows on it.
     // Another file of its name lies beside the script.
@@ -63,6 +69,8 @@ async function load() {
     await browser.call("DOM.setFileInputFiles", { nodeId, files: [join(process.cwd(), "elsewhere/ball.off")] });
     await browser.until(`${text}.includes('domain { mesh: "ball-2.off"; cells: 20000 }') && ${is_read} && ${is_solid}`);
     await browser.until(`document.getElementById("step").disabled`);
+    const said = await browser.evaluate(`window.said`);
+    expect(said.some((words) => words.startsWith("spreading 20,000 cells …")) && said.at(-1) === "", `while it prepares the model, it says ${said}`);
     writeFileSync("loaded.png", await browser.screenshot());
 
     // By a drop, in the place of what is the domain, whatever the comments say.
