@@ -128,7 +128,10 @@ function keep_what_is_seen() {
     recording.take(pattern.snapshot.number);
     strip.keep_picture(pattern.snapshot, pattern.seen);
 }
-solid.drawn = keep_what_is_seen;
+solid.drawn = () => {
+    preparing.blank = false;
+    keep_what_is_seen();
+};
 function show_marks() {
     pointed.show();
     measure.show_mark();

@@ -90,6 +90,12 @@ async function load() {
     }
     await browser.until(is_solid);
 
+    // Also where no step follows that would show it.
+    await browser.evaluate(`document.getElementById("restart").click()`);
+    await browser.until(`document.getElementById("place").textContent.startsWith("step 0")`);
+    await type_script(of("domain { surface: box(1, 1, 2); cells: 300 }"));
+    await browser.until(`${is_solid} && document.getElementById("preparing").textContent === ""`);
+
     // What cannot be read is told in one message, and the text stays.
     const kept = await browser.evaluate(text);
     for (const [name, bytes, why] of [["notes.pdf", "%PDF", "is no model"], ["broken.ply", "ply\nformat ascii 1.0\nelement vertex 4000000000\n", "'broken.ply'"],
