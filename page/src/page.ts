@@ -27,7 +27,7 @@ import { Slices } from "./slices";
 import { show_sliders } from "./sliders";
 import { Stages } from "./stages";
 import { SolidView } from "./solid_view";
-import { Stroke } from "./stroke";
+import { Stroke, Trail } from "./stroke";
 import { in_words } from "./words";
 
 const element = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
@@ -363,9 +363,13 @@ shown.addEventListener("change", async () => {
     if (answer.is_done) pattern.time.clear();
 });
 
+const trail = new Trail(() => pattern.seen.parentElement!);
 const stroke = new Stroke((fields) => change("paint", fields));
 function paint(event: PointerEvent, is_first: boolean) {
-    const place = pattern.place(event);
+    for (const at of trail.to(event, is_first)) dab(event, at, is_first && at === event);
+}
+function dab(event: PointerEvent, at: { clientX: number; clientY: number }, is_first: boolean) {
+    const place = pattern.place(at);
     if (measure.takes(event, place, is_first) || !brush_choice.value || !place || !pattern.snapshot) return;
     const item = brush_choice.value, value = element<HTMLInputElement>("amount").value || `${event.shiftKey ? "min" : "max"}(${item} over domain)`;
     // As large on the screen at every zoom, but never so small that it misses all cells.

@@ -34,3 +34,23 @@ export class Stroke {
         this.is_painting = false;
     }
 }
+
+interface Spot { clientX: number; clientY: number }
+
+/// Where a pointer has been between its events, so near each other that discs leave no gaps.
+export class Trail {
+    private last?: Spot;
+
+    /// `frame` is what the pattern fills.
+    constructor(private readonly frame: () => HTMLElement) {}
+
+    to(event: PointerEvent, is_first: boolean): Spot[] {
+        const from = is_first || !this.last ? event : this.last, right = event.clientX - from.clientX, down = event.clientY - from.clientY;
+        const { clientWidth, clientHeight } = this.frame(), gap = Math.max(1, 0.015 * Math.min(clientWidth, clientHeight));
+        const count = Math.ceil(Math.hypot(right, down) / gap);
+        this.last = { clientX: event.clientX, clientY: event.clientY };
+        const between = Array.from({ length: Math.max(count - 1, 0) }, (_, k) =>
+            ({ clientX: from.clientX + right * (k + 1) / count, clientY: from.clientY + down * (k + 1) / count }));
+        return [...between, event];
+    }
+}

@@ -227,6 +227,19 @@ async function steer() {
         for (let k = 0; k < 100; ++k) if (wanted(await changed_cells())) return;
         throw new Error(`${how}: the cells ${(await changed_cells()).slice(0, 9).join(" ")} have changed`);
     };
+    // A fast pointer, which comes to three places only, leaves no gaps between its discs.
+    await browser.evaluate(`document.getElementById("amount").value = "5"`);
+    await browser.drag(x + 0.1 * width, y + 0.2 * height, x + 0.9 * width, y + 0.8 * height);
+    const unpainted = async () => {
+        const image = await canvas(), colour = (k) => image.slice(2 + 4 * k, 5 + 4 * k).join();
+        const cells = Array.from({ length: 38 }, (_, k) => (k + 5) + 48 * Math.floor(32 * (0.2 + 0.6 * (k + 0.5) / 38.4)));
+        return cells.filter((cell) => colour(cell) !== "247,228,187");
+    };
+    for (let k = 0; k < 100 && (await unpainted()).length > 0; ++k);
+    expect((await unpainted()).length === 0, `a fast stroke misses the cells ${await unpainted()}`);
+    await click("undo");
+    await until_changed((cells) => cells.length === 0, "undo of a stroke");
+    await browser.evaluate(`document.getElementById("amount").value = ""`);
     await browser.drag(x + 0.2 * width, y + 0.5 * height, x + 0.3 * width, y + 0.5 * height);
     await until_changed((cells) => cells.includes("10,16") || cells.includes("12,16"), "a stroke");
 
