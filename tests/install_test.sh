@@ -31,6 +31,15 @@ if [ -z "$SANITIZE" ] && [ -n "$extra" ]; then
 fi
 grep -q 'cascade::Pattern::step' <<<"$exported" || { echo "Pattern::step is not exported"; exit 1; }
 
+# So does Python's module, where it is built.
+python=$(sed -n 's/^Python3_EXECUTABLE:.*=//p' "$BUILD/CMakeCache.txt")
+if [ -z "$SANITIZE" ] && [ -d "$prefix/lib/python3" ] && "$python" -c 'import numpy' 2>/dev/null; then
+    PYTHONPATH=$prefix/lib/python3/dist-packages "$python" -c '
+import cascade
+assert cascade.Pattern("stage one: turing_spots { iterations: 3 }").run()["b"].mean() > 0' ||
+        { echo "the installed module of Python does not work"; exit 1; }
+fi
+
 flags=${SANITIZE:+-fsanitize=$SANITIZE}
 generator=$(sed -n 's/^CMAKE_GENERATOR:INTERNAL=//p' "$BUILD/CMakeCache.txt")
 cmake -G "$generator" -S "$SOURCE/examples/embed" -B embed -DCMAKE_PREFIX_PATH="$prefix" \
