@@ -35,7 +35,7 @@ struct Message {
     std::string hint;  ///< What to write instead; may be empty.
 };
 
-/// How a pattern is computed. Only `sets` affect results.
+/// How a pattern is computed. Only `sets` and `seed` affect results.
 struct PatternOptions {
     bool native_code = true;        ///< Compile the equations; false interprets them.
     int threads = 0;                ///< 0 for all that the machine has.
@@ -43,6 +43,7 @@ struct PatternOptions {
     std::string folder = ".";       ///< Paths in the script are relative to it.
     /// Values of parameters and settings, as `--set` takes them: "ka=1/80", "spots.ka=1/80".
     std::vector<std::string> sets = {};
+    std::optional<std::uint32_t> seed = {};  ///< Of all random numbers, in place of the script's.
 };
 
 /// A parameter of a stage.

@@ -86,6 +86,8 @@ typedef struct cascade_options {
     const char* folder;      /* Paths in the script are relative to it; ".". */
     size_t set_count;        /* Values of parameters and settings, as --set takes them: */
     const char* const* sets; /* "ka=1/80", "spots.ka=1/80". */
+    int32_t has_seed;        /* Not 0: random numbers have this seed, not the script's: */
+    uint32_t seed;
 } cascade_options;
 
 /* Makes a pattern of a script. `options` may be null. Where the script is wrong or its run cannot

@@ -30,6 +30,7 @@ std::optional<PatternOptions> options_of(const cascade_options* given) {
     options.threads = known.threads;
     if (known.name != nullptr) options.name = known.name;
     if (known.folder != nullptr) options.folder = known.folder;
+    if (known.has_seed != 0) options.seed = known.seed;
     if (known.set_count > 0 && known.sets == nullptr) return std::nullopt;
     for (std::size_t k = 0; k < known.set_count; ++k) {
         if (known.sets[k] == nullptr) return std::nullopt;

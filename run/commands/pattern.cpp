@@ -27,6 +27,13 @@ SimulationOptions simulation_options(const PatternOptions& options) {
     return simulation;
 }
 
+Overrides overrides_of(const PatternOptions& options) {
+    Overrides overrides;
+    overrides.sets = options.sets;
+    overrides.seed = options.seed;
+    return overrides;
+}
+
 /// The log in the text of a session, or in the bytes of a picture.
 Result<SessionLog> log_of(const std::string& session) {
     if (is_session_log(session)) return parse_session_log(session);
@@ -64,9 +71,7 @@ Message first_of(const Diagnostics& diagnostics, const Sources& sources) {
 Pattern::Pattern() : self_(std::make_unique<Implementation>()) {}
 
 Pattern::Pattern(const std::string& text, const PatternOptions& options) : Pattern() {
-    Overrides overrides;
-    overrides.sets = options.sets;
-    Script script = load_script(options.name, text, options.folder, std::move(overrides));
+    Script script = load_script(options.name, text, options.folder, overrides_of(options));
     self_->program = script.program;
     self_->begin(LiveRun::begin(std::move(script), simulation_options(options), self_->control));
 }
@@ -87,11 +92,9 @@ Pattern Pattern::open(const std::string& path, const PatternOptions& options) {
     Pattern pattern;
     Implementation& self = *pattern.self_;
     const SimulationOptions simulation = simulation_options(options);
-    Overrides overrides;
-    overrides.sets = options.sets;
     std::error_code error;
     if (std::filesystem::is_directory(path, error)) {
-        auto saved = load_saved_script(path, overrides);
+        auto saved = load_saved_script(path, overrides_of(options));
         if (!saved) {
             self.fail(saved.error());
             return pattern;
@@ -112,7 +115,7 @@ Pattern Pattern::open(const std::string& path, const PatternOptions& options) {
         self.fail(log.error());
         return pattern;
     }
-    auto file = load_script_file(path, std::move(overrides));
+    auto file = load_script_file(path, overrides_of(options));
     const auto session = file ? session_of(*file) : tl::unexpected(file.error());
     if (!session) {
         self.fail(session.error());

@@ -90,6 +90,16 @@ static void tells_errors(void) {
     CHECK(c.create(script, &options, &pattern) == CASCADE_BAD_SCRIPT);
     CHECK(strcmp(error_of().file, "<--set>") == 0 && strstr(error_of().message, "rote"));
     c.free(pattern);
+    static double with_one[40 * 24], with_two[40 * 24];
+    options.set_count = 1;
+    options.has_seed = 1;
+    for (options.seed = 1; options.seed <= 2; ++options.seed) {
+        CHECK(c.create("domain { grid: 40, 24 }\nsystem s { rate: 0; u: random(0, 1); u' = rate }\n"
+                       "stage one: s { iterations: 1 }", &options, &pattern) == CASCADE_OK);
+        CHECK(c.values(pattern, "u", options.seed == 1 ? with_one : with_two, 40 * 24) == CASCADE_OK);
+        c.free(pattern);
+    }
+    CHECK(memcmp(with_one, with_two, sizeof with_one) != 0);
     CHECK(c.open("does/not/exist", NULL, &pattern) == CASCADE_FAILED);
     CHECK(strstr(c.last_message(), "does/not/exist"));
     c.free(pattern);
