@@ -118,14 +118,23 @@ private:
     bool is_busy_ = false;  ///< Held by whoever holds Python's lock.
 };
 
+using Seed = std::optional<std::uint32_t>;
+
 PatternOptions options(const std::string& folder, int threads, bool native,
-                       std::vector<std::string> sets) {
+                       std::vector<std::string> sets, Seed seed) {
     PatternOptions made;
     made.folder = folder;
     made.threads = threads;
     made.native_code = native;
     made.sets = std::move(sets);
+    made.seed = seed;
     return made;
+}
+
+/// Makes a pattern while other threads of Python run, since the cells of a model take long.
+PythonPattern made(const std::function<Pattern()>& make) {
+    const py::gil_scoped_release others;
+    return PythonPattern(make());
 }
 
 py::dict features(PythonPattern& of, const std::string& expression) {
@@ -258,21 +267,24 @@ PYBIND11_MODULE(_core, module) {
     };
     py::class_<PythonPattern>(module, "Pattern")
         .def(py::init([](const std::string& script, const std::string& folder, int threads,
-                         bool native, std::vector<std::string> sets) {
-                 return PythonPattern(
-                     Pattern(script, options(folder, threads, native, std::move(sets))));
+                         bool native, std::vector<std::string> sets, Seed seed) {
+                 return made(
+                     [&] { return Pattern(script, options(folder, threads, native, sets, seed)); });
              }),
-             "script"_a, "folder"_a, "threads"_a, "native"_a, "sets"_a)
+             "script"_a, "folder"_a, "threads"_a, "native"_a, "sets"_a, "seed"_a)
         .def(py::init([](const std::string& path, int threads, bool native,
-                         std::vector<std::string> sets) {
-                 return PythonPattern(
-                     Pattern::open(path, options("", threads, native, std::move(sets))));
+                         std::vector<std::string> sets, Seed seed) {
+                 return made(
+                     [&] { return Pattern::open(path, options("", threads, native, sets, seed)); });
              }),
-             py::kw_only(), "path"_a, "threads"_a, "native"_a, "sets"_a)
-        .def(py::init([](const py::bytes& session, const std::string& folder, int threads,
-                         bool native) {
-                 return PythonPattern(Pattern::play(session, options(folder, threads, native, {})));
-             }),
+             py::kw_only(), "path"_a, "threads"_a, "native"_a, "sets"_a, "seed"_a)
+        .def(py::init(
+                 [](const py::bytes& session, const std::string& folder, int threads, bool native) {
+                     const std::string bytes = session;
+                     return made([&] {
+                         return Pattern::play(bytes, options(folder, threads, native, {}, {}));
+                     });
+                 }),
              py::kw_only(), "session"_a, "folder"_a, "threads"_a, "native"_a)
         .def(
             "step", &PythonPattern::step, "count"_a = 1, "watch"_a = py::none(),

@@ -9,14 +9,17 @@
 docs/python.md of the sources has more. A wrong script, expression or change raises cascade.Error.
 """
 
+import concurrent.futures
+import itertools
 import json
 import os
 import sys
+import threading
 
 from . import _core
 from ._core import Error, Message, Parameter, Progress, __version__
 
-__all__ = ["Error", "Message", "Parameter", "Parameters", "Pattern", "Progress", "__version__"]
+__all__ = ["Error", "Message", "Parameter", "Parameters", "Pattern", "Progress", "__version__", "sweep"]
 
 
 class Parameters:
@@ -75,16 +78,17 @@ class Pattern(_core.Pattern):
     anything that os.fspath() takes.
 
     Keywords are parameters or settings, as `--set` takes them: numbers, or expressions as strings.
-    `**{"spots.ka": 1/80}` sets one of one stage. `folder` is where paths in a text are relative to;
-    `threads` 0 means all; native=False interprets the equations. No result depends on the last two.
+    `**{"spots.ka": 1/80}` sets one of one stage. `seed` is that of all random numbers, in place of the
+    script's. Paths in a text are relative to `folder`. `threads` 0 means all; native=False interprets
+    the equations. No result depends on the last two.
     """
 
-    def __init__(self, script, *, folder=".", threads=0, native=True, **parameters):
+    def __init__(self, script, *, folder=".", seed=None, threads=0, native=True, **parameters):
         sets = [f"{name}={_expression(value)}" for name, value in parameters.items()]
         if isinstance(script, str) and any(letter in script for letter in "\n:{"):
-            super().__init__(script, os.fspath(folder), threads, native, sets)
+            super().__init__(script, os.fspath(folder), threads, native, sets, seed)
         else:
-            super().__init__(path=os.fspath(script), threads=threads, native=native, sets=sets)
+            super().__init__(path=os.fspath(script), threads=threads, native=native, sets=sets, seed=seed)
 
     @classmethod
     def play(cls, session, *, folder=".", threads=0, native=True):
@@ -125,6 +129,47 @@ class Pattern(_core.Pattern):
 
     def __repr__(self):
         return f"<cascade.Pattern: stage '{self.stage}', step {self.steps}, cells {self.shape}>"
+
+
+def sweep(script, vary, *, show="", measure=None, threads=0, **arguments):
+    """Runs a script with all combinations of values, several runs at a time, and returns a table.
+
+    vary={"ka": [1/80, 1/60], "seed": range(3)} names parameters, settings or the seed; the last one
+    varies fastest. Each run is a row: the values, the features of the picture or of the expression
+    `show`, the steps of the last stage, and as "remark" why it failed, or the remarks on it. A run
+    that fails has no features. `measure` is a function of the finished pattern and returns a
+    dictionary of more columns. Other arguments are those of Pattern.
+
+    The table is a pandas.DataFrame where pandas is installed, otherwise a list of dictionaries.
+    `threads` is the number of runs at a time, 0 for as many as there are processors.
+    """
+    names = list(vary)
+    is_stopped = threading.Event()
+
+    def row_of(values):
+        row = dict(zip(names, values))
+        pattern = Pattern(script, threads=1, **arguments, **row)
+        try:
+            pattern.run(lambda progress: not is_stopped.is_set())
+        except Error as error:
+            return row | {"remark": error.message}
+        row |= pattern.features(show)
+        row |= {"steps": pattern.steps, "remark": "; ".join(pattern.remarks)}
+        return row | (measure(pattern) if measure else {})
+
+    with concurrent.futures.ThreadPoolExecutor(threads or os.cpu_count()) as workers:
+        runs = [workers.submit(row_of, values) for values in itertools.product(*vary.values())]
+        try:
+            rows = [run.result() for run in runs]
+        except BaseException:
+            is_stopped.set()
+            workers.shutdown(wait=False, cancel_futures=True)
+            raise
+    try:
+        import pandas
+    except ImportError:
+        return rows
+    return pandas.DataFrame(rows)
 
 
 def _expression(value):

@@ -1,5 +1,5 @@
 import os
-from typing import Any, Callable, Iterator, Optional, Union
+from typing import Any, Callable, Iterable, Iterator, Mapping, Optional, Union
 
 import numpy
 import numpy.typing
@@ -82,6 +82,7 @@ class Pattern:
         script: Union[str, "os.PathLike[str]"],
         *,
         folder: Union[str, "os.PathLike[str]"] = ".",
+        seed: Optional[int] = None,
         threads: int = 0,
         native: bool = True,
         **parameters: Union[float, str],
@@ -130,3 +131,13 @@ class Pattern:
     def finished(self) -> bool: ...
     @property
     def shape(self) -> tuple[int, ...]: ...
+
+def sweep(
+    script: Union[str, "os.PathLike[str]"],
+    vary: Mapping[str, Iterable[Union[float, str]]],
+    *,
+    show: str = "",
+    measure: Optional[Callable[[Pattern], Mapping[str, Any]]] = None,
+    threads: int = 0,
+    **arguments: Any,
+) -> Any: ...

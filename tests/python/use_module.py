@@ -7,7 +7,9 @@ import pathlib
 import signal
 import subprocess
 import threading
+import types
 import unittest
+import unittest.mock
 
 import cascade
 import numpy
@@ -208,6 +210,39 @@ class Runs(unittest.TestCase):
         even = cascade.Pattern("domain { grid: 8, 8 }\nsystem s { u: 1; u' = lap(u) }\n"
                                "stage one: s { iterations: 5 }").run()
         self.assertTrue(even.remarks)
+
+
+class Sweeps(unittest.TestCase):
+    def test_have_a_row_for_each_run(self):
+        script = SCRIPT.replace("sin(7 * x + 3 * y)", "sin(7 * x) + random(0, 0.1)")
+        rows = cascade.sweep(script, {"rate": [0.1, 0.2], "seed": range(2)}, show="u",
+                             measure=lambda pattern: {"corner": float(pattern["u"][0, 0])})
+        self.assertEqual([(row["rate"], row["seed"]) for row in rows], [(0.1, 0), (0.1, 1), (0.2, 0), (0.2, 1)])
+        alone = cascade.Pattern(script, rate=0.2, seed=1).run()
+        self.assertEqual(rows[3]["corner"], alone["u"][0, 0])
+        self.assertEqual(rows[3]["deviation"], alone.features("u")["deviation"])
+        self.assertEqual(rows[3]["steps"], 20)
+        self.assertEqual(len({row["corner"] for row in rows}), 4)
+
+    def test_keep_runs_that_fail_and_refuse_wrong_scripts(self):
+        rows = cascade.sweep("system bomb { k: 1; u: 1; u' = k * u * u * u }\n"
+                             "stage one: bomb { iterations: 200 }", {"k": [-0.1, 1]})
+        self.assertIn("mean", rows[0])
+        self.assertNotIn("mean", rows[1])
+        self.assertIn("not finite", rows[1]["remark"])
+        with self.assertRaises(cascade.Error):
+            cascade.sweep(SCRIPT, {"rote": [1]})
+
+    def test_end_at_ctrl_c(self):
+        threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+        with self.assertRaises(KeyboardInterrupt):
+            cascade.sweep(ENDLESS, {"seed": range(4)}, threads=2)
+
+    def test_are_tables_of_pandas_where_it_is(self):
+        pandas = types.ModuleType("pandas")
+        pandas.DataFrame = tuple
+        with unittest.mock.patch.dict("sys.modules", {"pandas": pandas}):
+            self.assertIsInstance(cascade.sweep(SCRIPT, {"rate": [0.1]}), tuple)
 
 
 class Errors(unittest.TestCase):
