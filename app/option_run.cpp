@@ -51,6 +51,8 @@ auto frames_folder() { return parse_frames_folder; }
 auto whole(std::int64_t low, std::int64_t high) { return whole_number(low, high); }
 auto steps() { return whole(1, std::numeric_limits<std::int64_t>::max()); }
 auto duration() { return parse_duration; }
+auto times() { return parse_times; }
+auto time() { return parse_time; }
 auto frame_rate() { return parse_frame_rate; }
 auto film_length() { return parse_film_length; }
 auto texels() { return parse_texels; }
@@ -150,8 +152,11 @@ void relate(CLI::App& app) {
          {std::pair("--checkpoint", "--save"), {"--log-every", "--log"}, {"--log-file", "--log"}}) {
         if (find(flag)) find(flag)->needs(find(needed));
     }
-    for (const auto& [flag, other] :
-         {std::pair("--seconds", "--fps"), {"--texels-per-cell", "--bake"}}) {
+    for (const auto& [flag, other] : {std::pair("--seconds", "--fps"),
+                                      {"--texels-per-cell", "--bake"},
+                                      {"--at", "--every"},
+                                      {"--at", "--log-every"},
+                                      {"--every", "--log-every"}}) {
         if (find(flag)) find(flag)->excludes(find(other));
     }
 }

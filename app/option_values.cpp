@@ -162,6 +162,28 @@ Result<StopAt> parse_stop_at(std::string_view text) {
                    "write STAGE:STEP, as in --stop-at stage2:3000");
 }
 
+Result<double> parse_time(std::string_view text) {
+    double t = 0;
+    if (read_all(text, t) && t > 0 && std::isfinite(t)) return t;
+    return failure(fmt::format("'{}' is not a time above 0", text),
+                   "write a number in the unit of the script, as in --every 10");
+}
+
+Result<std::vector<double>> parse_times(std::string_view text) {
+    std::vector<double> times;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        const auto t = parse_time(text.substr(begin, end - begin));
+        if (!t || (!times.empty() && *t <= times.back())) {
+            return failure(fmt::format("'{}' is not a list of times that rise", text),
+                           "write them with commas and no spaces, as in --at 1,2,5,10");
+        }
+        times.push_back(*t);
+        begin = end + 1;
+    }
+    return times;
+}
+
 namespace {
 
 struct Unit {

@@ -46,6 +46,11 @@ Result<StopAt> parse_stop_at(std::string_view text);
 /// "4,2": tiles of four steps, two rows or slices a layer; "1,1": no tiling.
 Result<Tiling> parse_tiling(std::string_view text);
 
+/// "10": a time of a run, more than 0.
+Result<double> parse_time(std::string_view text);
+/// "1,2,5,10": times that rise.
+Result<std::vector<double>> parse_times(std::string_view text);
+
 /// "90s", "20m", "1.5h", "2d" or "90": seconds, more than 0 and at most ten years.
 Result<double> parse_duration(std::string_view text);
 /// "0.5", "2s": seconds to measure for, 0.001 … 3600.

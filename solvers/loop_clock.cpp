@@ -48,6 +48,7 @@ std::int64_t LoopClock::next_check() {
         if (of > 0) stop = std::min(stop, next_multiple(step, of));
     }
     if (is_judging()) stop = std::min(stop, time.next_judged - 1);
+    if (schedule_.next_moment) stop = std::min(stop, step + steps_before_moment());
     if (!has_end_time()) return stop;
     if (looks_at_tenths()) {
         stop = std::min(stop, step + steps_until((tenths_seen_ + 1) * schedule_.end_time / 10));
@@ -66,6 +67,12 @@ std::int64_t LoopClock::whole_steps_left() const {
     return static_cast<std::int64_t>(std::min(std::floor(steps + rounding_of_time), 1e18));
 }
 
+/// The whole steps before the next moment, at least one.
+std::int64_t LoopClock::steps_before_moment() const {
+    const double steps = (schedule_.next_moment(now()) - now()) / time.clock.step;
+    return static_cast<std::int64_t>(std::clamp(std::floor(steps + rounding_of_time), 1.0, 1e9));
+}
+
 /// The number of steps until t is reached, at least one.
 std::int64_t LoopClock::steps_until(double t) const {
     const double steps = std::ceil((t - now()) / time.clock.step - rounding_of_time);
@@ -73,6 +80,7 @@ std::int64_t LoopClock::steps_until(double t) const {
 }
 
 bool LoopClock::observation_due() {
+    if (schedule_.next_moment) return true;
     const bool is_multiple = schedule_.interval > 0 && step % schedule_.interval == 0;
     if (!looks_at_tenths()) return is_multiple;
     const double seen = tenths_reached(now(), schedule_.end_time);

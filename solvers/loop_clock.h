@@ -42,6 +42,7 @@ public:
 private:
     std::int64_t whole_steps_left() const;
     std::int64_t steps_until(double t) const;
+    std::int64_t steps_before_moment() const;
     bool looks_at_tenths() const { return schedule_.tenths || schedule_.interval == 0; }
 
     const Schedule& schedule_;

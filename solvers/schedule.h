@@ -51,6 +51,9 @@ struct Schedule {
     /// `observe` is called at multiples of this. If it is 0 and there is an end time, `observe` is
     /// called at the first step that reaches a tenth of it, two tenths, …
     std::int64_t interval = 0;
+    /// The first moment after t, or infinity: the loop also stops at the last step that begins
+    /// before it and at the one after that, and observes all its stops. No step becomes shorter.
+    std::function<double(double t)> next_moment = {};
     bool tenths = false;     ///< Also observe at tenths if `interval` is not 0.
     std::int64_t check = 0;  ///< `ends` is called at multiples of this; 0: never.
     EndTest ends = {};

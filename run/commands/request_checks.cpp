@@ -379,7 +379,7 @@ private:
 
     /// What is written while a run takes its steps.
     void check_with_session() {
-        refuse({frames, series, space_time, log, stop_at, checkpoint},
+        refuse({frames, series, space_time, log, at, every, stop_at, checkpoint},
                "a session is played to its end before anything is written",
                "'cascade repl' plays it, and goes on from there");
     }
@@ -394,6 +394,7 @@ private:
 
 Result<void> check_request(Script& script, const RunRequest& request) {
     RequestChecker(script, request).check();
+    check_moments(script, request);
     if (script.diagnostics.has_errors()) return failure("the request does not fit the script");
     return {};
 }

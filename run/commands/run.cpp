@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -40,7 +41,8 @@ Result<StageEnd> Runner::run_stage(std::uint32_t k) {
     tenths_seen_ = tenths_done(k);
     const auto start = Clock::now();
     auto end = simulation_->advance_stage(
-        k, std::max(last, before), control_, [&] { observe(k); }, observation_interval(stage));
+        k, std::max(last, before), control_, [&] { observe(k); }, observation_interval(stage),
+        moments_of(k));
     report_.seconds += std::chrono::duration<double>(Clock::now() - start).count();
     report_.steps += simulation_->state(k).steps - before;
     if (log_) log_->record(*simulation_, k);
@@ -128,6 +130,11 @@ void Runner::observe(std::uint32_t k) {
     const TimeAccount::Scope spent(request_.simulation.account, Spent::drawing);
     const Stage& stage = script_.program->stages[k];
     const std::int64_t step = simulation_->state(k).steps;
+    if (request_.moments.any()) {
+        look();
+        if (log_) log_->record(*simulation_, k);
+        return;
+    }
     if (frame_is_due(k)) look();
     const std::int64_t every = log_ ? log_->every(stage) : 0;
     if (log_ && (every == 0 || step % every == 0)) log_->record(*simulation_, k);
@@ -146,10 +153,31 @@ void Runner::look() {
 
 /// Each moment once: the end of a stage may be one of its intervals.
 void Runner::add_to_series(std::uint32_t stage) {
-    const std::pair moment(stage, simulation_->state(stage).steps);
+    const double t = time_of(*simulation_, stage);
+    const std::pair moment(stage, std::isnan(t)
+                                      ? static_cast<double>(simulation_->state(stage).steps)
+                                      : t);
     if (last_in_series_ == moment) return;
     last_in_series_ = moment;
     series_->add(*simulation_);
+}
+
+/// The moments of --at and --every in a stage; none without them.
+NextMoment Runner::moments_of(std::uint32_t stage) const {
+    if (!request_.moments.any()) return {};
+    double start = 0;
+    for (std::uint32_t k = 0; k < stage; ++k) start += time_of(*simulation_, k);
+    return [this, start](double t) { return next_moment(request_.moments, start, t); };
+}
+
+/// A run that has ended before a time of --at.
+void Runner::remark_on_moments() {
+    const std::uint32_t stage = simulation_->shown_stage().value_or(0);
+    const double end = time_since_start(*simulation_);
+    if (request_.moments.at.empty() || stage + 1 < script_.stage_count()) return;
+    if (request_.moments.at.back() <= end * (1 + 1e-9)) return;
+    remark(fmt::format("the run ends at t = {:.6g}, before {:.6g} of --at", end,
+                       next_moment(request_.moments, 0, end)));
 }
 
 std::string Runner::place() const {
@@ -188,6 +216,7 @@ Result<RunReport> Runner::run() {
     }
     if (auto done = settle_in_detail(); !done) return tl::unexpected(done.error());
     if (!request_.resume.empty()) remark_on_resumed();
+    if (report_.status == RunStatus::finished) remark_on_moments();
     // First, as pictures may fail or be cut off.
     const Result<void> saved = results().save();
     // Made once: that of a body may take longer than the steps.

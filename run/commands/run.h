@@ -5,6 +5,7 @@
 #include "core/run_control.h"
 #include "measure/features.h"
 #include "run/commands/film_request.h"
+#include "run/commands/moments.h"
 #include "run/commands/run_log.h"
 #include "run/pictures/model_files.h"
 #include "run/script/picture_request.h"
@@ -49,6 +50,7 @@ struct RunRequest {
     std::optional<StopAt> stop_at;
     /// Played instead of the stages; its script at the end is the one that is run.
     std::optional<SessionLog> session;
+    MomentsRequest moments;  ///< When it is observed.
     LogRequest log;
     bool features = false;  ///< Measure the values that the picture shows.
 };

@@ -2,9 +2,18 @@
 #include "run/commands/run_log.h"
 
 #include "core/file.h"
+#include "measure/features.h"
+#include "run/pictures/measured.h"
 #include "core/csv.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <string_view>
+#include <utility>
 
 namespace cascade {
 
@@ -26,34 +35,86 @@ Result<void> check_rows(const Script& script, const LogRequest& request) {
     return {};
 }
 
+/// The place of the '=' in "NAME=EXPR"; 0 if there is no name.
+std::size_t end_of_name(std::string_view text) {
+    const auto is_of_name = [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
+    };
+    const auto end = std::find_if_not(text.begin(), text.end(), is_of_name);
+    const auto equals = std::find_if(end, text.end(), [](char c) { return c != ' '; });
+    const bool is_name = end != text.begin() && !std::isdigit(static_cast<unsigned char>(text[0]));
+    const auto at = static_cast<std::size_t>(equals - text.begin());
+    return is_name && text.substr(at, 1) == "=" && text.substr(at, 2) != "==" ? at : 0;
+}
+
+std::optional<std::size_t> feature_called(std::string_view name) {
+    const auto& names = measure::feature_names();
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - names.begin());
+}
+
 }  // namespace
 
-Result<RunLog> RunLog::create(Script& script, const LogRequest& request) {
+/// A name of the script comes before that of a feature.
+std::vector<RunLog::Column> RunLog::columns_of(Script& script, const LogRequest& request,
+                                               std::vector<std::string>& expressions) {
+    std::vector<Column> columns;
+    for (const std::string& text : request.expressions) {
+        const std::size_t equals = end_of_name(text);
+        std::string value = equals > 0 ? text.substr(equals + 1) : text;
+        value.erase(0, value.find_first_not_of(' '));
+        Column column{equals > 0 ? text.substr(0, text.find_first_of(" =")) : text};
+        const auto feature = feature_called(value);
+        if (feature && !StageFormulas::fits_some(script, "--log", value)) column.feature = feature;
+        else expressions.push_back(std::move(value));
+        columns.push_back(std::move(column));
+    }
+    return columns;
+}
+
+Result<RunLog> RunLog::create(Script& script, const LogRequest& request,
+                              const PictureRequest& picture) {
     RunLog log;
     log.request_ = request;
     log.precision_ = script.program->domain.precision;
     for (const Stage& stage : script.program->stages) log.stage_names_.push_back(stage.name);
     if (auto fits = check_rows(script, request); !fits) return tl::unexpected(fits.error());
-    auto numbers = UniformNumbers::create(script, "--log", request.expressions);
+    std::vector<std::string> expressions;
+    log.columns_ = columns_of(script, request, expressions);
+    auto numbers = UniformNumbers::create(script, "--log", expressions);
     if (!numbers) return tl::unexpected(numbers.error());
     log.numbers_ = *std::move(numbers);
+    if (expressions.size() == log.columns_.size()) return log;
+    auto painter = Painter::create(script, picture);
+    if (!painter) return tl::unexpected(painter.error());
+    log.painter_ = *std::move(painter);
     return log;
 }
 
 void RunLog::record(const Simulation& simulation, std::uint32_t stage) {
     const std::int64_t step = simulation.state(stage).steps;
-    if (!rows_.empty() && rows_.back().stage == stage && rows_.back().step == step) return;
+    const double t = time_of(simulation, stage);
+    if (!rows_.empty() && rows_.back().stage == stage && rows_.back().step == step) {
+        const double last = values_[values_.size() - 1 - columns_.size()];
+        if (last == t || std::isnan(t)) return;
+    }
     rows_.push_back({stage, step});
-    values_.push_back(time_of(simulation, stage));
+    values_.push_back(t);
     const std::vector<double> numbers = numbers_.at(simulation, stage);
-    values_.insert(values_.end(), numbers.begin(), numbers.end());
+    const auto features = painter_ ? measure::to_array(measure_shown(*painter_, simulation))
+                                   : std::array<double, measure::feature_count>();
+    auto number = numbers.begin();
+    for (const Column& column : columns_) {
+        values_.push_back(column.feature ? features[*column.feature] : *number++);
+    }
 }
 
 Result<void> RunLog::write(const std::filesystem::path& path) const {
     std::vector<std::string> cells = {"stage", "step", "t"};
-    cells.insert(cells.end(), request_.expressions.begin(), request_.expressions.end());
+    for (const Column& column : columns_) cells.push_back(column.name);
     std::string table = csv_row(cells);
-    const std::size_t width = 1 + numbers_.count();
+    const std::size_t width = 1 + columns_.size();
     for (std::size_t r = 0; r < rows_.size(); ++r) {
         cells = {stage_names_[rows_[r].stage], fmt::format("{}", rows_[r].step)};
         for (std::size_t k = 0; k < width; ++k) {

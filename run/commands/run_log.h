@@ -3,20 +3,24 @@
 
 #include "core/result.h"
 #include "run/commands/uniform_numbers.h"
+#include "run/pictures/painter.h"
 #include "run/script/script.h"
 #include "run/simulation/simulation.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace cascade {
 
 struct LogRequest {
-    std::vector<std::string> expressions;  ///< Uniform ones; without any, nothing is logged.
-    std::int64_t every = 0;                ///< Steps between rows; 0 for each stage's `interval`.
-    std::filesystem::path file;            ///< Empty for a file beside the picture.
+    /// Uniform ones, perhaps after "NAME=", or names of features; without any, nothing is logged.
+    std::vector<std::string> expressions;
+    std::int64_t every = 0;      ///< Steps between rows; 0 for each stage's `interval`.
+    std::filesystem::path file;  ///< Empty for a file beside the picture.
 };
 
 /// The most rows of a log, which is kept in memory.
@@ -27,8 +31,9 @@ inline constexpr std::int64_t most_log_rows = 10'000'000;
 class RunLog {
 public:
     /// Checks the expressions for all stages that run. One that fits none of them, or varies by
-    /// cell, is an error in `script.diagnostics`.
-    static Result<RunLog> create(Script& script, const LogRequest& request);
+    /// cell, is an error in `script.diagnostics`. Features are measured of what `picture` shows.
+    static Result<RunLog> create(Script& script, const LogRequest& request,
+                                 const PictureRequest& picture);
 
     /// Steps between two rows of a stage.
     std::int64_t every(const Stage& stage) const {
@@ -43,12 +48,20 @@ private:
         std::uint32_t stage = 0;
         std::int64_t step = 0;
     };
+    struct Column {
+        std::string name;
+        std::optional<std::size_t> feature = {};  ///< Otherwise the next expression.
+    };
+    static std::vector<Column> columns_of(Script& script, const LogRequest& request,
+                                          std::vector<std::string>& expressions);
 
     LogRequest request_;
     std::vector<std::string> stage_names_;
+    std::vector<Column> columns_;
     UniformNumbers numbers_;
+    std::optional<Painter> painter_;  ///< With features.
     std::vector<Row> rows_;
-    std::vector<double> values_;  ///< Of all rows: t, then the expressions.
+    std::vector<double> values_;  ///< Of all rows: t, then the columns.
     Precision precision_ = Precision::single;
 };
 

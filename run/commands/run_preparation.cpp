@@ -34,7 +34,7 @@ Result<void> Runner::prepare() {
         labels_ = std::move(*labels);
     }
     if (!request_.log.expressions.empty()) {
-        auto log = RunLog::create(script_, request_.log);
+        auto log = RunLog::create(script_, request_.log, request_.picture);
         if (!log) return tl::unexpected(log.error());
         log_ = std::move(*log);
     }

@@ -55,6 +55,8 @@ private:
     void look();
     void add_to_series(std::uint32_t stage);
     void observe(std::uint32_t stage);
+    NextMoment moments_of(std::uint32_t stage) const;
+    void remark_on_moments();
     bool frame_is_due(std::uint32_t stage);
     double tenths_done(std::uint32_t stage) const;
     std::int64_t observation_interval(const Stage& stage) const;
@@ -82,7 +84,7 @@ private:
     std::optional<RunLog> log_;
     std::unique_ptr<SeriesWriter> series_;
     double tenths_seen_ = 0;  ///< Of the stage's duration, at the last frame.
-    std::optional<std::pair<std::uint32_t, std::int64_t>> last_in_series_;  ///< Stage and step.
+    std::optional<std::pair<std::uint32_t, double>> last_in_series_;  ///< Stage, and step or time.
 };
 
 }  // namespace cascade

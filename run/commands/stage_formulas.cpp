@@ -21,6 +21,18 @@ Result<StageFormulas> StageFormulas::create(Script& script, const std::string& o
     return all;
 }
 
+bool StageFormulas::fits_some(Script& script, const std::string& option, const std::string& text) {
+    Diagnostics unspoken;
+    const SourceId source = script.sources.add(fmt::format("<{}>", option), text);
+    const auto expression = parse_expression(source, script.sources, script.tree, unspoken);
+    for (std::uint32_t k = 0; expression && k < script.stage_count(); ++k) {
+        Diagnostics of_stage;
+        check_view(script.tree, *expression, k, k, *script.program, script.sources, of_stage);
+        if (!of_stage.has_errors()) return true;
+    }
+    return false;
+}
+
 bool StageFormulas::add(Script& script, const std::string& option, const std::string& text,
                         FormulaKind kind) {
     const SourceId source = script.sources.add(fmt::format("<{}>", option), text);

@@ -25,6 +25,9 @@ public:
     static Result<StageFormulas> create(Script& script, const std::string& option,
                                         std::span<const std::string> expressions, FormulaKind kind);
 
+    /// Whether a text is an expression that has a meaning in some stage that runs.
+    static bool fits_some(Script& script, const std::string& option, const std::string& text);
+
     std::size_t count() const { return formulas_.size(); }
     /// Null where the expression has no meaning in the stage.
     const Formula* at(std::size_t expression, std::uint32_t stage) const;

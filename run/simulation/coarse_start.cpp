@@ -70,7 +70,7 @@ Result<StageEnd> run_on_coarser_grids(const Environment& environment, std::span<
                          before->environment->grid);
         }
         auto end = StageRun(here, coarse.states, stage, never)
-                       .advance(here.stage(stage).iterations, control, {}, 0);
+                       .advance(here.stage(stage).iterations, control, {});
         if (!end || *end == StageEnd::cancelled) return end;
         before = std::move(coarse);
     }

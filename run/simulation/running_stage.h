@@ -18,6 +18,13 @@ struct Keeping {
     std::function<void()> keep;
 };
 
+/// When a stage is observed, as Simulation::advance_stage() says.
+struct Observation {
+    std::function<void()> observe;
+    std::int64_t every = 0;
+    NextMoment next_moment = {};
+};
+
 /// The run of one stage that has been started. While it exists, nothing else may change the states
 /// of the simulation.
 class RunningStage {
@@ -31,7 +38,7 @@ public:
     virtual StepKernels& kernels() = 0;
     /// Like Simulation::advance_stage.
     virtual Result<StageEnd> advance(std::int64_t last_step, RunControl& control,
-                                     const std::function<void()>& observe, std::int64_t every) = 0;
+                                     const Observation& observation) = 0;
     /// May it be called again? Not after the end of the stage, a failure or a cancellation, nor if
     /// doubts were looked for: their checks reuse the stage's memory.
     virtual bool can_go_on() const = 0;

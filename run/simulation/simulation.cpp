@@ -104,8 +104,8 @@ Result<void> Simulation::start_stage(std::uint32_t k, const std::atomic<bool>& c
 
 Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_step,
                                            RunControl& control,
-                                           const std::function<void()>& observe,
-                                           std::int64_t every) {
+                                           const std::function<void()>& observe, std::int64_t every,
+                                           const NextMoment& next_moment) {
     Implementation& self = *self_;
     TimeAccount& account = self.environment().account;
     const TimeAccount::Scope spent(account, Spent::stepping, k);
@@ -121,7 +121,7 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
             observe();
         };
     }
-    auto end = self.run->advance(last_step, control, seen, every);
+    auto end = self.run->advance(last_step, control, {seen, every, next_moment});
     self.stages->touch(k);
     if (!self.run->can_go_on()) self.end_run();
     self.warn_of_refused(control);

@@ -63,6 +63,10 @@ struct SimulationOptions {
 /// The stepper of `options`, which simulations may share. Fails if its backend is not available.
 Result<std::shared_ptr<TieredBackend>> make_stepper(const SimulationOptions& options);
 
+/// The first moment after t at which a stage is to be observed, in its own time; infinity if there
+/// is none.
+using NextMoment = std::function<double(double t)>;
+
 /// Why a stage ended.
 enum class StageEnd { finished, stopped, cancelled };
 
@@ -87,10 +91,13 @@ public:
     /// keeps it for further calls, until the stage ends or states are changed. A stage with a
     /// coarse start first runs on coarser grids, without observation. `observe` is called at
     /// multiples of `every`, or of the stage's interval if `every` is 0; for a stage without an
-    /// interval, at tenths of its duration. If values are not finite, it fails with stage, species,
-    /// cell, step and the largest stable speed.
+    /// interval, at tenths of its duration. With `next_moment`, for a stage of fields whose speed
+    /// is the same in all cells, `observe` is called at its moments instead, which are read between
+    /// steps (run/simulation/between_steps.h). If values are not finite, it fails with stage,
+    /// species, cell, step and the largest stable speed.
     Result<StageEnd> advance_stage(std::uint32_t stage, std::int64_t last_step, RunControl& control,
-                                   const std::function<void()>& observe, std::int64_t every = 0);
+                                   const std::function<void()>& observe, std::int64_t every = 0,
+                                   const NextMoment& next_moment = {});
 
     /// From now on, `is_due` is called some fifty times a second while steps are taken. If it
     /// returns true, `keep` is called at a complete step; a run can go on from the simulation's

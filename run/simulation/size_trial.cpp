@@ -142,7 +142,7 @@ private:
     }
 
     Result<void> advance(StageRun& run, std::int64_t last_step, Outcome& outcome) {
-        const auto end = run.advance(last_step, control_, {}, 0);
+        const auto end = run.advance(last_step, control_, {});
         if (!end) return tl::unexpected(end.error());
         if (*end == StageEnd::cancelled) return failure("stopped");
         outcome.before = std::exchange(outcome.last, look());

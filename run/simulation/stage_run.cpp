@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -112,13 +113,14 @@ StageRun::StageRun(const Environment& environment, std::span<StageState> states,
 }
 
 Result<StageEnd> StageRun::advance(std::int64_t last_step, RunControl& control,
-                                   const std::function<void()>& observe, std::int64_t every) {
+                                   const Observation& observation) {
     control_ = &control;
+    next_moment_ = observation.next_moment;
     can_go_on_ = false;
     std::optional<Result<StageEnd>> over;
     if (!loop_) over = begin(last_step);
     if (!over) {
-        over = take_steps(last_step, observe, every > 0 ? every : view_.stage().interval);
+        over = take_steps(last_step, observation);
         if (!*over) over->error().message += note_of_cells(view_.program());
     }
     control_ = nullptr;
@@ -165,6 +167,11 @@ StageEnd StageRun::end_frozen(std::int64_t last_step) {
 Schedule StageRun::schedule() {
     const Environment& here = view_.environment();
     Schedule schedule = timer_.schedule(view_.stage().iterations, view_.stage().interval);
+    if (next_moment_) {
+        schedule.next_moment = [this](double t) {
+            return next_moment_ ? next_moment_(t) : std::numeric_limits<double>::infinity();
+        };
+    }
     schedule.tenths = view_.stage().interval == 0;
     schedule.check_every = look_every(view_.stage(), schedule.check_every);
     schedule.onlooker = [this](std::int64_t step, double t, std::span<const Field>) {
@@ -193,14 +200,28 @@ void StageRun::look() {
     state_.course.look(state_.steps, age, state_.species, view_.environment().counted());
 }
 
-Result<StageEnd> StageRun::take_steps(std::int64_t last_step, const std::function<void()>& observe,
-                                      std::int64_t interval) {
+/// At a complete step, or between it and the one before.
+void StageRun::observe(const Observation& observation) {
+    if (between_) {
+        between_->pass(observation.next_moment, observation.observe, control_->cancel);
+    } else if (observation.observe) {
+        observation.observe();
+    }
+}
+
+Result<StageEnd> StageRun::take_steps(std::int64_t last_step, const Observation& observation) {
     const std::int64_t steps_before = state_.steps;
+    const std::int64_t interval =
+        observation.every > 0 ? observation.every : view_.stage().interval;
+    if (next_moment_ && !between_) {
+        between_.emplace(view_, state_);
+        observe(observation);  // Keeps the first step.
+    }
     const StageOutcome outcome =
         loop_->advance(last_step, interval, *control_,
                        [&](std::int64_t step, double t, std::span<const Field>) {
                            state_.go_to(step, t);
-                           if (observe) observe();
+                           observe(observation);
                            return true;
                        });
     state_.time = outcome.time;

@@ -4,6 +4,7 @@
 
 #include "core/result.h"
 #include "core/run_control.h"
+#include "run/simulation/between_steps.h"
 #include "run/simulation/lost_products.h"
 #include "run/simulation/running_stage.h"
 #include "run/simulation/stage_view.h"
@@ -30,7 +31,7 @@ public:
     std::uint32_t stage() const override { return view_.number(); }
     StepKernels& kernels() override { return kernels_; }
     Result<StageEnd> advance(std::int64_t last_step, RunControl& control,
-                             const std::function<void()>& observe, std::int64_t every) override;
+                             const Observation& observation) override;
     bool can_go_on() const override { return can_go_on_; }
 
 private:
@@ -38,8 +39,8 @@ private:
     StageEnd end_frozen(std::int64_t last_step);
     Schedule schedule();
     void look();
-    Result<StageEnd> take_steps(std::int64_t last_step, const std::function<void()>& observe,
-                                std::int64_t interval);
+    Result<StageEnd> take_steps(std::int64_t last_step, const Observation& observation);
+    void observe(const Observation& observation);
     void look_for_doubts();
     void account_for(std::int64_t steps, const StageOutcome& outcome) const;
 
@@ -54,7 +55,9 @@ private:
     RunControl* control_ = nullptr;  ///< For the present call.
     StageTimer timer_;
     std::optional<StageTilings> tilings_;
-    std::optional<TimeLoop> loop_;  ///< From the first step on.
+    NextMoment next_moment_;               ///< For the present call.
+    std::optional<BetweenSteps> between_;  ///< With moments.
+    std::optional<TimeLoop> loop_;         ///< From the first step on.
     bool can_go_on_ = true;
 };
 

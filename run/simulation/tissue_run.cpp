@@ -228,7 +228,7 @@ void TissueRun::follow(const Tissue& tissue) {
 }
 
 Result<StageEnd> TissueRun::advance(std::int64_t last_step, RunControl& control,
-                                    const std::function<void()>& observe, std::int64_t every) {
+                                    const Observation& observation) {
     const Stage& stage = environment_.stage(stage_);
     if (StageView(environment_, states_, stage_).is_frozen()) {
         can_go_on_ = false;
@@ -244,7 +244,7 @@ Result<StageEnd> TissueRun::advance(std::int64_t last_step, RunControl& control,
     }
     can_go_on_ = false;
     // Without an interval, frames are drawn at tenths of the duration.
-    const std::int64_t interval = every > 0 ? every : stage.interval;
+    const std::int64_t interval = observation.every > 0 ? observation.every : stage.interval;
     double tenths = tenths_reached(state_.t, stage.time.duration.value_or(0));
     const TissueOutcome outcome = loop_->advance(
         last_step, std::max<std::int64_t>(1, interval), control, [&](const Tissue& tissue) {
@@ -252,7 +252,7 @@ Result<StageEnd> TissueRun::advance(std::int64_t last_step, RunControl& control,
             const double reached = tenths_reached(state_.t, stage.time.duration.value_or(0));
             const bool is_due = interval > 0 || reached > tenths;
             tenths = reached;
-            if (is_due && observe) observe();
+            if (is_due && observation.observe) observation.observe();
             return true;
         });
     control_ = nullptr;

@@ -27,7 +27,7 @@ public:
     std::uint32_t stage() const override { return stage_; }
     StepKernels& kernels() override { return kernels_; }
     Result<StageEnd> advance(std::int64_t last_step, RunControl& control,
-                             const std::function<void()>& observe, std::int64_t every) override;
+                             const Observation& observation) override;
     bool can_go_on() const override { return can_go_on_; }
 
 private:

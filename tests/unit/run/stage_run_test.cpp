@@ -118,7 +118,7 @@ protected:
         return states;
     }
     void advance(std::span<StageState> states, std::int64_t last) {
-        EXPECT_TRUE(StageRun(*environment_, states, 0, never_).advance(last, control_, {}, 0));
+        EXPECT_TRUE(StageRun(*environment_, states, 0, never_).advance(last, control_, {}));
     }
     std::vector<Field> rates(std::span<const StageState> states) {
         return StageView(*environment_, states, 0).rates();

@@ -1,0 +1,60 @@
+// Moments are counted in the time of stages whose steps have one length for all cells.
+#include "run/commands/moments.h"
+
+#include "run/commands/run_option.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cascade {
+
+double next_moment(const MomentsRequest& moments, double start, double t) {
+    double next = std::numeric_limits<double>::infinity();
+    for (const double moment : moments.at) {
+        if (moment - start > t) next = std::min(next, moment - start);
+    }
+    if (moments.every > 0) {
+        constexpr double rounding = 1e-9;
+        const double passed = std::floor((start + t) / moments.every + rounding);
+        next = std::min(next, (passed + 1) * moments.every - start);
+    }
+    return next;
+}
+
+void check_moments(Script& script, const RunRequest& request) {
+    if (!request.moments.any()) return;
+    const std::string option =
+        flag_of(request.moments.at.empty() ? RunOption::every : RunOption::at);
+    const auto refuse = [&](const std::string& message, const std::string& hint) {
+        script.diagnostics.error(option_span(script.sources, option, option), message, hint);
+    };
+    const bool is_observed = !request.frames.empty() || !request.series.empty() ||
+                             !request.log.expressions.empty() || films_steps(request) ||
+                             request.model_files.animate || request.picture.space_time;
+    if (!is_observed) {
+        return refuse("nothing is observed over time",
+                      "--series NAME.npy, --log EXPR, --frames FOLDER and -o NAME.gif observe");
+    }
+    const std::string hint = "without it the stage's 'interval' counts, in steps";
+    for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
+        const Stage& stage = script.program->stages[k];
+        const System& system = script.program->system_of(k);
+        if (system.cells) {
+            return refuse(
+                fmt::format("stage '{}' has cells that crawl, which are observed at steps",
+                            stage.name),
+                hint);
+        }
+        if (stage.uniform[system.speed_item()]) continue;
+        return refuse(
+            fmt::format("the steps of stage '{}' differ from cell to cell, so that it has "
+                        "no time",
+                        stage.name),
+            hint);
+    }
+}
+
+}  // namespace cascade

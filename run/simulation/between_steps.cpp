@@ -1,0 +1,135 @@
+// Keeps a copy of the species where the next step may pass a moment, and evaluates rates only if it
+// does.
+#include "run/simulation/between_steps.h"
+
+#include "core/check.h"
+#include "lang/program/nodes_of_rates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+#include <utility>
+
+namespace cascade {
+
+namespace {
+
+/// The rounding error of sums of time, in steps.
+constexpr double rounding_of_moments = 1e-6;
+
+/// What a point of the curve takes of the values and of the step-long slopes at both ends.
+struct HermiteWeights {
+    double before, after, slope_before, slope_after;
+
+    explicit HermiteWeights(double s)
+        : before((1 + 2 * s) * (1 - s) * (1 - s)),
+          after(s * s * (3 - 2 * s)),
+          slope_before(s * (1 - s) * (1 - s)),
+          slope_after(-s * s * (1 - s)) {}
+};
+
+/// Replaces `after` by `value(before, after, row, cell)` in every cell in which the two differ.
+template <typename Number, typename Value>
+void read_between(const Plane<Number>& before, Plane<Number>& after, const Value& value) {
+    const PlaneLayout& layout = after.layout();
+    for (std::int64_t row = 0; row < layout.row_count(); ++row) {
+        const Number* const from = before.row(row);
+        Number* const to = after.row(row);
+        for (std::int64_t i = 0; i < layout.width; ++i) {
+            if (from[i] != to[i]) to[i] = static_cast<Number>(value(from[i], to[i], row, i));
+        }
+    }
+}
+
+}  // namespace
+
+BetweenSteps::BetweenSteps(const StageView& view, StageState& state)
+    : view_(view),
+      state_(state),
+      has_slopes_(!holds_in_rates(view.system(), is_draw)),
+      last_(state.t) {}
+
+void BetweenSteps::pass(const NextMoment& next, const std::function<void()>& observe,
+                        const std::atomic<bool>& cancel) {
+    const std::int64_t step = state_.steps;
+    const double t = state_.t;
+    const bool follows = before_ && before_->step + 1 == step;
+    const double length = follows ? t - before_->t : state_.time.clock.step;
+    slopes_before_.clear();
+    slopes_after_.clear();
+    double moment = next(last_);
+    for (; moment <= t + rounding_of_moments * length && !cancel; moment = next(last_)) {
+        last_ = moment;
+        if (std::abs(moment - t) <= rounding_of_moments * length) {
+            observe();
+            continue;
+        }
+        CHECK(follows, "a copy of the step before a moment");
+        {
+            const OtherSpecies read(state_, at(moment));
+            state_.go_to(step, moment);
+            observe();
+        }
+        state_.go_to(step, t);
+    }
+    before_.reset();
+    keep_before(moment);
+}
+
+/// Steps of chosen length may be of any.
+void BetweenSteps::keep_before(double next_moment) {
+    const bool may_follow = view_.stage().time.chooses_steps()
+                                ? std::isfinite(next_moment)
+                                : next_moment - state_.t < 1.01 * state_.time.clock.step;
+    if (!may_follow) return;
+    before_.emplace(Moment{state_.steps, state_.t, {}});
+    for (const Field& field : state_.species) before_->species.push_back(field.clone());
+}
+
+std::vector<Field> BetweenSteps::rates_before() {
+    const std::int64_t step = state_.steps;
+    const double t = state_.t;
+    std::vector<Field> rates;
+    {
+        std::vector<Field> copies;
+        for (const Field& field : before_->species) copies.push_back(field.clone());
+        const OtherSpecies then(state_, std::move(copies));
+        state_.go_to(before_->step, before_->t);
+        rates = view_.rates();
+    }
+    state_.go_to(step, t);
+    return rates;
+}
+
+std::vector<Field> BetweenSteps::at(double t) {
+    const double length = state_.t - before_->t, s = (t - before_->t) / length;
+    if (has_slopes_ && slopes_before_.empty()) {
+        slopes_before_ = rates_before();
+        slopes_after_ = view_.rates();
+    }
+    const HermiteWeights weights(s);
+    std::vector<Field> read;
+    for (std::size_t k = 0; k < state_.species.size(); ++k) {
+        read.push_back(state_.species[k].clone());
+        read.back().visit([&](auto& plane) {
+            using Number = std::remove_pointer_t<decltype(plane.origin())>;
+            const auto& before = before_->species[k].plane<Number>();
+            if (!has_slopes_) {
+                return read_between(before, plane, [&](double from, double to, auto, auto) {
+                    return from + s * (to - from);
+                });
+            }
+            const auto& slope_before = slopes_before_[k].plane<Number>();
+            const auto& slope_after = slopes_after_[k].plane<Number>();
+            read_between(before, plane,
+                         [&](double from, double to, std::int64_t row, std::int64_t i) {
+                             return weights.before * from + weights.after * to +
+                                    length * (weights.slope_before * slope_before.row(row)[i] +
+                                              weights.slope_after * slope_after.row(row)[i]);
+                         });
+        });
+    }
+    return read;
+}
+
+}  // namespace cascade

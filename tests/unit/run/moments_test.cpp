@@ -1,0 +1,183 @@
+// Runs observed at moments of time, which are read between steps.
+#include "run/commands/moments.h"
+
+#include "run_fixture.h"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <fstream>
+
+namespace cascade {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+class MomentsTest : public RunTest {
+protected:
+    RunRequest logged(const std::vector<std::string>& expressions) const {
+        RunRequest wanted = request();
+        wanted.log.expressions = expressions;
+        wanted.log.file = path("log.csv");
+        return wanted;
+    }
+    std::vector<std::string> lines() const {
+        std::ifstream file(path("log.csv"));
+        std::vector<std::string> found;
+        for (std::string line; std::getline(file, line);) found.push_back(line);
+        return found;
+    }
+    /// The last number of each line but the first.
+    std::vector<double> last_column() const {
+        std::vector<double> numbers;
+        for (const std::string& line : lines()) {
+            if (!line.starts_with("stage,")) {
+                numbers.push_back(std::stod(line.substr(line.rfind(',') + 1)));
+            }
+        }
+        return numbers;
+    }
+};
+
+TEST_F(MomentsTest, AreNotCountedTwice) {
+    const MomentsRequest some{{1, 2.5}, 0}, all{{}, 0.1};
+    EXPECT_EQ(next_moment(some, 0, 0), 1);
+    EXPECT_EQ(next_moment(some, 0, 1), 2.5);
+    EXPECT_EQ(next_moment(some, 2, 0), 0.5);
+    EXPECT_EQ(next_moment(some, 0, 2.5), std::numeric_limits<double>::infinity());
+    double t = 0;
+    for (int k = 1; k <= 1000; ++k) {
+        t = next_moment(all, 0.7, t);
+        ASSERT_NEAR(t, 0.1 * k, 1e-9);
+    }
+}
+
+TEST_F(MomentsTest, ReplaceIntervals) {
+    Script script = load(
+        "system s { u: 1; u' = 1 }\ndomain { grid: 2, 2 }\n"
+        "stage one: s { iterations: 4; speed: 0.5; interval: 1 }\n"
+        "stage two: s { u: u; duration: 2; speed: 0.75 }\n");
+    RunRequest wanted = logged({"max(u over domain)"});
+    wanted.moments.at = {0.75, 1, 2.5, 4, 9};
+    wanted.series = path("grown.npy");
+    run_well(script, wanted);
+    EXPECT_THAT(lines(),
+                ElementsAre("stage,step,t,max(u over domain)", "one,0,0,1", "one,2,0.75,1.75",
+                            "one,2,1,2", "one,4,2,3", "two,0,0,3", "two,1,0.5,3.5", "two,3,2,5"));
+    EXPECT_THAT(warnings_, ::testing::Contains("the run ends at t = 4, before 9 of --at"));
+    std::vector<double> times;
+    const auto about = nlohmann::json::parse(bytes("grown.json"), nullptr, false);
+    for (const auto& moment : about["moments"]) times.push_back(moment["time"]);
+    EXPECT_THAT(times, ElementsAre(0, 0.75, 1, 2, 2.5, 4));
+}
+
+// The classical method and the curve are both of fourth order.
+TEST_F(MomentsTest, AreReadAsExactlyAsTheSolverIs) {
+    const auto error = [&](const std::string& stage) {
+        Overrides overrides;
+        overrides.precision = Precision::binary64;
+        Script script = load(
+            "system s { u: 1; v: 0; u' = v; v' = -u }\ndomain { grid: 2, 2 }\n"
+            "stage turn: s { " +
+                stage + " }\n",
+            overrides);
+        RunRequest wanted = logged({"max(u over domain) - cos(t)"});
+        wanted.moments.every = 0.13;
+        run_well(script, wanted);
+        double most = 0;
+        for (const double each : last_column()) most = std::max(most, std::abs(each));
+        EXPECT_GT(last_column().size(), 20U);
+        return most;
+    };
+    const double coarse = error("solver: rk4; speed: 0.4; iterations: 10");
+    const double fine = error("solver: rk4; speed: 0.2; iterations: 20");
+    EXPECT_LT(coarse, 2e-3);
+    EXPECT_NEAR(coarse / fine, 16, 3);
+    // A straight line between the same steps would be wrong by 0.02.
+    EXPECT_LT(error("solver: rk45; duration: 4; tolerance: 1e-6; speed: 0.1"), 2e-3);
+}
+
+TEST_F(MomentsTest, ChangeNoBitOfTheRun) {
+    const std::string spots = "turing_spots { ka: 1/20; ";
+    const std::vector<std::string> stages = {
+        "stage s: " + spots + "iterations: 60; speed: 0.7 }",
+        "stage s: " + spots + "duration: 30; speed: 0.7 }",
+        "stage s: " + spots + "duration: 30; speed: auto }",
+        "stage s: " + spots + "duration: 30; speed: auto; solver: rkl2 }",
+        "stage s: " + spots + "duration: 30; solver: rk45 }",
+        "stage s: " + spots + "duration: 30; solver: imex }",
+        "stage s: " + spots + "iterations: 50; until: steady(0.001); check: 7 }",
+        "stage s: " + spots + "iterations: 40; frozen: x < 0.3 }",
+        "system noisy { u: 1; u' = lap(u) / 8 + 0.1 * random(0, 1) }\n"
+        "stage s: noisy { iterations: 40; speed: 0.5 }",
+        "system tied { u: x; u' = phi - u; 0 = lap(phi) - phi + u }\n"
+        "stage s: tied { iterations: 20; speed: 0.3 }",
+        "stage s: " + spots + "iterations: 40; grid: coarse(2) }"};
+    for (const std::string& stage : stages) {
+        const auto saved = [&](const MomentsRequest& moments) {
+            Script script = load("domain { grid: 24, 16 }\n" + stage);
+            RunRequest wanted = logged({"t"});
+            wanted.moments = moments;
+            wanted.save = path("saved");
+            run_well(script, wanted);
+            std::string all;
+            for (const char* name : {"a", "b", "u", "phi"}) {
+                all += bytes(std::string("saved/s.") + name + ".npy");
+            }
+            std::filesystem::remove_all(path("saved"));
+            return all;
+        };
+        const std::string plain = saved({});
+        ASSERT_FALSE(plain.empty()) << stage;
+        EXPECT_TRUE(saved({{}, 0.3}) == plain) << stage;
+        EXPECT_GT(lines().size(), 20U) << stage;
+        EXPECT_TRUE(saved({{0.1, 7, 7.01}, 0}) == plain) << stage;
+    }
+}
+
+TEST_F(MomentsTest, LeaveFrozenCellsAsTheyAre) {
+    Script script = load(
+        "system s { u: 1; u' = 1 }\ndomain { grid: 4, 2 }\n"
+        "stage one: s { iterations: 4; frozen: x < 0.5 }\n");
+    RunRequest wanted = logged({"min(u over domain)", "max(u over domain)"});
+    wanted.moments.at = {2.5};
+    run_well(script, wanted);
+    EXPECT_EQ(lines()[2], "one,3,2.5,1,3.5");
+}
+
+TEST_F(MomentsTest, AreRefusedWhereNothingHasATime) {
+    const auto refusal = [&](const std::string& text, bool is_logged = true) {
+        Script script = load("domain { grid: 10, 10 }\n" + text);
+        RunRequest wanted = is_logged ? logged({"step"}) : request();
+        wanted.moments.every = 1;
+        run_badly(script, wanted);
+        EXPECT_FALSE(std::filesystem::exists(path("picture.png")));
+        return script.messages(false);
+    };
+    const std::string grown = "stage s: gray_scott { iterations: 2 }";
+    EXPECT_THAT(refusal(grown, false), HasSubstr("nothing is observed over time"));
+    EXPECT_THAT(refusal("stage s: gray_scott { iterations: 2; speed: x + 0.1 }"),
+                HasSubstr("differ from cell to cell, so that it has no time"));
+    EXPECT_THAT(refusal("cells still { p' = vector(0, 0, 0) }\n"
+                        "stage s: still { founders: keys(0.5, 0.5, 0); r: 0.05; iterations: 1 }"),
+                HasSubstr("which are observed at steps"));
+}
+
+TEST_F(MomentsTest, OfALogMayHaveNamesAndFeatures) {
+    Script script = load(
+        "domain { grid: 40, 20 }\nsystem s { u: (x < 0.5); spots: 7; u' = 0 * u }\n"
+        "stage s: s { iterations: 1 }");
+    run_well(script, logged({"half = mean(u over domain)", "wavelength", "A=area", "spots",
+                             "same=max(u over domain) == 1"}));
+    EXPECT_THAT(lines(), ElementsAre("stage,step,t,half,wavelength,A,spots,same",
+                                     "s,0,0,0.5,40,0.5,7,1", "s,1,1,0.5,40,0.5,7,1"));
+    Script wrong = load("stage s: gray_scott { iterations: 1 }");
+    run_badly(wrong, logged({"L=q"}));
+    EXPECT_THAT(wrong.messages(false), StartsWith("<--log>:1:1: error: 'q' is not a parameter"));
+}
+
+}  // namespace
+}  // namespace cascade
