@@ -14,7 +14,7 @@
 #include "run/pictures/painter.h"
 #include "run/session/session_picture.h"
 #include "run/simulation/end_remarks.h"
-#include "tissue/tissue.h"
+#include "run/stage/stage_state.h"
 
 #include <fmt/format.h>
 
@@ -77,9 +77,10 @@ std::string in_words(const Field& field) {
 /// How far a stage is, and what has become of its cells if they crawl.
 std::string progress_in_words(const Stage& stage, const StageState& state) {
     const std::string place = describe_place(stage, state);
-    if (!state.tissue) return place;
-    return fmt::format("{}: {} cells, {} births, {} deaths", place, state.tissue->count(),
-                       state.tissue->births, state.tissue->deaths);
+    const auto cells = counts_of_cells(state);
+    if (!cells) return place;
+    return fmt::format("{}: {} cells, {} births, {} deaths", place, cells->count, cells->births,
+                       cells->deaths);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "run/session/changed_script.h"
 #include "run/session/kept_state.h"
 #include "run/session/session_picture.h"
+#include "run/stage/stage_state.h"
 #include "tissue/tissue.h"
 #include "view/page_answer.h"
 
@@ -65,9 +66,9 @@ Field values_of(const LiveRun& run, StageItem at) {
 
 /// The cells in which an item has values.
 Grid grid_of(const LiveRun& run, std::uint32_t stage) {
-    const Tissue* const cells = run.simulation().state(stage).tissue.get();
-    if (cells == nullptr) return run.simulation().domain().grid;
-    return Grid{static_cast<std::int64_t>(std::max<std::size_t>(cells->count(), 1)), 1};
+    const auto cells = counts_of_cells(run.simulation().state(stage));
+    if (!cells) return run.simulation().domain().grid;
+    return Grid{std::max<std::int64_t>(cells->count, 1), 1};
 }
 
 /// The present value of an item, or the range of its values.

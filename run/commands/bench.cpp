@@ -6,9 +6,9 @@
 #include "ir/solver.h"
 #include "lang/program/stage_kinds.h"
 #include "run/simulation/stage_tools.h"
+#include "run/stage/stage_state.h"
 #include "run/stage/stage_time.h"
 #include "run/stage/time_account.h"
-#include "tissue/tissue.h"
 
 #include <fmt/format.h>
 
@@ -73,7 +73,7 @@ public:
         const double batch = std::clamp(seconds_ / batches_wanted, 1e-4, 0.25);
         std::int64_t every =
             static_cast<std::int64_t>(std::clamp(batch / std::max(step_seconds_, 1e-9), 1.0, 1e9));
-        if (tissue() != nullptr) every = 1;
+        if (cells()) every = 1;
         every = (every + steps_of_tile - 1) / steps_of_tile * steps_of_tile;
         while (!is_enough() && !control_.cancel) {
             if (auto ready = begin_again_where_done(); !ready) return ready;
@@ -91,7 +91,7 @@ public:
         bench.step = median(batches_);
         bench.batches = batches_.size();
         bench.steps = steps_;
-        if (tissue() == nullptr) return {};
+        if (!cells()) return {};
         bench.step = measured_ / static_cast<double>(steps_);
         bench.mean_cells = std::max(1.0, cell_steps_ / static_cast<double>(steps_));
         return {};
@@ -105,13 +105,11 @@ private:
         return !batches_.empty() && seconds_since(begin_) > 4 * seconds_ + 1;
     }
 
-    /// Null in a stage of fields.
-    const Tissue* tissue() const { return simulation_.state(k_).tissue.get(); }
+    std::optional<CellCounts> cells() const { return counts_of_cells(simulation_.state(k_)); }
 
     void add_batch(double seconds, std::int64_t steps) {
-        if (tissue() != nullptr) {
-            cell_steps_ += static_cast<double>(tissue()->count()) * static_cast<double>(steps);
-        }
+        if (const auto crawling = cells())
+            cell_steps_ += static_cast<double>(crawling->count) * static_cast<double>(steps);
         batches_.push_back(seconds / static_cast<double>(steps));
         measured_ += seconds;
         steps_ += steps;

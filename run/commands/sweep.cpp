@@ -13,7 +13,6 @@
 #include "run/simulation/end_remarks.h"
 #include "run/stage/memory.h"
 #include "run/stage/time_account.h"
-#include "tissue/tissue.h"
 
 #include <fmt/format.h>
 
@@ -40,11 +39,6 @@ std::string one_line(std::string text) {
 void add_remark(SweepResult& result, const std::string& words) {
     if (words.empty()) return;
     result.remark += (result.remark.empty() ? "" : "; ") + one_line(words);
-}
-
-/// The cells that a picture shows; null if it is one of fields.
-const Tissue* shown_tissue(const Simulation& simulation) {
-    return simulation.state(shown_stage(simulation)).tissue.get();
 }
 
 struct Run {
@@ -242,9 +236,7 @@ void Sweeper::take(std::size_t number, RunControl& control) {
     Canvas canvas = painter->canvas(**simulation);
     add_remark(result, remark_on_picture(*painter, **simulation, canvas));
     result.features = measure_shown(*painter, **simulation);
-    if (const Tissue* tissue = shown_tissue(**simulation)) {
-        result.cells = {static_cast<std::int64_t>(tissue->count()), tissue->births, tissue->deaths};
-    }
+    result.cells = counts_of_cells((*simulation)->state(shown_stage(**simulation)));
     // Without rows and columns a tile is a picture.
     painter->set_width(request_.tile_side);
     if (canvas.cells || (*simulation)->domain().model) canvas = canvas_of(painter->image(canvas));

@@ -8,6 +8,7 @@
 #include "run/commands/film_crew.h"
 #include "run/commands/sweep.h"
 #include "run/script/embedded_script.h"
+#include "run/stage/stage_state.h"
 
 #include <fmt/format.h>
 
@@ -177,12 +178,12 @@ std::string sweep_table(const std::vector<std::optional<SweepResult>>& results,
         }
         if (has_cells) {
             const auto cells = result ? result->cells : std::nullopt;
-            const auto add = [&](std::int64_t SweepResult::Cells::*which) {
+            const auto add = [&](std::int64_t CellCounts::*which) {
                 row.push_back(cells ? fmt::format("{}", (*cells).*which) : "");
             };
-            add(&SweepResult::Cells::count);
-            add(&SweepResult::Cells::births);
-            add(&SweepResult::Cells::deaths);
+            add(&CellCounts::count);
+            add(&CellCounts::births);
+            add(&CellCounts::deaths);
         }
         row.push_back(result ? fmt::format("{}", result->steps) : "");
         row.push_back(result ? result->remark : "not run");

@@ -6,6 +6,7 @@
 #include "measure/features.h"
 #include "run/pictures/painter.h"
 #include "run/script/script.h"
+#include "run/stage/stage_state.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -18,10 +19,7 @@ struct SweepResult {
     std::optional<measure::Features> features;  ///< Empty if the run failed.
     Canvas tile;  ///< The picture's values, averaged down; no fields if the run failed.
     /// Of the stage that is shown, if it is one of cells that crawl.
-    struct Cells {
-        std::int64_t count = 0, births = 0, deaths = 0;
-    };
-    std::optional<Cells> cells;
+    std::optional<CellCounts> cells;
     std::int64_t steps = 0;  ///< Of all stages.
     std::string remark;      ///< The error or warnings of the run; one line, usually empty.
 

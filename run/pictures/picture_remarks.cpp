@@ -98,7 +98,7 @@ std::string remark_on_picture(Painter& painter, const Simulation& simulation,
     const std::uint32_t stage = shown_stage(simulation);
     const StageState& state = simulation.state(stage);
     if (!state.started) return {};
-    if (state.tissue) return canvas.cells->fault;
+    if (canvas.cells) return canvas.cells->fault;
     if (state.course.empty() || state.course.ended_even()) return {};
     if (canvas.body) {
         return canvas.body->points.empty()

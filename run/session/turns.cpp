@@ -7,7 +7,6 @@
 #include "run/simulation/tissue_stage.h"
 #include "run/stage/stage_time.h"
 #include "run/stage/time_account.h"
-#include "tissue/tissue.h"
 
 #include <algorithm>
 #include <cmath>
@@ -165,11 +164,7 @@ std::shared_ptr<const Snapshot> Turns::snapshot() {
         if (state.started && stage.time.has_duration()) {
             progress.duration = duration_of(stage, program.system_of(k), state);
         }
-        if (state.tissue) {
-            const Tissue& tissue = *state.tissue;
-            progress.cells = {static_cast<std::int64_t>(tissue.count()), tissue.births,
-                              tissue.deaths};
-        }
+        progress.cells = counts_of_cells(state);
         made->stages.push_back(std::move(progress));
     }
     made->steps_per_second = steps_per_second_;

@@ -7,6 +7,7 @@
 #include "run/pictures/shown_cells.h"
 #include "run/pictures/shown_surface.h"
 #include "run/session/live_run.h"
+#include "run/stage/stage_state.h"
 
 #include <chrono>
 #include <cstdint>
@@ -46,10 +47,7 @@ struct StageProgress {
     bool has_begun = false;
     bool has_ended = false;
     /// For a stage of crawling cells, when it has begun.
-    struct Cells {
-        std::int64_t count = 0, births = 0, deaths = 0;
-    };
-    std::optional<Cells> cells = {};
+    std::optional<CellCounts> cells = {};
 };
 
 /// A moment of a session. Its reader may keep it.

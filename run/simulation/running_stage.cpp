@@ -1,7 +1,18 @@
-// What all stages report alike.
+// The kinds of runs, and what all stages report alike.
 #include "run/simulation/running_stage.h"
 
+#include "lang/program/stage_kinds.h"
+#include "run/simulation/stage_run.h"
+#include "run/simulation/tissue_run.h"
+
 namespace cascade {
+
+std::unique_ptr<RunningStage> run_of(const Environment& environment, std::span<StageState> states,
+                                     std::uint32_t stage, const Keeping& keeping) {
+    if (is_of_cells(*environment.program, stage))
+        return std::make_unique<TissueRun>(environment, states, stage, keeping);
+    return std::make_unique<StageRun>(environment, states, stage, keeping);
+}
 
 Progress progress_of(const Environment& environment, std::uint32_t stage) {
     const Stage& its = environment.stage(stage);

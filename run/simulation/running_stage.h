@@ -5,10 +5,13 @@
 #include "core/run_control.h"
 #include "run/simulation/environment.h"
 #include "run/simulation/simulation.h"
+#include "run/stage/stage_state.h"
 #include "run/stage/step_kernels.h"
 
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <span>
 
 namespace cascade {
 
@@ -43,6 +46,10 @@ public:
     /// doubts were looked for: their checks reuse the stage's memory.
     virtual bool can_go_on() const = 0;
 };
+
+/// The run of a stage that has been started. The arguments must outlive it.
+std::unique_ptr<RunningStage> run_of(const Environment& environment, std::span<StageState> states,
+                                     std::uint32_t stage, const Keeping& keeping);
 
 /// What is reported of a stage before it has taken a step.
 Progress progress_of(const Environment& environment, std::uint32_t stage);

@@ -1,14 +1,13 @@
 // Starts stages and advances the one that runs.
 #include "run/simulation/simulation.h"
 
+#include "lang/program/stage_kinds.h"
 #include "run/domain/field_values.h"
 #include "run/simulation/environment.h"
 #include "run/simulation/finer_run.h"
-#include "run/simulation/stage_run.h"
+#include "run/simulation/running_stage.h"
 #include "run/simulation/stage_start.h"
 #include "run/simulation/stages_on_grids.h"
-#include "run/simulation/tissue_run.h"
-#include "run/simulation/tissue_stage.h"
 #include "run/stage/memory.h"
 
 #include <cmath>
@@ -27,20 +26,13 @@ struct Simulation::Implementation {
     std::unique_ptr<StagesOnGrids> stages;
     Keeping keeping;
     bool has_expected = false;  ///< Has the stepper been told what later stages need?
-    std::unique_ptr<RunningStage>
-        run;  ///< The run of the stage that advanced last, if it can go on.
+    /// The run of the stage that advanced last, if it can go on.
+    std::unique_ptr<RunningStage> run;
     /// By stage: kernels of stages that ended before it was known whether all can be compiled.
     std::map<std::uint32_t, StepKernels> unsettled;
 
     /// What all stages share, but for coarser grids.
     Environment& environment() const { return stages->domain(); }
-
-    std::unique_ptr<RunningStage> make_run(std::uint32_t k) {
-        if (environment().program->system_of(k).cells) {
-            return std::make_unique<TissueRun>(environment(), stages->in_domain(), k, keeping);
-        }
-        return std::make_unique<StageRun>(stages->environment(k), stages->states(k), k, keeping);
-    }
 
     /// Must be called before states are changed.
     void end_run() {
@@ -61,8 +53,8 @@ struct Simulation::Implementation {
         if (!kernels.starts_interpreted() || std::exchange(has_expected, true)) return;
         const TimeAccount::Scope spent(environment().account, Spent::compiling);
         for (std::uint32_t later = k + 1; later < environment().script.stage_count(); ++later) {
-            const bool is_of_fields = !environment().program->system_of(later).cells;
-            if (!is_of_fields || stages->has_own_cells(later) || !environment().takes_long(later))
+            if (is_of_cells(*environment().program, later) || stages->has_own_cells(later) ||
+                !environment().takes_long(later))
                 continue;
             const Stage& stage = environment().stage(later);
             const auto species = environment().program->system_of(later).species_count();
@@ -96,10 +88,7 @@ Result<void> Simulation::start_stage(std::uint32_t k, const std::atomic<bool>& c
     self_->end_run();
     self_->stages->look_back(k);
     self_->stages->touch(k);
-    if (!self_->environment().program->system_of(k).cells) {
-        return cascade::start_stage(self_->stages->environment(k), self_->stages->states(k), k);
-    }
-    return start_tissue(self_->environment(), self_->stages->in_domain(), k, cancel);
+    return cascade::start_stage(self_->stages->environment(k), self_->stages->states(k), k, cancel);
 }
 
 Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_step,
@@ -112,7 +101,8 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
     if (self.run && self.run->stage() != k) self.end_run();
     if (!self.run) {
         self.expect_stages_after(k);
-        self.run = self.make_run(k);
+        if (!self.stages->has_own_cells(k)) self.stages->in_domain();
+        self.run = run_of(self.stages->environment(k), self.stages->states(k), k, self.keeping);
     }
     std::function<void()> seen = observe;
     if (seen && self.stages->has_own_cells(k)) {

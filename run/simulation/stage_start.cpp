@@ -7,9 +7,11 @@
 #include "core/with_commas.h"
 #include "lang/calculus/side_values.h"
 #include "lang/program/nodes_of_rates.h"
+#include "lang/program/stage_kinds.h"
 #include "run/domain/field_values.h"
 #include "run/domain/metric_planes.h"
 #include "run/simulation/stage_view.h"
+#include "run/simulation/tissue_stage.h"
 #include "run/stage/bound_kernel.h"
 #include "run/stage/plan_runner.h"
 #include "solvers/changing_side.h"
@@ -230,7 +232,9 @@ void start_uniform_items(const StageView& view, StageState& state) {
 }
 
 Result<void> start_stage(const Environment& environment, std::span<StageState> states,
-                         std::uint32_t stage) {
+                         std::uint32_t stage, const std::atomic<bool>& cancel) {
+    if (is_of_cells(*environment.program, stage))
+        return start_tissue(environment, states, stage, cancel);
     const TimeAccount::Scope spent(environment.account, Spent::starting, stage);
     const StageView view(environment, states, stage);
     StageState& state = states[stage];

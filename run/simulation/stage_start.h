@@ -1,11 +1,13 @@
-// The start of a stage: its parameters, its species and its sides.
+// The start of a stage of either kind; of a stage of fields, its parameters, species and sides.
 #pragma once
 
 #include "core/result.h"
+#include "core/run_control.h"
 #include "run/simulation/environment.h"
 #include "run/simulation/stage_view.h"
 #include "run/stage/stage_state.h"
 
+#include <atomic>
 #include <cstdint>
 #include <span>
 
@@ -14,9 +16,9 @@ namespace cascade {
 /// Computes the items of a stage that are the same in all cells.
 void start_uniform_items(const StageView& view, StageState& state);
 
-/// Computes the starting values of a stage from earlier stages. Fails if `speed` is not above 0 or
-/// a side with a flux lies where the surface is sheared.
+/// Computes the starting values of a stage from earlier stages. Fails if `speed` is not above 0, if
+/// a side with a flux lies where the surface is sheared, or as start_tissue() does.
 Result<void> start_stage(const Environment& environment, std::span<StageState> states,
-                         std::uint32_t stage);
+                         std::uint32_t stage, const std::atomic<bool>& cancel = never_cancelled);
 
 }  // namespace cascade

@@ -21,23 +21,22 @@ BindingContext StageView::context() const {
             invariants_};
 }
 
-std::vector<Field> StageView::evaluate(const StepPlan& plan) const {
-    if (state().tissue) return evaluate_in_cells(*this, plan);
+/// In the cells of the domain, or in those that crawl. `formulas` as for evaluate_in_cells().
+std::vector<Field> StageView::run(const StepPlan& plan,
+                                  std::span<const Formula* const> formulas) const {
+    if (state().tissue) return evaluate_in_cells(*this, plan, formulas);
     return run_plan(plan, environment_->kernels.once(), context(), environment_->grid,
                     environment_->team);
 }
 
 std::vector<Field> StageView::evaluate(std::span<const Formula* const> formulas) const {
     if (environment_->model) environment_->model->values->prepare(formulas);
-    const StepPlan plan = plan_view(program(), formulas, number_);
-    return state().tissue ? evaluate_in_cells(*this, plan, formulas) : evaluate(plan);
+    return run(plan_view(program(), formulas, number_), formulas);
 }
 
 std::vector<Field> StageView::evaluate(const Formula& formula) const {
     const Formula* const formulas[] = {&formula};
-    if (environment_->model) environment_->model->values->prepare(formulas);
-    const StepPlan plan = plan_view(program(), formula, number_);
-    return state().tissue ? evaluate_in_cells(*this, plan, formulas) : evaluate(plan);
+    return evaluate(formulas);
 }
 
 std::vector<Field> StageView::rates() const { return evaluate(plan_rates(program(), number_)); }

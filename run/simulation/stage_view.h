@@ -37,7 +37,7 @@ public:
     /// Where slots of kernels get the present values.
     BindingContext context() const;
     /// The results of a plan, and values of formulas outside of steps.
-    std::vector<Field> evaluate(const StepPlan& plan) const;
+    std::vector<Field> evaluate(const StepPlan& plan) const { return run(plan, {}); }
     std::vector<Field> evaluate(std::span<const Formula* const> formulas) const;
     std::vector<Field> evaluate(const Formula& formula) const;
     /// The rates of all species.
@@ -58,6 +58,8 @@ public:
     bool diffusion_limits() const;
 
 private:
+    std::vector<Field> run(const StepPlan& plan, std::span<const Formula* const> formulas) const;
+
     const Environment* environment_;
     std::span<const StageState> states_;
     std::uint32_t number_;

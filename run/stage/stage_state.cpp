@@ -23,6 +23,12 @@ StageState empty_state(const System& system) {
     return state;
 }
 
+std::optional<CellCounts> counts_of_cells(const StageState& state) {
+    if (!state.tissue) return std::nullopt;
+    const Tissue& tissue = *state.tissue;
+    return CellCounts{static_cast<std::int64_t>(tissue.count()), tissue.births, tissue.deaths};
+}
+
 const Field& StageState::field(ItemId item) const {
     const auto id = species_of_item[item];
     if (tissue) return id ? tissue->species[id->index()] : tissue->kept[item.index()];

@@ -69,6 +69,13 @@ struct StageState : StageMoment {
     const Mask& frozen_cells() const;
 };
 
+/// The cells of a stage of cells that crawl.
+struct CellCounts {
+    std::int64_t count = 0, births = 0, deaths = 0;
+};
+/// Nothing of a stage of fields, and before a stage has started.
+std::optional<CellCounts> counts_of_cells(const StageState& state);
+
 /// A state with room for all items of a system, but without planes.
 StageState empty_state(const System& system);
 
