@@ -92,13 +92,14 @@ typedef struct cascade_options {
 
 /* Makes a pattern of a script. `options` may be null. Where the script is wrong or its run cannot
  * begin, *pattern is a handle, too, which gives the messages and must be freed. It is null after
- * wrong arguments only. */
+ * wrong arguments, and where memory is short. */
 CASCADE_C_API cascade_status cascade_create(const char* script, const cascade_options* options,
                                             cascade_pattern** pattern);
 /* Opens a file: a script, a picture that carries one, a session, or the folder of a saved run. */
 CASCADE_C_API cascade_status cascade_open(const char* path, const cascade_options* options,
                                           cascade_pattern** pattern);
-/* Plays the text of cascade_session(), or the bytes of a picture, to its end. */
+/* Plays the text of cascade_session(), or the bytes of a picture, to its end. Neither `sets` nor the
+ * seed of options are used. */
 CASCADE_C_API cascade_status cascade_play(const void* session, size_t bytes,
                                           const cascade_options* options,
                                           cascade_pattern** pattern);
