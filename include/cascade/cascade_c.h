@@ -98,8 +98,8 @@ CASCADE_C_API cascade_status cascade_create(const char* script, const cascade_op
 /* Opens a file: a script, a picture that carries one, a session, or the folder of a saved run. */
 CASCADE_C_API cascade_status cascade_open(const char* path, const cascade_options* options,
                                           cascade_pattern** pattern);
-/* Plays the text of cascade_session(), or the bytes of a picture, to its end. Neither `sets` nor the
- * seed of options are used. */
+/* Plays the text of cascade_session(), or the bytes of a picture, to its end. Neither `sets` nor
+ * the seed of options are used. */
 CASCADE_C_API cascade_status cascade_play(const void* session, size_t bytes,
                                           const cascade_options* options,
                                           cascade_pattern** pattern);
