@@ -172,7 +172,7 @@ NextMoment Runner::moments_of(std::uint32_t stage) const {
 
 /// A run that has ended before a time of --at.
 void Runner::remark_on_moments() {
-    const std::uint32_t stage = simulation_->shown_stage().value_or(0);
+    const std::uint32_t stage = shown_stage(*simulation_);
     const double end = time_since_start(*simulation_);
     if (request_.moments.at.empty() || stage + 1 < script_.stage_count()) return;
     if (request_.moments.at.back() <= end * (1 + 1e-9)) return;
