@@ -43,6 +43,7 @@ void run(CLI::App& command, Options& options) {
     groups::add_quiet(command, options);
     groups::add_limits(command, options);
     groups::add_dump(command, options);
+    groups::add_json(command, options);
 }
 
 void sweep(CLI::App& command, Options& options) {
@@ -55,12 +56,14 @@ void sweep(CLI::App& command, Options& options) {
                            "as there are cores");
     groups::add_quiet(command, options);
     groups::add_limits(command, options);
+    groups::add_json(command, options);
 }
 
 void check(CLI::App& command, Options& options) {
     add_scripts(command, options, "Scripts, pictures that Cascade drew, or -");
     groups::add_overrides(command, options.overrides);
     groups::add_dump(command, options);
+    groups::add_json(command, options);
 }
 
 void analyze(CLI::App& command, Options& options) {
@@ -90,6 +93,7 @@ void systems(CLI::App& command, Options& options) {
                     "The name of a system, or words that its description has; before it a\n"
                     "script whose systems are shown instead of the library's")
         ->type_name("");
+    groups::add_json(command, options);
 }
 
 void new_script(CLI::App& command, Options& options) {
@@ -124,7 +128,10 @@ void format(CLI::App& command, Options& options) {
         ->excludes(ascii);
 }
 
-void mesh(CLI::App& command, Options& options) { groups::add_mesh(command, options); }
+void mesh(CLI::App& command, Options& options) {
+    groups::add_mesh(command, options);
+    groups::add_json(command, options);
+}
 
 void repl(CLI::App& command, Options& options) {
     groups::add_script(command, options, "A script to begin with (may be left out)");

@@ -2,6 +2,7 @@
 #include "app/commands.h"
 
 #include "app/exit_status.h"
+#include "app/json_answer.h"
 #include "core/counted.h"
 #include "core/file.h"
 #include "core/near_name.h"
@@ -122,11 +123,32 @@ std::string summary(const Script& script) {
                        describe_sides(program.domain.grid));
 }
 
+/// What --json says of a script that is checked.
+nlohmann::ordered_json facts_of(const Script& script) {
+    nlohmann::ordered_json facts = {{"file", script.name},
+                                    {"is_correct", script.program != nullptr}};
+    if (!script.program) return facts;
+    const Grid& grid = script.program->domain.grid;
+    facts["grid"] = {grid.width, grid.height, grid.depth};
+    facts["stages"] = nlohmann::ordered_json::array();
+    for (std::uint32_t k = 0; !script.program->stages.empty() && k < script.stage_count(); ++k) {
+        const Stage& stage = script.program->stages[k];
+        nlohmann::ordered_json of_stage = {{"name", stage.name},
+                                           {"system", script.program->system_of(k).name}};
+        if (stage.time.duration) of_stage["duration"] = *stage.time.duration;
+        else if (!stage.time.has_duration() && !stage.time.open_end)
+            of_stage["iterations"] = stage.iterations;
+        facts["stages"].push_back(std::move(of_stage));
+    }
+    return facts;
+}
+
 int check_one(const std::string& path, const Options& options, Console& console) {
     const auto file = load(path, options.overrides, console, typed_of(options));
     if (!file) return exit_status::wrong_script;
+    if (console.answer()) (*console.answer())["scripts"].push_back(facts_of(file->script));
     if (!options.dump.empty()) return dump_command(file->script, options.dump, console);
-    console.say(file->script.messages(console.error().colour));
+    console.tell(file->script);
     if (!file->script.program) return exit_status::wrong_script;
     for (const std::string& remark : outlooks(file->script)) console.warn(remark);
     console.print(
@@ -159,7 +181,7 @@ int dump_command(const Script& script, const std::string& kind, Console& console
     const bool can_be_shown = script.program || kind == "tokens" || kind == "ast";
     const auto text = can_be_shown ? dump(script, kind) : Result<std::string>(std::string());
     if (text) console.print(*text);
-    console.say(script.messages(console.error().colour));
+    console.tell(script);
     if (!script.program) return exit_status::wrong_script;
     if (text) return exit_status::success;
     console.fail(text.error());
@@ -178,7 +200,7 @@ int compile_command(const Options& options, Console& console) {
     auto file = load(options.scripts[0], options.overrides, console, typed_of(options));
     if (!file) return exit_status::wrong_script;
     Script& script = file->script;
-    console.say(script.messages(console.error().colour));
+    console.tell(script);
     if (!script.program) return exit_status::wrong_script;
 
     std::filesystem::path object = options.object;
@@ -202,7 +224,7 @@ int compile_command(const Options& options, Console& console) {
     const auto compiled = compile_step(script, request);
     if (!compiled) {
         if (script.diagnostics.has_errors()) {
-            console.say(script.messages(console.error().colour));
+            console.tell(script);
             return exit_status::wrong_script;
         }
         console.fail(compiled.error());

@@ -2,6 +2,7 @@
 #include "app/console.h"
 
 #include "app/exit_status.h"
+#include "app/json_answer.h"
 #include "core/printable.h"
 
 #include <fmt/format.h>
@@ -61,6 +62,10 @@ Result<void> Stream::write(std::string_view text) const {
     return {};
 }
 
+void Console::answer_in_json(std::string_view command) {
+    answer_ = std::make_shared<JsonAnswer>(command);
+}
+
 void Console::print(std::string_view text) { draw(printable_lines(text)); }
 
 void Console::print_exactly(std::string_view text) {
@@ -69,6 +74,7 @@ void Console::print_exactly(std::string_view text) {
 }
 
 void Console::draw(std::string_view text) {
+    if (answer_) return answer_->print(text);
     if (reader_gone_ || !write_error_.empty()) return;
     const auto done = out_.write(text);
     if (done) return;
@@ -76,11 +82,22 @@ void Console::draw(std::string_view text) {
     write_error_ = done.error().message;
 }
 
-void Console::say(std::string_view text) const { (void)error_.write(text); }
+void Console::say(std::string_view text) const {
+    if (!answer_) (void)error_.write(text);
+}
 
-void Console::note(std::string_view message) const { say(printable(message) + "\n"); }
+void Console::tell(const Script& script) const {
+    if (answer_) return answer_->add(script);
+    say(script.messages(error_.colour));
+}
+
+void Console::note(std::string_view message) const {
+    if (answer_) return answer_->add("note", message);
+    say(printable(message) + "\n");
+}
 
 void Console::fail(const Failure& failure) const {
+    if (answer_) return answer_->add("error", failure.message, failure.hint);
     const auto in_colour = [&](std::string_view colour) {
         return error_.colour ? colour : std::string_view();
     };
@@ -94,12 +111,18 @@ void Console::fail(const Failure& failure) const {
 }
 
 void Console::warn(std::string_view message) const {
+    if (answer_) return answer_->add("warning", message);
     const std::string text = printable(message);
     say(error_.colour ? fmt::format("cascade: \x1b[1;35mwarning:\x1b[0m {}\n", text)
                       : fmt::format("cascade: warning: {}\n", text));
 }
 
-int Console::finish(int status) const {
+int Console::finish(int status) {
+    if (answer_) {
+        const std::string text = answer_->text(status);
+        answer_.reset();
+        draw(text);
+    }
     if (write_error_.empty()) return status;
     fail({fmt::format("standard output cannot be written: {}", write_error_), ""});
     return status == exit_status::success ? exit_status::failed_run : status;

@@ -3,10 +3,14 @@
 
 #include "core/result.h"
 
+#include <memory>
 #include <string>
 #include <string_view>
 
 namespace cascade {
+
+class JsonAnswer;
+struct Script;
 
 /// What is known about a stream when the program starts.
 struct Stream {
@@ -28,6 +32,11 @@ public:
     Console(Stream out, Stream error) : out_(out), error_(error) {}
     static Console standard() { return {Stream::of(1), Stream::of(2)}; }
 
+    /// From now on all output is collected in one answer, which finish() writes.
+    void answer_in_json(std::string_view command);
+    /// Null unless the output is JSON.
+    JsonAnswer* answer() const { return answer_.get(); }
+
     const Stream& out() const { return out_; }
     const Stream& error() const { return error_; }
 
@@ -41,6 +50,8 @@ public:
     /// Writes to standard error as it is: text from a file must have been made printable. Errors
     /// are ignored.
     void say(std::string_view text) const;
+    /// Writes the diagnostics of a script to standard error.
+    void tell(const Script& script) const;
     /// Writes a line to standard error, made printable.
     void note(std::string_view message) const;
     /// Writes "cascade: error: message" and the hint on a line below, made printable.
@@ -48,15 +59,18 @@ public:
     /// Writes "cascade: warning: message", made printable.
     void warn(std::string_view message) const;
 
-    /// `status`, or that of a failed run if that is good but a result could not be written. A
-    /// reader that has closed the pipe (`| head`) is not an error.
-    int finish(int status) const;
+    /// Writes the answer, if the output is JSON.
+    ///
+    /// Returns `status`, or that of a failed run if that is good but a result could not be written.
+    /// A reader that has closed the pipe (`| head`) is not an error.
+    int finish(int status);
 
 private:
     Stream out_;
     Stream error_;
     bool reader_gone_ = false;
     std::string write_error_;
+    std::shared_ptr<JsonAnswer> answer_;
 };
 
 }  // namespace cascade

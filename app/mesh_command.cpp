@@ -2,6 +2,7 @@
 #include "app/commands.h"
 #include "app/exit_status.h"
 #include "app/interrupt.h"
+#include "app/json_answer.h"
 #include "core/enough_memory.h"
 #include "core/file_format.h"
 #include "run/domain/describe_model.h"
@@ -43,6 +44,12 @@ public:
             lines.insert(lines.end(), about->begin(), about->end());
         }
         if (cancel_) return {};
+        if (JsonAnswer* const all = console_.answer()) {
+            (*all)["models"].push_back({{"file", model},
+                                        {"points", made->mesh.points.size()},
+                                        {"triangles", made->mesh.triangles.size()},
+                                        {"facts", lines}});
+        }
         console_.print(model + "\n");
         for (const std::string& line : lines) console_.print("  " + line + "\n");
         return {};

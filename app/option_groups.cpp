@@ -114,6 +114,12 @@ void add_dump(CLI::App& app, Options& options) {
         ->group("More");
 }
 
+void add_json(CLI::App& app, Options& options) {
+    app.add_flag("--json", options.json,
+                 "All output, messages too, as one JSON object on standard\noutput")
+        ->group("More");
+}
+
 void add_compile(CLI::App& app, Options& options) {
     const std::string group = "Output";
     CompileRequest& compile = options.compile;

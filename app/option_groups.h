@@ -30,6 +30,7 @@ void add_timing(CLI::App& app, Options& options);
 void add_limits(CLI::App& app, Options& options);
 void add_quiet(CLI::App& app, Options& options);
 void add_dump(CLI::App& app, Options& options);
+void add_json(CLI::App& app, Options& options);
 void add_analyze(CLI::App& app, Options& options);
 void add_bench(CLI::App& app, Options& options);
 void add_compile(CLI::App& app, Options& options);

@@ -68,6 +68,7 @@ struct Options {
     double limit_seconds = 0;          ///< `--limit-time`; 0 for none.
     std::string dump;                  ///< The kind of dump; empty to run.
     bool timing = false;               ///< Print how the time was spent.
+    bool json = false;                 ///< All output as one object.
     bool quiet = false;                ///< Neither progress nor remarks.
     std::vector<std::string> words;    ///< What `systems` searches for; the system of `new`.
     std::filesystem::path new_script;  ///< `new -o`

@@ -3,6 +3,7 @@
 #include "app/commands.h"
 #include "app/exit_status.h"
 #include "app/interrupt.h"
+#include "app/json_answer.h"
 #include "app/limits.h"
 #include "app/option_values.h"
 #include "app/progress_display.h"
@@ -83,8 +84,30 @@ void tell_written(const RunReport& report, const RunRequest& request, Console& c
     for (const std::string& note : report.notes) console.note(note);
 }
 
+/// What --json says of a run.
+void answer(const RunReport& report, bool limit_reached, JsonAnswer& all) {
+    using Json = nlohmann::ordered_json;
+    const bool is_cancelled = report.status == RunStatus::cancelled;
+    all["outcome"] = is_cancelled ? (limit_reached ? "time limit" : "interrupted")
+                     : report.status == RunStatus::stopped ? "stopped"
+                                                           : "finished";
+    all["where"] = report.where;
+    all["steps"] = report.steps;
+    all["seconds"] = report.seconds;
+    all["written"] = Json::array();
+    for (const auto& path : report.written) all["written"].push_back(path.string());
+    all["remarks"] = report.remarks;
+    if (!report.features) return;
+    const auto values = measure::to_array(*report.features);
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        all["features"][std::string(measure::feature_names()[k])] =
+            std::isfinite(values[k]) ? Json(values[k]) : Json(nullptr);
+    }
+}
+
 int tell(const RunReport& report, const Options& options, int signal, bool limit_reached,
          Console& console) {
+    if (console.answer()) answer(report, limit_reached, *console.answer());
     if (report.features) {
         print_features(*report.features, console);
         for (const std::string& remark : report.remarks) {
@@ -171,7 +194,7 @@ int run_command(const Options& options, Console& console) {
     if (!file) return exit_status::wrong_script;
     Script& script = file->script;
     if (!options.dump.empty()) return dump_command(script, options.dump, console);
-    console.say(script.messages(console.error().colour));
+    console.tell(script);
     if (!script.program) return exit_status::wrong_script;
     script.diagnostics = {};  // Warnings have been printed.
 
@@ -217,7 +240,7 @@ int run_command(const Options& options, Console& console) {
     if (options.timing && !script.diagnostics.has_errors()) {
         console.say(time_table(times, console.error().is_terminal));
     }
-    console.say(script.messages(console.error().colour));
+    console.tell(script);
     if (script.diagnostics.has_errors()) return exit_status::wrong_script;
     console.fail(report.error());
     return exit_status::failed_run;

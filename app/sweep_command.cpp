@@ -3,6 +3,7 @@
 #include "app/commands.h"
 #include "app/exit_status.h"
 #include "app/interrupt.h"
+#include "app/json_answer.h"
 #include "app/limits.h"
 #include "app/option_values.h"
 #include "app/progress_display.h"
@@ -30,6 +31,16 @@ std::string summary(const SweepReport& report) {
 
 int tell(const SweepReport& report, const Options& options, int signal, bool limit_reached,
          Console& console) {
+    if (JsonAnswer* const all = console.answer()) {
+        (*all)["runs"] = report.runs;
+        (*all)["done_before"] = report.done_before;
+        (*all)["failed"] = report.failed;
+        (*all)["missing"] = report.missing;
+        (*all)["steps"] = report.steps;
+        (*all)["seconds"] = report.seconds;
+        (*all)["written"] = nlohmann::ordered_json::array();
+        for (const auto& path : report.written) (*all)["written"].push_back(path.string());
+    }
     if (!options.quiet) {
         for (const auto& path : report.written) {
             console.print(fmt::format("wrote {}\n", path.string()));
@@ -73,7 +84,7 @@ int sweep_command(const Options& options, Console& console) {
     auto file = load(options.scripts[0], options.overrides, console, typed_of(options));
     if (!file) return exit_status::wrong_script;
     const Script& script = file->script;
-    console.say(script.messages(console.error().colour));
+    console.tell(script);
     if (!script.program) return exit_status::wrong_script;
 
     SweepRequest request = options.sweep;
@@ -115,7 +126,7 @@ int sweep_command(const Options& options, Console& console) {
         return tell(*report, options, std::max(interrupt.signal(), 2), limit.reached(), console);
     }
     if (const auto& wrong = report.error().script) {
-        console.say(wrong->messages(console.error().colour));
+        console.tell(*wrong);
         return exit_status::wrong_script;
     }
     console.fail(report.error().failure);

@@ -2,6 +2,7 @@
 #include "app/commands.h"
 
 #include "app/exit_status.h"
+#include "app/json_answer.h"
 #include "core/file.h"
 #include "core/near_name.h"
 #include "core/printable.h"
@@ -28,6 +29,15 @@ const System* find_system(const Script& script, std::string_view name) {
     return found;
 }
 
+/// What --json says of a system.
+void answer_with(std::string_view name, std::string_view about, Console& console) {
+    if (JsonAnswer* const all = console.answer()) {
+        nlohmann::ordered_json system = {{"name", name}};
+        if (!about.empty()) system["about"] = about;
+        (*all)["systems"].push_back(std::move(system));
+    }
+}
+
 /// Prints description, equations, species, parameters and settings of a system. Systems that
 /// `script` lacks are looked up in the library.
 void print_system(std::string_view title, const ast::Script& script, const Sources& sources,
@@ -46,6 +56,7 @@ void print_library_system(const LibraryText& text, Console& console) {
 }
 
 void print_system(const Script& script, const System& system, Console& console) {
+    answer_with(system.name, "", console);
     const LibraryText* const text = system.built_in ? find_library_text(system.name) : nullptr;
     print_system(text ? system.name : fmt::format("{} ({})", system.name, printable(script.name)),
                  script.tree, script.sources, system.name, text, console);
@@ -125,16 +136,19 @@ std::string hint_by_beginning(const std::string& word) {
 int search_library(const std::vector<std::string>& words, Console& console) {
     if (words.size() == 1) {
         if (const LibraryText* text = find_library_text(words.front())) {
+            answer_with(words.front(), note_of(*text).about, console);
             print_library_system(*text, console);
             return exit_status::success;
         }
         if (const LibraryText* text = find_shape_text(words.front())) {
+            answer_with(words.front(), note_of(*text).about, console);
             console.print(text->text);
             return exit_status::success;
         }
     }
     const std::vector<std::string> found = matches(words);
     for (const std::string& name : found) {
+        answer_with(name, note_of_name(name).about, console);
         print_line(name, note_of_name(name).about, console);
     }
     if (!found.empty()) return exit_status::success;
@@ -149,7 +163,7 @@ int search_library(const std::vector<std::string>& words, Console& console) {
 
 /// `cascade systems SCRIPT [NAME]`
 int show_systems_of(const Script& script, const std::vector<std::string>& names, Console& console) {
-    console.say(script.messages(console.error().colour));
+    console.tell(script);
     if (!script.program) return exit_status::wrong_script;
     if (!names.empty()) {
         const System* const system =
