@@ -141,5 +141,20 @@ TEST(PageMessage, SaysWhatIsWrong) {
               "'stage' must be a whole number from 1 to 1000000");
 }
 
+TEST(PageMessage, PartsOfModels) {
+    const auto message = parse_page_message(
+        R"({"do": "load", "id": 4, "name": "a.ply", "at": 3, "size": 9, "bytes": "Zm9v"})");
+    ASSERT_TRUE(message) << message.error().message;
+    const auto& part = std::get<LoadPart>(message->request);
+    EXPECT_EQ(part.name, "a.ply");
+    EXPECT_EQ(part.at, 3U);
+    EXPECT_EQ(part.size, 9U);
+    EXPECT_EQ(part.bytes, "foo");
+    const auto wrong =
+        parse_page_message(R"({"do": "load", "name": "a.ply", "at": 0, "size": 9, "bytes": "f"})");
+    ASSERT_FALSE(wrong);
+    EXPECT_EQ(wrong.error().message, "'bytes' must be bytes in base64");
+}
+
 }  // namespace
 }  // namespace cascade
