@@ -125,6 +125,8 @@ public:
     const PlaneLayout& layout() const { return layout_; }
 
 private:
+    /// The cells that columns of the halo copy; nullopt if a side has a value of its own.
+    static std::optional<HaloColumns> copied_columns(const SideRules& sides, std::int64_t width);
     /// Whole planes, on which the root of all parts computes what takes all cells.
     struct WholeGrid;
     /// Calls `work` with the runner, a worker and the registers of the whole grid.

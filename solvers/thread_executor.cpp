@@ -3,11 +3,11 @@
 #include "core/check.h"
 #include "core/floating_point.h"
 #include "core/parallel.h"
-#include "core/shared_plane.h"
 #include "solvers/executor.h"
 #include "solvers/field_norms.h"
 #include "solvers/finite.h"
 #include "solvers/pass_runner.h"
+#include "solvers/step_planes.h"
 #include "solvers/tile_runner.h"
 
 #include <algorithm>
@@ -44,85 +44,6 @@ void go_on(StepPass& next, std::size_t passes) {
     next.pass = 0;
     ++next.complete;
     next.roles.go_on();
-}
-
-/// The planes that steps read and write: two or three copies of every species, and scratch.
-class StepPlanes {
-public:
-    /// The first copy is `species`; there are three if `keeps`, else two.
-    StepPlanes(const PlaneLayout& layout, Precision precision, std::vector<Field> species,
-               bool keeps);
-
-    const PlaneLayout& layout() const { return layout_; }
-    std::vector<Field>& copy(int number) { return copies_[static_cast<std::size_t>(number)]; }
-    /// Gives a copy away; fields of the same kind must be put before the next step.
-    std::vector<Field> take(int number) { return std::move(copy(number)); }
-    /// Steps change planes in place, so of shared ones a copy is put.
-    void put(int number, std::vector<Field> species);
-
-    /// Makes planes for this number of registers, the old and the new step included.
-    void make_registers(std::uint32_t count);
-    /// The planes of a scratch register.
-    const std::vector<Field>& scratch(RegisterId id) const {
-        return scratch_[id.index() - first_scratch_register.index()];
-    }
-    /// Swaps two scratch registers.
-    void exchange(RegisterId one, RegisterId other);
-
-    /// Lists the planes of all registers of a step: the old step, the new one, then scratch.
-    void list(CopyRoles roles, std::vector<std::span<Field>>& registers);
-
-private:
-    void check(const Field& field) const;
-
-    PlaneLayout layout_;
-    Precision precision_;
-    std::size_t species_;
-    std::array<std::vector<Field>, 3> copies_;  ///< The last may be empty.
-    std::vector<std::vector<Field>> scratch_;
-};
-
-StepPlanes::StepPlanes(const PlaneLayout& layout, Precision precision, std::vector<Field> species,
-                       bool keeps)
-    : layout_(layout), precision_(precision), species_(species.size()) {
-    put(0, std::move(species));
-    for (std::size_t s = 0; s < species_; ++s) {
-        copies_[1].emplace_back(layout_, precision_);
-        if (keeps) copies_[2].emplace_back(layout_, precision_);
-    }
-}
-
-void StepPlanes::put(int number, std::vector<Field> species) {
-    CHECK(species.size() == species_, "all species come back");
-    for (Field& field : species) {
-        check(field);
-        if (is_shared(field)) field = field.clone();
-    }
-    copy(number) = std::move(species);
-}
-
-void StepPlanes::make_registers(std::uint32_t count) {
-    while (scratch_.size() + first_scratch_register.index() < count) {
-        std::vector<Field>& planes = scratch_.emplace_back();
-        for (std::size_t s = 0; s < species_; ++s) planes.emplace_back(layout_, precision_);
-    }
-}
-
-void StepPlanes::exchange(RegisterId one, RegisterId other) {
-    const std::uint32_t first = first_scratch_register.index();
-    std::swap(scratch_[one.index() - first], scratch_[other.index() - first]);
-}
-
-void StepPlanes::list(CopyRoles roles, std::vector<std::span<Field>>& registers) {
-    registers.clear();
-    registers.emplace_back(copies_[static_cast<std::size_t>(roles.current)]);
-    registers.emplace_back(copies_[static_cast<std::size_t>(roles.target())]);
-    for (std::vector<Field>& planes : scratch_) registers.emplace_back(planes);
-}
-
-void StepPlanes::check(const Field& field) const {
-    CHECK(field.layout() == layout_ && field.precision() == precision_,
-          "species lie as the grid says, in the precision of their problem");
 }
 
 class ThreadExecutor final : public Executor {

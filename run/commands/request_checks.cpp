@@ -3,6 +3,7 @@
 #include "core/file_format.h"
 #include "film/film.h"
 #include "lang/check/check.h"
+#include "lang/syntax/picture_expression.h"
 #include "run/commands/run_checks.h"
 #include "run/commands/run_option.h"
 #include "run/pictures/body_picture.h"
@@ -10,7 +11,6 @@
 #include "run/pictures/frame_folder.h"
 #include "run/pictures/material.h"
 #include "run/pictures/picture_size.h"
-#include "lang/syntax/picture_expression.h"
 
 #include <fmt/format.h>
 
@@ -122,9 +122,8 @@ private:
             refuse({field}, "no array of fields is written",
                    "--series NAME.npy writes one, and NAME.csv of a line of cells");
         }
-        if (!is_volume) {
+        if (!is_volume)
             refuse({slice, slices}, "a plane has no slices", "grid: W, H, D makes a volume");
-        }
         if (!is_volume && !domain_.model && !can_hold(request_.volume, FormatTrait::planes)) {
             refuse({volume},
                    fmt::format("a {} file holds a volume, and this is a plane",
