@@ -43,7 +43,8 @@ public:
     /// Writes a result. Control characters are replaced, since parts of it may come from a file. An
     /// error is remembered for finish().
     void print(std::string_view text);
-    /// On a terminal as print() does; else writes the bytes as they are, for other programs to read.
+    /// On a terminal as print() does; else writes the bytes as they are, for other programs to
+    /// read.
     void print_exactly(std::string_view text);
     /// Writes as it is: may hold our own control sequences, but no text from a file.
     void draw(std::string_view text);

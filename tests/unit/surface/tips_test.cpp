@@ -13,9 +13,8 @@ namespace cascade {
 namespace {
 
 TEST(Tips, AreTheEndsOfHorns) {
-    const std::array<Vector3d, 4> horns{
-        unit(Vector3d{1, 1, 1}), unit(Vector3d{1, -1, -1}), unit(Vector3d{-1, 1, -1}),
-        unit(Vector3d{-1, -1, 1})};
+    const std::array<Vector3d, 4> horns{unit(Vector3d{1, 1, 1}), unit(Vector3d{1, -1, -1}),
+                                        unit(Vector3d{-1, 1, -1}), unit(Vector3d{-1, -1, 1})};
     SurfaceMesh mesh = sphere_mesh(1, 0.08).value();
     for (Vector3d& point : mesh.points) {
         double longer = 0;
@@ -27,8 +26,9 @@ TEST(Tips, AreTheEndsOfHorns) {
     const std::vector<Vector3d> tips = tips_of(mesh, never_cancelled);
     ASSERT_EQ(tips.size(), horns.size());
     for (const Vector3d& horn : horns) {
-        EXPECT_TRUE(std::ranges::any_of(
-            tips, [&](const Vector3d& tip) { return length(tip - horn * 2.5) < 0.15; }));
+        EXPECT_TRUE(std::ranges::any_of(tips, [&](const Vector3d& tip) {
+            return length(tip - horn * 2.5) < 0.15;
+        }));
     }
 }
 
