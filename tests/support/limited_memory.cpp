@@ -23,7 +23,7 @@ namespace cascade::test {
 namespace {
 
 /// Private memory of this process that can be written to, in bytes: what RLIMIT_DATA counts.
-std::uint64_t data_size() {
+[[maybe_unused]] std::uint64_t data_size() {
     std::ifstream status("/proc/self/status");
     for (std::string word; status >> word;) {
         std::uint64_t kilobytes = 0;
