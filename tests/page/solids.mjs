@@ -76,6 +76,7 @@ async function cell_at(x, y) {
 
 /// As large as pictures of `cascade run`, and without the colours of the page.
 async function open(question) {
+    await browser.call("Page.navigate", { url: "about:blank" });  // Another fragment alone would not leave the page at once.
     await browser.call("Page.navigate", { url: address.replace("/#", `/${question}#`) });
     await browser.until(`document.querySelectorAll("#stages li").length === 1`);
     await browser.evaluate(`{ const choice = document.getElementById("palette"); choice.value = "zebra"; choice.dispatchEvent(new Event("change")); }`);
