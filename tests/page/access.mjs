@@ -51,6 +51,7 @@ const states = {
 };
 
 async function look_at(engine, url, names) {
+    await browser.call("Page.navigate", { url: "about:blank" });
     await browser.call("Page.navigate", { url });
     await browser.until(`document.querySelectorAll("#stages li").length === 2 && document.querySelector("#controls [type=range]") !== null`);
     await set(`localStorage.was_taught = "yes"; document.getElementById("tour").hidden = true`);
