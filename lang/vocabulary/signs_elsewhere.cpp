@@ -2,6 +2,7 @@
 #include "lang/vocabulary/signs_elsewhere.h"
 
 #include "core/decimal.h"
+#include "lang/vocabulary/greek_letters.h"
 
 #include <fmt/format.h>
 
@@ -48,8 +49,6 @@ constexpr Unit units[] = {
     {"px", 1, ""},          {"seconds", 1, "seconds"},
 };
 
-bool is_decimal_digit(char c) { return '0' <= c && c <= '9'; }
-
 /// Advice on `0x10` of other languages and `100x100` of screens. Empty for other words.
 std::string advice_about_cross(std::string_view word) {
     constexpr std::size_t longest = 18;
@@ -64,7 +63,7 @@ std::string advice_about_cross(std::string_view word) {
         return fmt::format("write {}", value);
     }
     const auto is_whole = [](std::string_view text) {
-        return !text.empty() && std::all_of(text.begin(), text.end(), is_decimal_digit);
+        return !text.empty() && std::all_of(text.begin(), text.end(), is_digit);
     };
     std::string list(before);
     for (std::string_view rest = after; is_whole(before);) {
@@ -106,7 +105,7 @@ std::string advice_about_number(std::string_view number, std::string_view tail) 
     }
     if (std::string advice = advice_about_unit(number, tail); !advice.empty()) return advice;
     if (tail == "e" || tail == "E") return "an exponent has digits, as in 1e-3";
-    const bool is_name = !is_decimal_digit(tail[0]) && tail[0] != '_' && tail[0] != '.';
+    const bool is_name = !is_digit(tail[0]) && tail[0] != '_' && tail[0] != '.';
     if (!is_name || number.size() + tail.size() > longest) return "";
     return fmt::format("write '{} * {}'", number, tail);
 }
