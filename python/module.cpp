@@ -115,7 +115,7 @@ public:
 
 private:
     Pattern pattern_;
-    bool is_busy_ = false;  ///< Held by whoever holds Python's lock.
+    bool is_busy_ = false;  ///< Read and set only under Python's lock.
 };
 
 using Seed = std::optional<std::uint32_t>;
@@ -160,7 +160,7 @@ py::tuple shape(PythonPattern& of) {
     return py::make_tuple(pattern.width());
 }
 
-/// cascade.Error, an exception whose attributes are those of a message.
+/// cascade.Error, an exception with the attributes of a message.
 void define_error(py::module_& module) {
     static PyObject* error = nullptr;
     error = PyErr_NewExceptionWithDoc(

@@ -113,7 +113,7 @@ public:
     /// Runs a bound level on some cells, and fills the halo that copies them.
     void run_cells(Worker& worker, std::size_t level, const Patch& cells) const;
 
-    // Of a part of the grid. One thread calls them when all threads have written their rows.
+    // For parts of a grid only. One thread calls these when all threads have written their rows.
 
     /// Fills the halos of all results of a pass from other parts.
     void share_results(std::size_t pass, Registers registers);

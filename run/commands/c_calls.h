@@ -82,7 +82,7 @@ cascade_status bad_argument(std::string message);
 cascade_status no_pattern();
 /// The fault of a pattern's last call.
 cascade_status fail(const Pattern& pattern, cascade_status status);
-/// Of a pattern that is not ok.
+/// The status of a pattern that is not ok.
 cascade_status broken(const Pattern& pattern);
 /// After a call that has been refused, or has ended the run.
 cascade_status refused(const Pattern& pattern);

@@ -178,7 +178,7 @@ Result<void> RunResults::write_growth(const std::filesystem::path& path) {
                                {plan.frames.size(), look_of, 1 / plan.frames_per_second});
 }
 
-/// Of a stage of cells that crawl.
+/// The files of cells that crawl.
 Result<void> RunResults::write_cell_files(const Canvas& canvas) {
     const std::vector<Colour> colours = painter.colours_of_row(canvas);
     const GrownCells cells{simulation, shown_stage(simulation), *canvas.cells, colours};

@@ -24,7 +24,7 @@ namespace cascade {
 
 struct SweepRequest {
     std::vector<Variation> varied;  ///< The first one runs across the sheet, the second one up.
-    /// Of a file; they are the first one of `varied`.
+    /// The table of --sets, if one is given: then the first of `varied` comes from it.
     std::optional<ParameterSets> sets;
     std::filesystem::path folder;  ///< Of all outputs; if empty, SCRIPT_sweep here.
     std::filesystem::path film;    ///< Of the ends of all runs; empty for none.

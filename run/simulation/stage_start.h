@@ -1,4 +1,4 @@
-// The start of a stage of either kind; of a stage of fields, its parameters, species and sides.
+// Starts stages of either kind. A stage of fields gets its parameters, species and sides.
 #pragma once
 
 #include "core/result.h"

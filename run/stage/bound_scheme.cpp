@@ -82,7 +82,7 @@ StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
         add(plans[sweep.form], &scheme.forms[sweep.form], &sweep, moments_of_outputs(scheme, n));
     }
     const IdVector<RegisterId, bool> with_halo = halo_registers(scheme);
-    std::size_t first_passes = 0;  // Of the first sweep.
+    std::size_t first_passes = 0;  // The number of passes in the first sweep.
     for (std::size_t n = 0; n < binders.size(); ++n) {
         binders[n].species_needs_halo() = whole.species_needs_halo;
         binders[n].set_halo_registers(with_halo);

@@ -101,7 +101,7 @@ StepProblem PlanBinder::bind(const Compile& compile) {
     return std::move(problem_);
 }
 
-/// The temporary that holds what cells sense, or nothing for other sources.
+/// The temporary in which cells find what they sense; nullopt for sources that are not sensed.
 std::optional<TemporaryId> PlanBinder::sensed(const PlaneSource& source) const {
     if (!context_.tissue) return std::nullopt;
     const auto& all = context_.tissue->sensed;

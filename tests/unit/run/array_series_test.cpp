@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 
 class ArraySeriesTest : public RunTest {
 protected:
-    /// Of a run that writes the series `name`.
+    /// The request of a run that writes the series `name`.
     RunRequest of(const std::string& name, std::vector<std::string> fields = {}) const {
         RunRequest wanted = request();
         wanted.series = path(name);
