@@ -1,27 +1,16 @@
 // Who cannot see the page, or has only a keyboard, can use it: axe-core finds nothing serious in what it shows, by
 // `cascade view` and in an exported page, on a wide and on a narrow screen. Arguments: the browser, the program, and
 // the text of axe-core. spots.cascade, and spots.html if there is an engine, are in the current folder.
-import { existsSync, readFileSync, writeFileSync } from "node:fs";
+import { existsSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
-import { Browser, serve } from "./browser.mjs";
+import { Browser, ending, serve } from "./browser.mjs";
 
 const [command, program, axe_file] = process.argv.slice(2);
 const axe = readFileSync(axe_file, "utf8");
 const { cascade, address } = await serve(program, "spots.cascade");
 const browser = await Browser.start(command, join(process.cwd(), "profile_of_access"));
-const limit = setTimeout(() => end(new Error("it took more than 3 minutes")), 180000);
-
-async function end(error) {
-    clearTimeout(limit);
-    if (error) {
-        console.log(error.stack);
-        writeFileSync("failed.png", await browser.screenshot().catch(() => ""));
-    }
-    browser.end();
-    cascade.kill("SIGKILL");
-    process.exit(error ? 1 : 0);
-}
+const end = ending(browser, 3, cascade);
 
 const set = (code) => browser.evaluate(`{ ${code} }`);
 

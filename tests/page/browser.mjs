@@ -1,5 +1,28 @@
 // `cascade view`, and a headless Chromium that is driven through a pipe by the DevTools protocol, without packages.
 import { spawn } from "node:child_process";
+import { writeFileSync } from "node:fs";
+
+export function expect(condition, message) { if (!condition) throw new Error(message); }
+
+/// Gives a test so many minutes. The function that it returns ends the browser, the programs and this process: after an
+/// error with status 1, the error, a screenshot failed.png, and what the page said.
+export function ending(browser, minutes, ...programs) {
+    const limit = setTimeout(() => end(new Error(`it took more than ${minutes} minutes`)), 60000 * minutes);
+    async function end(error) {
+        clearTimeout(limit);
+        if (error) {
+            console.log(error.stack);
+            // A page that hangs draws no picture.
+            const later = new Promise((resolve) => setTimeout(() => resolve(""), 10000));
+            writeFileSync("failed.png", await Promise.race([browser.screenshot().catch(() => ""), later]));
+            if (browser.heard.length > 0) console.log(browser.heard.join("\n"));
+        }
+        browser.end();
+        for (const program of programs) program.kill("SIGKILL");
+        process.exit(error ? 1 : 0);
+    }
+    return end;
+}
 
 /// Starts `cascade view` with these arguments, and waits for its address.
 export async function serve(program, ...words) {
@@ -76,6 +99,14 @@ export class Browser {
     }
 
     async screenshot() { return Buffer.from((await this.call("Page.captureScreenshot")).data, "base64"); }
+
+    /// Replaces the script as if it were typed, and waits until the page has read it, unless it is not to.
+    async type_script(text, waits = true) {
+        await this.evaluate(`document.getElementById("editor").shadowRoot.querySelector(".cm-content").focus()`);
+        await this.call("Input.dispatchKeyEvent", { type: "keyDown", key: "a", modifiers: 2, windowsVirtualKeyCode: 65, commands: ["selectAll"] });
+        await this.call("Input.insertText", { text });
+        if (waits) await this.until(`document.getElementById("text").ariaBusy === "false"`);
+    }
 
     /// Presses a key such as "a", " ", "Home".
     async press(key, modifiers = 0) {

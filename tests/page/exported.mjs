@@ -4,23 +4,11 @@ import { deflateSync } from "node:zlib";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
-import { Browser } from "./browser.mjs";
+import { Browser, ending, expect } from "./browser.mjs";
 
 const browser = await Browser.start(process.argv[2], join(process.cwd(), "profile"));
-const limit = setTimeout(() => end(new Error("it took more than 3 minutes")), 180000);
+const end = ending(browser, 3);
 
-async function end(error) {
-    clearTimeout(limit);
-    if (error) {
-        console.log(error.stack);
-        writeFileSync("failed.png", await browser.screenshot().catch(() => ""));
-        if (browser.heard.length > 0) console.log(browser.heard.join("\n"));
-    }
-    browser.end();
-    process.exit(error ? 1 : 0);
-}
-
-function expect(condition, message) { if (!condition) throw new Error(message); }
 const click = (id) => browser.evaluate(`document.getElementById("${id}").click()`);
 const is_over = `document.querySelectorAll("#stages li").length > 0 && document.getElementById("step").disabled`;
 const text = () => browser.evaluate(`document.getElementById("editor").shadowRoot.querySelector(".cm-content").innerText`);

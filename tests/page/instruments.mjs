@@ -3,27 +3,14 @@
 import { spawnSync } from "node:child_process";
 import { existsSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { Browser, serve } from "./browser.mjs";
+import { Browser, ending, expect, serve } from "./browser.mjs";
 
 const [command, program] = process.argv.slice(2);
 const { cascade, address } = await serve(program, "spots.cascade");
 const browser = await Browser.start(command, join(process.cwd(), "profile_of_instruments"));
-const limit = setTimeout(() => end(new Error("it took more than 4 minutes")), 240000);
+const end = ending(browser, 4, cascade);
 const text = readFileSync("spots.cascade", "utf8");
 
-async function end(error) {
-    clearTimeout(limit);
-    if (error) {
-        console.log(error.stack);
-        writeFileSync("failed.png", await browser.screenshot().catch(() => ""));
-        if (browser.heard.length > 0) console.log(browser.heard.join("\n"));
-    }
-    browser.end();
-    cascade.kill("SIGKILL");
-    process.exit(error ? 1 : 0);
-}
-
-function expect(condition, message) { if (!condition) throw new Error(message); }
 const click = (id) => browser.evaluate(`document.getElementById("${id}").click()`);
 const until_steps = (count) => browser.until(`document.getElementById("place").textContent.startsWith("step ${count}")`);
 const choose = (id, value, what = "change") => browser.evaluate(
@@ -33,12 +20,7 @@ const size = (width, height = 800) => browser.call("Emulation.setDeviceMetricsOv
 /// What is in the shadow tree of the editor.
 const in_editor = (selector) => `document.getElementById("editor").shadowRoot.querySelector("${selector}")`;
 
-/// Replaces the script as if it were typed.
-async function type_script(script) {
-    await browser.evaluate(`${in_editor(".cm-content")}.focus()`);
-    await browser.call("Input.dispatchKeyEvent", { type: "keyDown", key: "a", modifiers: 2, windowsVirtualKeyCode: 65, commands: ["selectAll"] });
-    await browser.call("Input.insertText", { text: script });
-}
+const type_script = (script) => browser.type_script(script, false);
 const until_text_is_read = () => browser.until(`document.getElementById("text").ariaBusy === "false"`);
 
 async function help_with_the_text() {

@@ -5,27 +5,14 @@ import { existsSync, readFileSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
-import { Browser, serve } from "./browser.mjs";
+import { Browser, ending, expect, serve } from "./browser.mjs";
 
 const [command, program, modules] = process.argv.slice(2);
 const read_code = createRequire(import.meta.url)(join(process.cwd(), modules, "jsqr"));
 const { cascade, address } = await serve(program, "spots.cascade");
 const browser = await Browser.start(command, join(process.cwd(), "profile_of_link"));
-const limit = setTimeout(() => end(new Error("it took more than 3 minutes")), 180000);
+const end = ending(browser, 3, cascade);
 
-async function end(error) {
-    clearTimeout(limit);
-    if (error) {
-        console.log(error.stack);
-        writeFileSync("failed.png", await browser.screenshot().catch(() => ""));
-        if (browser.heard.length > 0) console.log(browser.heard.join("\n"));
-    }
-    browser.end();
-    cascade.kill("SIGKILL");
-    process.exit(error ? 1 : 0);
-}
-
-function expect(condition, message) { if (!condition) throw new Error(message); }
 const own = readFileSync("spots.cascade", "utf8");
 const text = `document.getElementById("editor").shadowRoot.querySelector(".cm-content").innerText`;
 const has_stages = (count) => browser.until(`document.querySelectorAll("#stages li").length === ${count} && document.getElementById("place").textContent !== ""`);
@@ -36,12 +23,7 @@ async function open(url) {
     await browser.call("Page.navigate", { url });
 }
 
-async function type_script(script) {
-    await browser.evaluate(`document.getElementById("editor").shadowRoot.querySelector(".cm-content").focus()`);
-    await browser.call("Input.dispatchKeyEvent", { type: "keyDown", key: "a", modifiers: 2, windowsVirtualKeyCode: 65, commands: ["selectAll"] });
-    await browser.call("Input.insertText", { text: script });
-    await browser.until(`document.getElementById("text").ariaBusy === "false"`);
-}
+const type_script = (text) => browser.type_script(text);
 
 /// The link, what is said beside it, and the code if there is one.
 async function link(screenshot) {

@@ -2,7 +2,7 @@
 // browser, the program and the folder of the sources. Screenshots are left in the current folder.
 import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { Browser, serve } from "./browser.mjs";
+import { Browser, ending, expect, serve } from "./browser.mjs";
 
 const [command, program, source] = process.argv.slice(2);
 process.env.TMPDIR = join(process.cwd(), "temporary");
@@ -10,32 +10,14 @@ rmSync(process.env.TMPDIR, { recursive: true, force: true });
 mkdirSync(process.env.TMPDIR);
 const { cascade, address } = await serve(program, "spots.cascade");
 const browser = await Browser.start(command, join(process.cwd(), "profile_of_models"));
-const limit = setTimeout(() => end(new Error("it took more than 3 minutes")), 180000);
+const end = ending(browser, 3, cascade);
 
-async function end(error) {
-    clearTimeout(limit);
-    if (error) {
-        console.log(error.stack);
-        writeFileSync("failed.png", await browser.screenshot().catch(() => ""));
-        if (browser.heard.length > 0) console.log(browser.heard.join("\n"));
-    }
-    browser.end();
-    cascade.kill("SIGKILL");
-    process.exit(error ? 1 : 0);
-}
-
-function expect(condition, message) { if (!condition) throw new Error(message); }
 const text = `document.getElementById("editor").shadowRoot.querySelector(".cm-content").innerText`;
 const notice = `document.getElementById("notice").textContent`;
 const is_read = `document.getElementById("text").ariaBusy === "false"`;
 const is_solid = `!document.getElementById("solid").hidden`;
 
-async function type_script(script) {
-    await browser.evaluate(`document.getElementById("editor").shadowRoot.querySelector(".cm-content").focus()`);
-    await browser.call("Input.dispatchKeyEvent", { type: "keyDown", key: "a", modifiers: 2, windowsVirtualKeyCode: 65, commands: ["selectAll"] });
-    await browser.call("Input.insertText", { text: script });
-    await browser.until(is_read);
-}
+const type_script = (text) => browser.type_script(text);
 
 /// Drops a file of these bytes on the canvas.
 const drop = (name, bytes) => browser.evaluate(`{

@@ -3,28 +3,14 @@
 import { spawnSync } from "node:child_process";
 import { existsSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { Browser, serve } from "./browser.mjs";
+import { Browser, ending, expect, serve } from "./browser.mjs";
 
 const [command, program] = process.argv.slice(2);
 const { cascade, address } = await serve(program, "spots.cascade");
 const start_page = await serve(program);
 const browser = await Browser.start(command, join(process.cwd(), "profile"));
-const limit = setTimeout(() => end(new Error("it took more than 4 minutes")), 240000);
+const end = ending(browser, 4, cascade, start_page.cascade);
 
-async function end(error) {
-    clearTimeout(limit);
-    if (error) {
-        console.log(error.stack);
-        writeFileSync("failed.png", await browser.screenshot().catch(() => ""));
-        if (browser.heard.length > 0) console.log(browser.heard.join("\n"));
-    }
-    browser.end();
-    cascade.kill("SIGKILL");
-    start_page.cascade.kill("SIGKILL");
-    process.exit(error ? 1 : 0);
-}
-
-function expect(condition, message) { if (!condition) throw new Error(message); }
 const click = (id) => browser.evaluate(`document.getElementById("${id}").click()`);
 const steps = () => browser.evaluate(`Number(document.getElementById("place").textContent.match(/[\\d,]+/)[0].replaceAll(",", ""))`);
 const until_steps = (count) => browser.until(`document.getElementById("place").textContent.startsWith("step ${count}")`);
@@ -74,13 +60,7 @@ async function choose_leopard() {
     await browser.evaluate(`{ const choice = document.getElementById("palette"); choice.value = "leopard"; choice.dispatchEvent(new Event("change")); }`);
 }
 
-/// Replaces the script as if it were typed.
-async function type_script(text) {
-    await browser.evaluate(`document.getElementById("editor").shadowRoot.querySelector(".cm-content").focus()`);
-    await browser.call("Input.dispatchKeyEvent", { type: "keyDown", key: "a", modifiers: 2, windowsVirtualKeyCode: 65, commands: ["selectAll"] });
-    await browser.call("Input.insertText", { text });
-    await browser.until(`document.getElementById("text").ariaBusy === "false"`);
-}
+const type_script = (text) => browser.type_script(text);
 
 async function steer() {
     await browser.call("Emulation.setDeviceMetricsOverride", { width: 1280, height: 800, deviceScaleFactor: 1, mobile: false });

@@ -3,9 +3,7 @@
 import { existsSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
-import { Browser } from "./browser.mjs";
-
-function expect(condition, message) { if (!condition) throw new Error(message); }
+import { Browser, ending, expect } from "./browser.mjs";
 
 const pages = readdirSync("site", { recursive: true }).filter((name) => name.endsWith(".html") && !/live|animal/.test(name));
 let links = 0;
@@ -23,17 +21,7 @@ for (const page of pages) {
 expect(pages.length > 25 && links > 500, `there are only ${pages.length} pages with ${links} links`);
 
 const browser = await Browser.start(process.argv[2], join(process.cwd(), "profile"));
-const limit = setTimeout(() => end(new Error("it took more than 3 minutes")), 180000);
-
-async function end(error) {
-    clearTimeout(limit);
-    if (error) {
-        console.log(error.stack);
-        writeFileSync("failed.png", await browser.screenshot().catch(() => ""));
-    }
-    browser.end();
-    process.exit(error ? 1 : 0);
-}
+const end = ending(browser, 3);
 
 const open = (page) => browser.call("Page.navigate", { url: pathToFileURL(join("site", page)).href });
 const follow_link = (selector) => browser.evaluate(`document.querySelector(${JSON.stringify(selector)}).click()`);

@@ -3,28 +3,13 @@
 // current folder.
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { Browser, serve } from "./browser.mjs";
+import { Browser, ending, expect, serve } from "./browser.mjs";
 
 const [command, program] = process.argv.slice(2);
 const { cascade, address } = await serve(program, "model.cascade");
 const browser = await Browser.start(command, join(process.cwd(), "profile_of_solids"));
-const limit = setTimeout(() => end(new Error("it took more than 4 minutes")), 240000);
+const end = ending(browser, 4, cascade);
 
-async function end(error) {
-    clearTimeout(limit);
-    if (error) {
-        console.log(error.stack);
-        // A page that hangs draws no picture.
-        const later = new Promise((resolve) => setTimeout(() => resolve(""), 10000));
-        writeFileSync("failed.png", await Promise.race([browser.screenshot().catch(() => ""), later]));
-        if (browser.heard.length > 0) console.log(browser.heard.join("\n"));
-    }
-    browser.end();
-    cascade.kill("SIGKILL");
-    process.exit(error ? 1 : 0);
-}
-
-function expect(condition, message) { if (!condition) throw new Error(message); }
 const click = (id) => browser.evaluate(`document.getElementById("${id}").click()`);
 const canvas = `document.getElementById("solid")`;
 
@@ -58,10 +43,7 @@ async function until_like(name, how, most = [2.5, 0.01]) {
 }
 
 async function type_script(name) {
-    await browser.evaluate(`document.getElementById("editor").shadowRoot.querySelector(".cm-content").focus()`);
-    await browser.call("Input.dispatchKeyEvent", { type: "keyDown", key: "a", modifiers: 2, windowsVirtualKeyCode: 65, commands: ["selectAll"] });
-    await browser.call("Input.insertText", { text: readFileSync(name, "utf8") });
-    await browser.until(`document.getElementById("text").ariaBusy === "false"`);
+    await browser.type_script(readFileSync(name, "utf8"));
     await browser.evaluate("document.activeElement.blur()");
 }
 

@@ -3,24 +3,13 @@
 // page/tutorial_pictures.sh takes them, and what the page saved.
 import { existsSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { Browser, serve } from "./browser.mjs";
+import { Browser, ending, serve } from "./browser.mjs";
 
 const [command, program, tutorial] = process.argv.slice(2);
 const { cascade, address } = await serve(program);
 const browser = await Browser.start(command, join(process.cwd(), "profile_of_tutorial"));
-const limit = setTimeout(() => end(new Error("it took more than 4 minutes")), 240000);
+const end = ending(browser, 4, cascade);
 const script = readFileSync(tutorial, "utf8").match(/^```cascade\n(.*?)^```/ms)[1];
-
-async function end(error) {
-    clearTimeout(limit);
-    if (error) {
-        console.log(error.stack);
-        writeFileSync("failed.png", await browser.screenshot().catch(() => ""));
-    }
-    browser.end();
-    cascade.kill("SIGKILL");
-    process.exit(error ? 1 : 0);
-}
 
 const sleep = (seconds) => new Promise((resolve) => setTimeout(resolve, 1000 * seconds));
 const click = (id) => browser.evaluate(`document.getElementById("${id}").click()`);
@@ -45,10 +34,7 @@ async function choose(words, name) {
 }
 
 async function type_script(text) {
-    await browser.evaluate(`${in_editor(".cm-content")}.focus()`);
-    await browser.call("Input.dispatchKeyEvent", { type: "keyDown", key: "a", modifiers: 2, windowsVirtualKeyCode: 65, commands: ["selectAll"] });
-    await browser.call("Input.insertText", { text });
-    await browser.until(`document.getElementById("text").ariaBusy === "false"`);
+    await browser.type_script(text);
     await browser.until(`document.getElementById("messages").textContent === ""`);
     await browser.evaluate("document.activeElement.blur()");
 }
