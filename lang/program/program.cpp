@@ -114,6 +114,13 @@ IdVector<SpeciesId, ItemId> System::species() const {
     return species;
 }
 
+bool System::is_complete() const {
+    const auto has_rate = [&](ItemId item) { return !rates[item].nodes.empty(); };
+    const auto has_formula = [](const Definition& each) { return !each.formula.nodes.empty(); };
+    return std::ranges::all_of(species(), has_rate) &&
+           std::ranges::all_of(definitions, has_formula);
+}
+
 std::optional<SpeciesId> System::species_of(ItemId item) const {
     const auto all = species();
     const auto found = std::ranges::find(all, item);

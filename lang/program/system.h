@@ -163,6 +163,8 @@ struct System {
     /// In the order of their items.
     IdVector<SpeciesId, ItemId> species() const;
     std::optional<SpeciesId> species_of(ItemId item) const;
+    /// Whether each species has a rate and each definition a formula. Errors may leave them empty.
+    bool is_complete() const;
     std::uint32_t species_count() const { return static_cast<std::uint32_t>(species().size()); }
 };
 

@@ -49,11 +49,7 @@ bool ExpressionChecker::put_definitions_in(Formula& formula) {
     const auto is_definition = [](const Node& node) { return node.is<DefinitionId>(); };
     if (std::ranges::none_of(formula.nodes, is_definition)) return true;
     const System& system = work_.program.systems[scope_.system];
-    const auto is_missing = [&](ItemId item) { return system.rates[item].nodes.empty(); };
-    const auto is_empty = [](const Definition& each) { return each.formula.nodes.empty(); };
-    if (std::ranges::any_of(system.rate_order, is_missing) ||
-        std::ranges::any_of(system.definitions, is_empty) ||
-        !topological_order(step_dependencies(system)).cycles.empty()) {
+    if (!system.is_complete() || !topological_order(step_dependencies(system)).cycles.empty()) {
         return false;
     }
     const Span first = std::ranges::find_if(formula.nodes, is_definition)->span;

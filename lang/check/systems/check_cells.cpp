@@ -225,13 +225,7 @@ void SystemChecker::check_rules_of_cells() {
         system().quantities[ItemId(rules.frame.index() + k)].start = frame[k];
     }
     const bool is_sound = work_.diagnostics.error_count() == errors_before;
-    const bool is_whole = std::ranges::none_of(system().rate_order, [&](ItemId item) {
-        return system().rates[item].nodes.empty();
-    });
-    const bool is_defined = std::ranges::none_of(system().definitions, [](const Definition& each) {
-        return each.formula.nodes.empty();
-    });
-    if (!is_sound || !is_whole || !is_defined || work_.diagnostics.has_errors()) return;
+    if (!is_sound || !system().is_complete() || work_.diagnostics.has_errors()) return;
     for (Formula* rule : {&rules.divide, &rules.die, &rules.along}) {
         if (!rule->nodes.empty()) *rule = without_definitions(system(), *rule);
     }
