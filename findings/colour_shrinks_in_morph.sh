@@ -1,17 +1,17 @@
 #!/usr/bin/env bash
-# A morph target that takes colour away loses everything it takes away.
+# Two packers of glTF files lose the negative colour differences of morph targets.
 #
-# Expected. In glTF 2.0 a morph target may hold COLOR_0; its values are differences that are added to the colours of
-# the mesh, weighted (the part on morph targets). A pattern that grows from red to blue has negative differences in
-# red. The standard lets a writer store differences as signed or unsigned normalised integers or as floats, so a tool
-# that packs a file was expected to take the signed kind, or to leave these floats alone.
+# Expected. In glTF 2.0 a morph target may contain COLOR_0. Its values are differences, which are multiplied by the
+# weight of the target and added to the colours of the mesh (section on morph targets). A pattern that grows from red to
+# blue has negative differences in red. The standard allows signed or unsigned normalised integers or floats for
+# differences, so a packer should use signed integers, or leave these floats unchanged.
 #
-# What happens. quantize() of glTF-Transform and gltfpack both write the differences as UNSIGNED normalised bytes:
-# -1, -0.5 and -0.1 all become 0. Nothing is said, and the validator has no complaint. What grew from (1, .5, .2) to
-# (0, 1, .1) now ends at (1, 1, .2). gltfpack does the same with -noq, which is there to switch quantisation off.
+# What happens. quantize() of glTF-Transform and gltfpack both write the differences as UNSIGNED normalised bytes: -1,
+# -0.5 and -0.1 all become 0. There is no warning, and the validator reports nothing. A colour that changed from (1, .5,
+# .2) to (0, 1, .1) now ends at (1, 1, .2). gltfpack does the same with -noq, which should switch quantisation off.
 #
-# A way round: give the mesh the darkest colours and let every target only add; or give quantize() a pattern
-# without COLOR, as the last line of the output shows.
+# Workaround: give the mesh the darkest colours, so that all differences are positive; or call quantize() with a pattern
+# that excludes COLOR, as the last line of the output shows.
 #
 # Seen with @gltf-transform/core, extensions and functions 4.5.1, gltfpack 1.3.0 (npm), Node.js 20. The older 4.1.1
 # and 0.22.0 behaved alike.

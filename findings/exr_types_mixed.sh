@@ -1,20 +1,20 @@
 #!/usr/bin/env bash
-# One EXR channel of another type, and three.js shows wrong colours without a word.
+# If the channels of an EXR file have different types, three.js shows wrong colours without a warning.
 #
-# Expected. In OpenEXR each channel of the list has a pixel type of its own, half, float or 32-bit whole number (file
-# layout, the attribute "channels"), and a scan line holds the channels one after the other in the order of their
-# names. A file with halves for two colours and floats for the third, where more precision is wanted, is in order. A
-# reader was expected to read each by its type, or to say that it can't, as ffmpeg does.
+# Expected. In OpenEXR each channel has a pixel type of its own, half, float or 32-bit whole number (file layout, the
+# attribute "channels"), and a scan line contains the channels one after the other in the order of their names. A file
+# with halves for two colours and floats for the third, which needs more precision, is valid. A reader should read each
+# channel by its type, or say that it cannot, as ffmpeg does.
 #
-# What happens. EXRLoader of three.js finds the place of each channel by its own width, but reads all colours as the
-# type of the one that comes last in the list, R. With B in floats it takes the two halves of each float for numbers:
-# .25 shows up as 0 and 1.625 by turns. With R in floats, G and B are read as floats too: next to 0, and then whatever
-# comes after them, R's values in part. A depth Z of another type does no harm. parse-exr, the same code without
-# three.js, shows the same 0 and 1.625.
+# What happens. EXRLoader of three.js computes the offset of each channel from the channel's own size, but reads all
+# colours with the type of the last channel in the list, R. If B has floats, it reads the two halves of each float as
+# two numbers: .25 becomes alternately 0 and 1.625. If R has floats, G and B are also read as floats: first values close
+# to 0, then whatever follows in the file, partly R's values. A depth channel Z of another type does no harm. parse-exr,
+# the same code without three.js, also gives 0 and 1.625.
 #
-# A way round: one type for R, G, B and A.
+# Workaround: the same type for R, G, B and A.
 #
-# Seen with three 0.170.0, 0.180.0 and 0.187.0, parse-exr 1.0.2 (npm), Node.js 20. The script takes 0.187.0.
+# Seen with three 0.170.0, 0.180.0 and 0.187.0, parse-exr 1.0.2 (npm), Node.js 20. The script uses 0.187.0.
 set -eu
 if ! command -v node >/dev/null || ! command -v npm >/dev/null; then
   echo "this script needs Node.js and npm"

@@ -1,16 +1,16 @@
 #!/usr/bin/env bash
-# ffmpeg turns a grey picture green on its way to float RGB.
+# ffmpeg turns a grey picture green when it converts it to float RGB.
 #
-# Expected. A field that is written as one EXR channel Y (luminance by the OpenEXR standard), as a PGM or a grey PNG
-# has no colour. Converted to gbrpf32le, the float RGB that the tonemap filter needs and that programs which know
-# no Y ask for, it was expected to have R = G = B, as it has in 8 and 16 bits.
+# Expected. A field that is written as one EXR channel Y (luminance by the OpenEXR standard), as a PGM or as a grey PNG
+# has no colour. After conversion to gbrpf32le, the float RGB that the tonemap filter and programs without support for Y
+# need, R = G = B should hold, as it does in 8 and 16 bits.
 #
-# What happens. In ffmpeg 5.1.9 grey of 8 bits, of 16 bits and in floats comes out of the conversion to gbrpf32le
-# green: black becomes G = .5, middle grey G = 1 with no red and no blue, white R = .3, G = 1, B = .1. It looks as if
-# the chroma that a grey picture does not have were taken for 0, which is green, and not for the middle, which is
-# grey. Nothing is said. The commands are innocent: ffmpeg -i grey.exr -vf tonemap out.png, or -pix_fmt gbrpf32le.
+# What happens. In ffmpeg 5.1.9 the conversion of grey (8 bits, 16 bits or floats) to gbrpf32le gives green: black
+# becomes G = .5, middle grey G = 1 with no red and no blue, white R = .3, G = 1, B = .1. The missing chroma of a grey
+# picture seems to be taken as 0, which is green, instead of the middle value, which is grey. There is no warning.
+# Common commands are affected: ffmpeg -i grey.exr -vf tonemap out.png, or -pix_fmt gbrpf32le.
 #
-# A way round: ask for 16-bit RGB on the way, -vf format=gbrp16le,format=gbrpf32le (the first of the two is right).
+# Workaround: convert to 16-bit RGB first, -vf format=gbrp16le,format=gbrpf32le (this first conversion is right).
 #
 # Seen with ffmpeg 5.1.9 of Debian 12.
 set -eu

@@ -1,16 +1,16 @@
 #!/usr/bin/env bash
 # One PFM file, three readers, three different pictures.
 #
-# Expected. A portable float map (Debevec's format, which Netpbm keeps too) stores its rows from the bottom to the top.
-# The sign of the third header line says the byte order, its size is a scale of the samples. The readers were
-# expected to agree on the rows, and to use the scale in the same way or not at all.
+# Expected. A portable float map (Debevec's format, which Netpbm also uses) stores its rows from the bottom to the top.
+# The number in the third header line gives the byte order by its sign and a scale of the samples by its magnitude.
+# Readers should agree on the order of rows, and should either all use the scale in the same way or all ignore it.
 #
-# What happens. ffmpeg 5.1.9 takes the first row of the file as the top one; Netpbm and ImageMagick take it as the
-# bottom one. With a scale of 2, ImageMagick doubles the samples, Netpbm and ffmpeg halve them. So Netpbm shows it
-# right side up and dark, ImageMagick right side up and bright, ffmpeg upside down and dark. ffmpeg also writes PFM top
-# row first: a round trip through ffmpeg alone looks right, and the picture is upside down for everybody else.
+# What happens. ffmpeg 5.1.9 reads the first row of the file as the top row. Netpbm and ImageMagick read it as the
+# bottom row. With a scale of 2, ImageMagick doubles the samples, Netpbm and ffmpeg halve them. So Netpbm shows the
+# picture upright and dark, ImageMagick upright and bright, ffmpeg upside down and dark. ffmpeg also writes the top row
+# of a PFM first: what it writes it reads correctly, but the picture is upside down in all other programs.
 #
-# A way round: write a scale of 1 or -1 only, and put -vf vflip after ffmpeg reads, or before it writes, a PFM.
+# Workaround: write a scale of 1 or -1 only, and use -vf vflip after ffmpeg reads, or before it writes, a PFM.
 #
 # Seen with ffmpeg 5.1.9, ImageMagick 6.9.11-60, netpbm 11.01.00 of Debian 12.
 set -eu

@@ -1,18 +1,19 @@
 #!/usr/bin/env bash
-# "viridis" of three npm packages is three colour maps.
+# Three npm packages have three different colour maps called "viridis".
 #
-# Expected. Viridis is a published table of 256 colours (matplotlib's). Packages that offer it by name were expected
-# to hold that table, or to come within three levels of it by interpolation, so that a picture made with one can be
+# Expected. Viridis is a published table of 256 colours (from matplotlib). Packages that offer it by name should contain
+# this table, or interpolate it with an error of at most three levels, so that a picture made with one package can be
 # read back, or get a legend, with another.
 #
-# What happens. d3-scale-chromatic has the table. colormap and chroma-js keep nine colours each and draw straight
-# lines between them. Of 256 colours only 4 and 1 are those of the table; a channel is off by up to 18 and 17 levels
-# of 255. Whoever looks up a colour of theirs in the table, to get the value back that it stands for, is up to 5 and
-# 19 steps of 256 off: with chroma-js that is 7 % of the range.
+# What happens. d3-scale-chromatic has the table. colormap and chroma-js have nine colours each and interpolate linearly
+# between them. Of their 256 colours only 4 and 1 are those of the table, and a channel differs by up to 18 and 17
+# levels of 255. If the values of a picture are read back from its colours by the table, they differ by up to 5 and 19
+# steps of 256: with chroma-js this is 7 % of the range.
 #
-# A way round: take one package for pictures and legends, or hand over the table itself, chroma.scale(list).
+# Workaround: use the same package for pictures and legends, or pass the table itself, chroma.scale(list).
 #
-# Seen with d3-scale-chromatic 3.1.0, colormap 2.3.2, chroma-js 3.2.0 (npm), Node.js 20; chroma-js 3.1.2 is alike.
+# Seen with d3-scale-chromatic 3.1.0, colormap 2.3.2, chroma-js 3.2.0 (npm), Node.js 20; chroma-js 3.1.2 behaves in the
+# same way.
 set -eu
 if ! command -v node >/dev/null || ! command -v npm >/dev/null; then
   echo "this script needs Node.js and npm"
