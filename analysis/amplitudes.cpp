@@ -11,7 +11,7 @@ namespace cascade::analysis {
 
 namespace {
 
-/// Below these relative sizes, numbers are errors of the differences.
+/// Numbers of smaller relative size than these count as errors of the differences.
 constexpr double no_change = 1e-6, no_product = 1e-6;
 
 /// The rates as a polynomial of the change of the state: f(u) = J u + ½ Q(u, u) + ⅙ C(u, u, u).
@@ -20,14 +20,14 @@ public:
     RatePolynomial(const LocalRates& rates, const Vector& state)
         : rates_(rates), state_(state), size_(std::max(state.cwiseAbs().maxCoeff(), 0.01)) {}
 
-    /// Q(a, b).
+    /// The value of Q(a, b).
     Vector second(const Vector& a, const Vector& b) const {
         const auto change = [&](double step) {
             return Vector((local(a * step) - local(a * -step)) * b / (2 * step));
         };
         return extrapolated(change, a);
     }
-    /// C(a, a, b).
+    /// The value of C(a, a, b).
     Vector third(const Vector& a, const Vector& b) const {
         const Vector middle = local(Vector::Zero(state_.size())) * b;
         const auto change = [&](double step) {
@@ -35,7 +35,7 @@ public:
         };
         return extrapolated(change, a);
     }
-    /// Whether the parts of the Jacobian that reach other cells stay constant.
+    /// Whether the parts of the Jacobian that read other cells stay constant along this direction.
     bool is_local(const Vector& direction) const {
         const double step = 0.01 * size_ / direction.cwiseAbs().maxCoeff();
         const Matrices here = rates_.matrices(state_),
@@ -86,11 +86,12 @@ std::optional<Critical> critical_wave(const Matrix& jacobian, double resolution)
     return Critical{scaled, *adjoint / product};
 }
 
-/// x in L x = −f.
+/// The x with L x = −f, where L is `matrix` and f is `forcing`.
 Vector answer(const Matrix& matrix, const Vector& forcing) { return -solution_of(matrix, forcing); }
 
-/// The answer to k₁ + k₂ = −k₃, whose forcing along the critical wave is the quadratic coefficient:
-/// that to the rest of the forcing, across the wave.
+/// The response of the wave k₁ + k₂ = −k₃ to the product of two waves. The part of the forcing
+/// along the critical wave gives the quadratic coefficient. This function gives the response to the
+/// rest of the forcing.
 Vector resonant_answer(const Matrix& at_wave, const Critical& critical, const Vector& square) {
     const auto& [wave, adjoint] = critical;
     Matrix bordered = Matrix::Zero(wave.size() + 1, wave.size() + 1);
@@ -122,7 +123,8 @@ std::optional<AmplitudeEquations> amplitude_equations(const LocalRates& rates, c
     const std::size_t axes = static_cast<std::size_t>(
         std::count(lattice.has_axis.begin(), lattice.has_axis.end(), true));
     const bool has_plane = lattice.is_continuous || axes >= 2;
-    // The first existing axes. A continuous lattice has one axis for all directions.
+    // The waves are along the first two axes that exist. A continuous lattice has one axis, which
+    // represents all directions.
     const auto wave_at = [&](double across, double up) {
         Phases phases{};
         if (lattice.is_continuous) {
@@ -142,7 +144,7 @@ std::optional<AmplitudeEquations> amplitude_equations(const LocalRates& rates, c
     const Matrix at_wave = critical_jacobian.real();
     const double size = at_wave.cwiseAbs().maxCoeff();
     const auto critical = critical_wave(at_wave, 1e-6 * size);
-    // Travelling waves have complex amplitudes.
+    // If waves travel, amplitudes are complex.
     const double travels = critical_jacobian.imag().cwiseAbs().maxCoeff();
     if (!critical || travels > 1e-9 * size) return std::nullopt;
     const auto& [wave, adjoint] = *critical;
@@ -163,7 +165,7 @@ std::optional<AmplitudeEquations> amplitude_equations(const LocalRates& rates, c
     result.self = -(from_mean + by(answer(at(2 * phase, 0), square / 2)) + adjoint.dot(cube) / 2);
     result.cross = std::numeric_limits<double>::quiet_NaN();
     if (!has_plane) return result;
-    // k₁ − k₂ is √3 as long.
+    // k₁ − k₂ is √3 times as long as k₁.
     const double root = std::numbers::sqrt3;
     result.cross = -(from_mean + by(answer(at(1.5 * phase, root / 2 * phase), square)) +
                      by(resonant_answer(at_wave, *critical, square)) + adjoint.dot(cube));

@@ -1,7 +1,8 @@
 // The patterns that grow at the onset of standing waves: stripes or spots, smoothly or by a jump.
 //
 // Near the onset a pattern is a sum of waves of one length, each with a slowly varying amplitude.
-// With the critical wave φ exp(i k·x), three waves at 120° to each other have the equations
+// If the critical wave is φ exp(i k·x), the amplitudes of three waves at 120° to each other obey
+// the equations
 //
 //     τ dA₁/dt = μ A₁ + v A₂* A₃* − g |A₁|² A₁ − h (|A₂|² + |A₃|²) A₁
 //
@@ -19,23 +20,26 @@ namespace cascade::analysis {
 /// The coefficients at an onset, per unit of time. The largest component of φ is 1.
 struct AmplitudeEquations {
     Vector wave;           ///< φ, by species.
-    double quadratic = 0;  ///< v. 0 if it is a rounding error.
-    double self = 0;       ///< g. Below 0, stripes begin by a jump: they are subcritical.
-    double cross = 0;      ///< h. NaN in a row of cells, which has stripes only.
+    double quadratic = 0;  ///< The coefficient v. It is set to 0 if it is only a rounding error.
+    double self =
+        0;  ///< The coefficient g. If it is below 0, stripes begin by a jump: they are subcritical.
+    /// The coefficient h. NaN on a line of cells, on which only stripes can form.
+    double cross = 0;
 
     bool has_plane() const;
-    /// Whether stripes grow smoothly from 0.
+    /// Whether stripes are supercritical: beyond the onset, their amplitude grows smoothly from 0.
     bool is_supercritical() const { return self > 0; }
-    /// Spots begin by a jump wherever v is not 0, before any stripes grow. If this is true, stripes
-    /// replace them farther from the onset, from the growth rate v² g / (h − g)² on.
+    /// Whether stripes replace spots farther from the onset. Unless v is 0, spots appear first, by
+    /// a jump, before any stripes grow. If this function returns true, stripes replace the spots
+    /// where the growth rate exceeds v² g / (h − g)².
     bool ends_in_stripes() const { return self > 0 && cross > self; }
     double rate_of_stripes() const;
 };
 
-/// The equations of a flat state at the onset of a standing wave. Empty if the nonlinearities of
-/// the rates reach other cells (products of derivatives, `lap(u^2)`, means, constraints), if waves
-/// depend on their direction, if a uniform change does not fade (a total is conserved), or if the
-/// wave is not critical.
+/// The equations of a flat state at the onset of a standing wave. Empty if nonlinear terms of the
+/// rates read other cells (products of derivatives, `lap(u^2)`, means, constraints), if the growth
+/// of waves depends on their direction, if a uniform change does not fade (a total is conserved),
+/// or if the wave is not critical.
 std::optional<AmplitudeEquations> amplitude_equations(const LocalRates& rates, const Vector& state,
                                                       const Dispersion& relation);
 

@@ -14,10 +14,10 @@ namespace cascade::analysis {
 
 namespace {
 
-/// If there are more species, names only this number of them.
+/// The largest number of species that are named.
 constexpr Eigen::Index most_named = 6;
 
-/// "-0.5", "-0.5 ± 2i".
+/// A text such as "-0.5" or "-0.5 ± 2i".
 std::string rate_text(Complex rate, double resolution) {
     const double real = std::abs(rate.real()) < resolution ? 0 : rate.real();
     if (std::abs(rate.imag()) < std::max(resolution, 1e-6 * std::abs(real))) {
@@ -72,7 +72,7 @@ private:
                                             : "neutral: nothing grows, and not everything fades";
     }
 
-    /// "fades e-fold in 0.4", with the number of steps.
+    /// A text such as "fades e-fold in 0.4", followed by the number of steps.
     std::string pace(double real) const {
         if (std::abs(real) <= relation_.resolution) return "neither grows nor fades";
         const double time = 1 / std::abs(real);
@@ -97,7 +97,8 @@ private:
         return text;
     }
 
-    /// A length in cells and, if that differs, in the unit of the script.
+    /// A length in cells. If the script's unit of length is not a cell, also the length in that
+    /// unit.
     std::string length(double cells) const {
         if (lattice_.is_continuous) return fmt::format("{:.4g} mean distances of cells", cells);
         return lattice_.spacing == 1
@@ -105,7 +106,7 @@ private:
                    : fmt::format("{:.4g} cells, {:.4g} in length", cells, cells * lattice_.spacing);
     }
 
-    /// The same for a range.
+    /// The text for a range of lengths, in the form of length().
     std::string lengths(double least, double most) const {
         const double spacing = lattice_.spacing;
         if (lattice_.is_continuous || spacing == 1) {
@@ -123,7 +124,7 @@ private:
                            std::atan2(d[1], d[0]) * 180 / std::numbers::pi);
     }
 
-    /// Whether the fastest wave is the limit of long ones, up to rounding.
+    /// Whether the fastest growth is, up to rounding, the limit for ever longer waves.
     bool is_longest() const {
         const double apart = relation_.fastest.rate.real() - relation_.at_rest.real();
         return relation_.fastest.cells() > 1e4 ||
@@ -134,7 +135,7 @@ private:
         const auto& fastest = relation_.fastest;
         if (is_longest()) {
             line(relation_.has_growing_waves() ? "fastest waves" : "slowest to fade",
-                 "the longer, the more like all cells alike");
+                 "longer waves behave more like a uniform state");
             if (!relation_.has_growing_waves()) return;
         } else if (!relation_.has_growing_waves()) {
             line("slowest to fade",
@@ -192,16 +193,15 @@ std::string notes(const StageAnalysis& analysis) {
         const std::string value =
             number != nullptr ? fmt::format(" {:.4g}", *number) : std::string();
         if (start.differs) {
-            text += fmt::format(
-                "'{}' differs from place to place: its value{} in the middle is taken\n",
-                model.system().item_name(item), value);
+            text += fmt::format("'{}' varies over the domain: its value{} in the middle is used\n",
+                                model.system().item_name(item), value);
         } else if (!model.algebra.is_number(start.scatter, 0)) {
-            text += fmt::format("'{}' is random: its mean{} is taken\n",
+            text += fmt::format("'{}' is random: its mean{} is used\n",
                                 model.system().item_name(item), value);
         }
     }
-    if (model.reads_time) text += "rates depend on time: t = 0 is taken\n";
-    if (model.has_noise) text += "rates are random: their means are taken\n";
+    if (model.reads_time) text += "rates depend on time: t = 0 is used\n";
+    if (model.has_noise) text += "rates are random: their means are used\n";
     if (analysis.has_conserved_totals) {
         text +=
             "the reaction keeps a total, so flat states come in families: these have the total of "
@@ -231,7 +231,7 @@ std::string values_text(const LinearModel& model, const Vector& species) {
     for (Eigen::Index k = 0; k < std::min(species.size(), most_named); ++k) {
         text += fmt::format("{}{} = {:.5g}", k > 0 ? ", " : "",
                             model.system().item_name(model.species[static_cast<std::size_t>(k)]),
-                            species[k] + 0.0);  // Without the sign of -0.
+                            species[k] + 0.0);  // Removes the sign of -0.
     }
     return text + (species.size() > most_named ? ", …" : "");
 }

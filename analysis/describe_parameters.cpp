@@ -1,4 +1,4 @@
-// One line for each parameter.
+// Writes one line for each parameter.
 #include "analysis/describe_parameters.h"
 
 #include <fmt/format.h>
@@ -13,12 +13,12 @@ std::string class_name(const std::optional<Stability>& stability) {
 
 namespace {
 
-/// "spots high in u, stripes from 6.9".
+/// A text such as "spots high in u, stripes from 6.9".
 std::string pattern_words(const System& system, const ParameterScan& scan,
                           const CriticalValue& change) {
     if (!change.amplitudes) return "";
     const AmplitudeEquations& by = *change.amplitudes;
-    // The coefficients do not tell what stops a growth that terms of third order do not limit.
+    // If third-order terms do not limit growth, the coefficients do not show what limits it.
     if (!by.is_supercritical()) return "begins by a jump";
     if (!by.has_plane()) return "grows smoothly";
     if (by.quadratic == 0) {

@@ -1,4 +1,4 @@
-// Critical values of parameters, in words.
+// Describes critical values of parameters.
 #pragma once
 
 #include "analysis/parameters.h"
@@ -7,10 +7,11 @@
 
 namespace cascade::analysis {
 
-/// "decay = 7 (0.5 to 20): stable, Turing above 4.71 (9.62 cells), Hopf and Turing above 21.3".
+/// A line of text such as "decay = 7 (0.5 to 20): stable, Turing above 4.71 (9.62 cells), Hopf and
+/// Turing above 21.3".
 std::string describe(const Program& program, std::uint32_t stage, const ParameterScan& scan);
 
-/// The class in words, and "no flat state" without one.
+/// The name of the class for users. "no flat state" if there is no class.
 std::string class_name(const std::optional<Stability>& stability);
 
 }  // namespace cascade::analysis

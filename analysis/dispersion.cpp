@@ -16,7 +16,7 @@ Phases along(const Direction& direction, double phase) {
     return {direction[0] * phase, direction[1] * phase, direction[2] * phase};
 }
 
-/// The phase of the shortest wave along a direction: π along its dominant axis.
+/// The phase of the shortest wave along a direction. It is π along the direction's dominant axis.
 double shortest(const Direction& direction) {
     const double most =
         std::max({std::abs(direction[0]), std::abs(direction[1]), std::abs(direction[2])});
@@ -31,8 +31,9 @@ std::vector<std::size_t> axes_of(const Lattice& lattice) {
     return axes;
 }
 
-/// Whether rates depend only on the symbol of the Laplacian. Along the diagonal it has all its
-/// values, except the isotropic one in space, which is largest where one of the three phases is 0.
+/// Whether rates depend only on the symbol of the Laplacian. If so, it is enough to sample waves
+/// along the diagonal, because the symbol takes all its values there. The isotropic Laplacian in
+/// space is an exception: its symbol is largest where one of the three phases is 0.
 bool has_laplacian_alone(const LinearModel& model) {
     const DomainSettings& domain = model.program->domain;
     if (domain.stencil == StencilKind::isotropic && domain.grid.stencil().axes() == 3) return false;
@@ -43,7 +44,8 @@ bool has_laplacian_alone(const LinearModel& model) {
     });
 }
 
-/// Half of the directions along the existing axes. A wave and its opposite have conjugate rates.
+/// Directions along the axes that exist. Only one of each two opposite directions is included,
+/// because waves of opposite directions have conjugate rates.
 std::vector<Direction> directions_of(const LinearModel& model, const Lattice& lattice, int count) {
     const std::vector<std::size_t> axes = axes_of(lattice);
     std::vector<Direction> directions;
@@ -62,7 +64,7 @@ std::vector<Direction> directions_of(const LinearModel& model, const Lattice& la
     } else if (axes.size() == 2) {
         for (int k = 0; k < count; ++k) {
             const double angle = std::numbers::pi * k / count;
-            // Exact zeros along the axes.
+            // Makes the component along the other axis exactly 0.
             if (2 * k == count) {
                 add(0, 1, 0);
             } else {
@@ -84,7 +86,7 @@ std::vector<Direction> directions_of(const LinearModel& model, const Lattice& la
     return directions;
 }
 
-/// The k-th of `count` phases along a direction, denser for long waves.
+/// The k-th of `count` phases along a direction. They are denser for long waves.
 double phase_of(const Direction& direction, std::size_t k, std::size_t count) {
     const double part = static_cast<double>(k) / static_cast<double>(count);
     return shortest(direction) * part * (0.1 + 0.9 * part);
@@ -127,7 +129,7 @@ public:
         return branch;
     }
 
-    /// The largest rates only.
+    /// Computes only the largest rates.
     Branch growth_along(const Direction& direction, std::size_t count) const {
         Branch branch;
         for (std::size_t k = 1; k <= count; ++k) {
@@ -204,7 +206,7 @@ public:
     double resolution = 0;
 
 private:
-    /// Without allocations, since maps of parameters call it a million times.
+    /// Allocates no memory, because maps of parameters call this function a million times.
     Complex largest_of_two(const Phases& phases) const {
         const std::vector<Matrix>& terms = matrices_.terms;
         Complex a = terms[0](0, 0), b = terms[0](0, 1);
@@ -273,7 +275,8 @@ std::vector<Complex> eigenvalues(const LinearModel& model, const Matrices& matri
 
 namespace {
 
-/// With this number of directions in a plane, and of waves along each.
+/// The dispersion relation without its curve, from samples in this number of directions in a plane
+/// and of this number of waves along each direction.
 Dispersion without_curve(const LinearModel& model, const Matrices& matrices, int directions_in,
                          std::size_t samples_along) {
     const Relation relation(model, matrices);
@@ -305,7 +308,7 @@ Dispersion without_curve(const LinearModel& model, const Matrices& matrices, int
 }  // namespace
 
 Dispersion quick_dispersion(const LinearModel& model, const Matrices& matrices) {
-    // Eigenvalues of larger matrices take longer.
+    // Larger matrices, whose eigenvalues take longer, get fewer waves.
     return without_curve(model, matrices, 8, model.species_count() <= 2 ? 48 : 24);
 }
 
@@ -335,7 +338,8 @@ std::optional<GrowingWave> fastest_fitting_wave(const LinearModel& model,
         most[axis] = static_cast<std::int64_t>(std::numbers::pi / unit[axis] + 1e-9);
         waves *= static_cast<double>(most[axis] + 1);
     }
-    // Numerous waves leave hardly any gaps: waves along the axes and diagonals suffice.
+    // If there are so many waves that they leave hardly any gaps, it is enough to take waves along
+    // axes and diagonals.
     const bool has_all = waves <= 20'000;
     std::optional<GrowingWave> fastest;
     const auto look = [&](std::int64_t i, std::int64_t j, std::int64_t k) {
@@ -381,7 +385,7 @@ std::vector<Complex> decaying_rates(const LinearModel& model, const Matrices& ma
     }
     const int count = lattice.has_axis[2] ? 8 : 24;
     const auto steps_along = [&](std::size_t axis) { return lattice.has_axis[axis] ? count : 0; };
-    // Waves and their opposites have conjugate rates, which are equally stable.
+    // Opposite waves have conjugate rates, which are equally stable.
     const auto phase = [&](int k) { return std::numbers::pi * k / count; };
     for (int i = 0; i <= steps_along(0); ++i) {
         for (int j = -steps_along(1); j <= steps_along(1); ++j) {

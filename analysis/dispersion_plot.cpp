@@ -1,4 +1,4 @@
-// Chooses the ranges of both axes, and draws curves and legend.
+// Chooses the ranges of both axes, and draws curves and the legend.
 #include "analysis/dispersion_plot.h"
 
 #include "picture/axes.h"
@@ -82,7 +82,8 @@ private:
         for (std::size_t k = 0; k < numbers_.size() && numbers_[k] <= most_number_; ++k) {
             shows_second_ = shows_second_ || second_[k] > std::max(low, -1.5 * high);
         }
-        // Deep valleys would hide the small growth of the growing waves.
+        // The depth of valleys is limited. Otherwise the small rates of growing waves could not be
+        // distinguished from 0.
         if (relation_.has_growing_waves() || relation_.grows_at_rest())
             low = std::max(low, -1.5 * high);
         if (high - low <= 0) high = 1;
@@ -117,7 +118,7 @@ private:
              is_left ? DrawnText::Anchor::start : DrawnText::Anchor::end);
     }
 
-    /// On the right above the box, one entry beside the other.
+    /// Draws the entries of the legend side by side, at the right above the box.
     void draw_legend() {
         struct Entry {
             std::string words;
@@ -146,7 +147,7 @@ private:
 
     const StageAnalysis& analysis_;
     const Dispersion& relation_;
-    double per_phase_;  ///< Converts phases to wave numbers in the script's unit.
+    double per_phase_;  ///< Converts phases to wave numbers, in the script's unit of length.
     std::vector<double> numbers_, real_, turning_, second_;
     bool turns_ = false, shows_second_ = false;
     double most_number_ = 0;

@@ -6,9 +6,9 @@
 
 namespace cascade::analysis {
 
-/// Shows state_to_show() without waves far shorter than the growing ones: the real part of the
-/// largest rate, its imaginary part if it has one, the next rate, the band that grows and its
-/// fastest wave.
+/// Draws the relation of the state state_to_show(): the real part of the largest rate, its
+/// imaginary part if it is not 0, the next rate, the band of growing waves and the fastest wave in
+/// it. Leaves out waves far shorter than the growing ones.
 Drawing plot_dispersion(const StageAnalysis& analysis);
 
 }  // namespace cascade::analysis

@@ -1,5 +1,5 @@
-// Eigenvalues and eigenvectors, separate from the other decompositions: each needs 1 GiB to
-// compile.
+// Eigenvalues and eigenvectors. This file is separate from the other decompositions because
+// compiling each of them takes 1 GiB of memory.
 #include "analysis/linear_algebra.h"
 
 #include <Eigen/Eigenvalues>

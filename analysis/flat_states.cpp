@@ -1,5 +1,5 @@
-// Newton's method with shortened steps and deflation. Conserved totals are added as equations,
-// since the Jacobian alone is singular then.
+// Newton's method with shortened steps and deflation. If totals are conserved, the Jacobian is
+// singular, so they are added as equations.
 #include "analysis/flat_states.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ double scattered(std::uint32_t a, std::uint32_t b) {
     return (bits + 0.5) / 4294967296.0;
 }
 
-/// The size of each species' values, for comparison with changes.
+/// The size of each species' values, in proportion to which changes are judged.
 Vector sizes_of(const LocalRates& rates) {
     const Vector start = rates.start();
     const double largest = start.cwiseAbs().maxCoeff();
@@ -58,7 +58,8 @@ public:
                 next = x + part * step;
                 const Vector there = residual_of(next);
                 if (!there.allFinite()) continue;
-                // Deflated residuals may rise, so a small rise of a whole step is allowed.
+                // If there is deflation, even a good step may raise the deflated residual, by up to
+                // a factor of two.
                 is_better = deflation(next) * there.norm() <
                             (known_.empty() ? 1.0 : 2.0) * deflation(x) * residual.norm();
                 if (is_better) residual = there;
@@ -89,8 +90,9 @@ private:
         return product;
     }
 
-    /// The step for the residual times the deflation m: its Jacobian is m J + residual · (grad m),
-    /// so by Sherman and Morrison's formula its step is the undeflated one times a number.
+    /// The step for the residual multiplied by the deflation m. The Jacobian of this product is m J
+    /// + residual · (grad m). By Sherman and Morrison's formula, the step is a multiple of the step
+    /// without deflation.
     Vector step_of(const Vector& x, const Vector& residual) const {
         Matrix all(residual.size(), x.size());
         all << rates_.jacobian(x), conserved_;
@@ -106,7 +108,8 @@ private:
     }
 
 public:
-    /// Whether flat states lie beside this one, such as all numbers of healthy people in epidemics.
+    /// Whether there are other flat states arbitrarily near. For example, epidemics have a flat
+    /// state for any number of healthy people.
     bool is_in_family(const Vector& x) const {
         Matrix all(x.size() + conserved_.rows(), x.size());
         all << rates_.jacobian(x), conserved_;
@@ -115,7 +118,8 @@ public:
     }
 
 private:
-    /// Values that are small beside the species' size are 0 if that is as good a solution.
+    /// Replaces values that are small compared to the species' size by 0, if the equations are then
+    /// solved equally well.
     Vector without_rounding_of_0(const Vector& x) const {
         Vector result = x;
         for (Eigen::Index k = 0; k < x.size(); ++k) {
@@ -153,7 +157,7 @@ private:
     std::vector<Vector> known_;
 };
 
-/// Whether the rules allow it. A rule such as `b >= 0` may exclude it.
+/// Whether the rules of the system allow this state. A rule such as `b >= 0` may exclude it.
 bool is_admitted(const LinearModel& model, const Vector& state) {
     for (const Invariant& rule : model.system().invariants) {
         const auto found = std::find(model.species.begin(), model.species.end(), rule.species);
@@ -220,7 +224,8 @@ FlatStates flat_states(const LocalRates& rates) {
         Vector guess(start.size());
         for (Eigen::Index s = 0; s < guess.size(); ++s) {
             const double at = scattered(k + 100, static_cast<std::uint32_t>(s));
-            // From 0 and small values to a multiple of the large ones, and of both signs.
+            // By turns, guesses are around the starting values, between 0 and a multiple of the
+            // sizes, or of both signs.
             guess[s] = k % 3 == 0   ? start[s] + sizes[s] * (at - 0.5)
                        : k % 3 == 1 ? sizes[s] * std::exp(8 * (at - 0.7))
                                     : sizes[s] * 6 * (at - 0.5);

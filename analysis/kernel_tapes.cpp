@@ -1,4 +1,4 @@
-// The weights are those of run/stage/bind_convolution.cpp, without its rounding to single
+// The weights are computed as in run/stage/bind_convolution.cpp, but not rounded to single
 // precision.
 #include "analysis/kernel_tapes.h"
 

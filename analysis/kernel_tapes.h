@@ -14,14 +14,14 @@ class KernelTapes {
 public:
     KernelTapes(const LinearModel& model, const KernelFormula& kernel);
 
-    /// Whether it depends on the model's varied items.
+    /// Whether the kernel depends on items of the model that are varied.
     bool varies() const { return varies_; }
 
     /// The kernel at these values of the varied items. Null if it has more than most_lags lags.
     std::shared_ptr<const WaveKernel> at(std::span<const double> varied) const;
     bool has_too_many_lags(std::span<const double> varied) const;
 
-    /// With this limit the analysis of a stage takes a few tenths of a second.
+    /// The limit keeps the analysis of a stage within a few tenths of a second.
     static constexpr std::int64_t most_lags = std::int64_t{1} << 16;
 
 private:

@@ -1,14 +1,14 @@
-// The rates of a stage about a flat state, in which all cells have the same values: their values
-// there, and their response to an added wave.
+// The rates of a stage around a flat state, in which all cells have the same values: the rates in
+// this state, and their response to an added wave.
 //
-// A flat state has no derivatives, so every operator is linear about it: its effect on a wave is
-// its symbol. A single walk over the formulas of the rates, operands first, turns each part into
-// its flat value and, for each variable, a sum of products of operators with coefficients. So the
-// Jacobian of a wave is Σ symbol · matrix, where the matrices are formulas of the species and do
-// not depend on the wave.
+// In a flat state all derivatives are 0. So every operator is linear around it and multiplies a
+// wave by a factor, the operator's symbol. The formulas of the rates are visited once, operands
+// first. Each part is turned into its value in the flat state and, for each variable, into a sum of
+// products of operators with coefficients. So the Jacobian of a wave is Σ symbol · matrix, where
+// the matrices are formulas of the species and do not depend on the wave.
 //
-// The fields of constraints `0 = e` are variables beside the species, and each e is a rate that is
-// always 0. LocalRates eliminates them.
+// The fields of constraints `0 = e` are variables in addition to the species, and each e is a rate
+// that is always 0. LocalRates eliminates them.
 #pragma once
 
 #include "analysis/start_values.h"
@@ -22,38 +22,43 @@
 
 namespace cascade::analysis {
 
-/// A matrix of the Jacobian.
+/// One of the matrices of which the Jacobian is the sum, and the operators whose symbol multiplies
+/// this matrix.
 struct JacobianTerm {
     OperatorProduct operators;
-    std::vector<NodeId>
-        entries;  ///< By rate and then by variable: rate · variable_count + variable.
+    std::vector<NodeId> entries;  ///< The entry for a rate and a variable has the index rate ·
+                                  ///< variable_count + variable.
 };
 
 /// The kernel of a convolution, as formulas.
 struct KernelFormula {
-    std::uint32_t literal = 0;    ///< Its number in Literals.
-    NodeId weight;                ///< Reads parts of lags and items of `varied`.
-    std::optional<NodeId> reach;  ///< Reads items of `varied`. Empty: the whole domain.
-    /// Represents the sum of its weights in formulas of the model. No item of the stage has this
-    /// number.
+    std::uint32_t literal = 0;  ///< The index of the convolution in Literals.
+    NodeId weight;              ///< A formula of components of lags and items of `varied`.
+    /// A formula of items of `varied`. Empty if the kernel covers the whole domain.
+    std::optional<NodeId> reach;
+    /// The item that represents the sum of the weights in formulas of the model. No item of the
+    /// stage has this id.
     ItemId sum;
 };
 
 struct LinearModel {
     const Program* program = nullptr;
     std::uint32_t stage = 0;
-    /// Contains all formulas below. They read species, `varied`, sums of kernels and unknowns.
+    /// Contains all formulas below. Their leaves are species, `varied`, sums of kernels, and
+    /// unknowns.
     Algebra algebra;
     std::vector<ItemId> species;
-    std::vector<Unknown> unknowns;  ///< The fields of constraints, each after those that it needs.
+    /// The fields of constraints. A field comes after the fields on which it depends.
+    std::vector<Unknown> unknowns;
     std::vector<ItemId> varied;
-    std::vector<KernelFormula> kernels;  ///< Indexed as in operators.
+    std::vector<KernelFormula> kernels;  ///< Operators refer to kernels by index.
     IdVector<ItemId, StartValue> starts;
-    std::vector<NodeId> rates;        ///< The rates of species, then of constraints.
-    std::vector<JacobianTerm> terms;  ///< The first term is the value itself.
-    std::vector<ItemId> parameters;   ///< Parameters read by rates, in order of writing.
-    bool reads_time = false;          ///< `t` counts as 0.
-    bool has_noise = false;           ///< Rates draw random numbers, which count as their mean.
+    std::vector<NodeId> rates;  ///< The rates of species, then of constraints.
+    std::vector<JacobianTerm>
+        terms;  ///< The first term belongs to the value itself, without operators.
+    std::vector<ItemId> parameters;  ///< The parameters that rates read, in order of writing.
+    bool reads_time = false;         ///< Whether rates read `t`, which counts as 0.
+    bool has_noise = false;  ///< Whether rates draw random numbers, which count as their mean.
 
     std::size_t species_count() const { return species.size(); }
     std::size_t variable_count() const { return species.size() + unknowns.size(); }
@@ -63,9 +68,9 @@ struct LinearModel {
     const System& system() const { return program->system_of(stage); }
 };
 
-/// Fails with the reason if a flat state makes no sense or a part of the rates has no derivative.
-/// The items of `varied` are parameters with the same value in all cells. The program must outlive
-/// the model.
+/// Makes the model of a stage. The items of `varied` are parameters with the same value in all
+/// cells. Fails with the reason if the stage can have no flat state or a part of the rates has no
+/// derivative. The program must outlive the model.
 Result<LinearModel> linear_model(const Program& program, std::uint32_t stage,
                                  std::span<const ItemId> varied = {});
 

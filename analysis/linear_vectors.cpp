@@ -1,5 +1,5 @@
-// Vectors have slopes at the faces across each axis, where factors are averaged, by the rules of
-// lang/lower/lower_vectors.cpp.
+// A vector has slopes at the faces across each axis. Where a factor is needed at a face, it is
+// averaged by the rules of lang/lower/lower_vectors.cpp.
 #include "analysis/lineariser.h"
 #include "lang/program/vector_functions.h"
 
@@ -7,7 +7,7 @@
 
 namespace cascade::analysis {
 
-/// Calls `act` with each axis and component that the grid has.
+/// Calls `act` with each axis and each component that the grid has.
 template <typename Act>
 void Lineariser::at_each_face(const Act& act) const {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -32,7 +32,7 @@ Result<void> Lineariser::add_tensor(const Node& node, Part& part) {
     return {};
 }
 
-/// Writes a vector into a part, from its operands.
+/// Computes the part for a vector from its operands.
 struct Lineariser::OfVectors {
     Lineariser& own;
     Part& part;
@@ -92,8 +92,8 @@ void Lineariser::combine(Part& sum, const Part& vector, NodeId factor) {
     });
 }
 
-/// Multiplies a vector by a number at faces, where the number is `factor` and changes by `by` times
-/// `slopes`.
+/// Multiplies a vector by a number at faces. The number's flat value is `factor`. Its response to a
+/// wave is `by` times `slopes`.
 void Lineariser::scale(Part& product, const Part& vector, NodeId factor, const Slopes& slopes,
                        NodeId by) {
     combine(product, vector, factor);

@@ -1,4 +1,4 @@
-// Numbers: items, operators, functions, and the kernels of convolutions.
+// Linearises numbers: items, operators, functions, and the kernels of convolutions.
 #include "analysis/lineariser.h"
 #include "lang/calculus/derivative_rules.h"
 #include "lang/program/nodes_of_rates.h"
@@ -19,7 +19,7 @@ Lineariser::Lineariser(LinearModel& model)
       flat_(model.variable_count()),
       axes_(lattice_of(*model.program).has_axis) {}
 
-/// Adds a part. Fails with words for the user.
+/// Adds the part for a node. Fails with a message for the user.
 Result<void> Lineariser::add(const Node& node) {
     if (algebra_.size() > most_calculus_nodes) return failure("its rates are too large");
     nodes_.push_back(node);
@@ -36,7 +36,7 @@ Result<void> Lineariser::add(const Node& node) {
         return {};
     }
     if (!node.is<Call>()) {
-        return failure("its rates read earlier stages or places, so that no state is flat");
+        return failure("its rates read earlier stages or positions, so no state is flat");
     }
     if (node.type == ValueType::tensor) return add_tensor(node, part);
     if (node.type == ValueType::vector) return add_vector(node, part);
@@ -51,7 +51,7 @@ LinearPart Lineariser::nothing() const {
     return part;
 }
 
-/// The node with the values of its operands.
+/// The node with its operands replaced by their flat values.
 Node Lineariser::of_values(const Node& node) const {
     Node valued = node;
     for (std::size_t n = 0; n < node.operand_count; ++n) {
@@ -143,7 +143,7 @@ Result<void> Lineariser::add_call(const Node& node, Part& part) {
         return {};
     }
     switch (node.function) {
-        case Function::grad2: return {};  // A square, and 0 in a flat state.
+        case Function::grad2: return {};  // A square of a gradient, which is 0 in a flat state.
         case Function::advect: add_advection(node, part); return {};
         case Function::transport: add_transport(node, part); return {};
         case Function::diffuse: add_diffusion(node, part); return {};
@@ -194,14 +194,14 @@ Result<void> Lineariser::add_convolution(const Node& node, Part& part) {
     return {};
 }
 
-/// The number of the kernel in the model.
+/// The index of the node's kernel in the model.
 Result<std::size_t> Lineariser::kernel_of(const Node& node) {
     const std::uint32_t literal = node.as<Call>()->detail;
     auto& kernels = model_.kernels;
     const auto known = std::find_if(kernels.begin(), kernels.end(),
                                     [&](const auto& kernel) { return kernel.literal == literal; });
     if (known != kernels.end()) return static_cast<std::size_t>(known - kernels.begin());
-    constexpr std::size_t most = UINT8_MAX;  // WaveOperator::axis.
+    constexpr std::size_t most = UINT8_MAX;  // The largest index that fits in WaveOperator::axis.
     if (kernels.size() == most) return failure("it has too many convolutions");
     const ConvolutionKernel& written = model_.program->literals->kernel(literal);
     const auto is_file_value = [](const Node& part) {
@@ -228,7 +228,8 @@ Result<std::size_t> Lineariser::kernel_of(const Node& node) {
     return kernels.size() - 1;
 }
 
-/// Upwind differences. The carried value is flat, so changes of the velocity do not matter.
+/// Upwind differences. The carried value is the same in all cells, so a change of the velocity has
+/// no effect.
 void Lineariser::add_advection(const Node& node, Part& part) {
     const std::size_t velocities = node.operand_count - 1;
     const Slopes& carried = this->part(node, velocities).slopes;
@@ -241,8 +242,8 @@ void Lineariser::add_advection(const Node& node, Part& part) {
     }
 }
 
-/// Central differences, which have the same speed of long waves. Limited slopes are not linear in
-/// the values. Their small damping is ignored.
+/// Replaces transport by central differences. Long waves have the same speed with these. The
+/// limited slopes of transport are not linear in the values. Their small damping is ignored.
 void Lineariser::add_transport(const Node& node, Part& part) {
     const std::size_t velocities = node.operand_count - 1;
     const Slopes& carried = this->part(node, velocities).slopes;
@@ -269,9 +270,9 @@ Result<void> Lineariser::add_function(const Node& node, Part& part) {
                             info(node.function).kind <= FunctionKind::choice;
     if (!is_numeric) {
         if (varies_by_cell(node.function)) {
-            return failure(fmt::format(
-                "'{}' in its rates differs from place to place, so that no state is flat",
-                info(node.function).spelling));
+            return failure(
+                fmt::format("'{}' in its rates varies over the domain, so no state is flat",
+                            info(node.function).spelling));
         }
         return without_rule(node);
     }

@@ -1,5 +1,5 @@
-// Walks the formulas of rates once: the flat value of each part, and its response to waves
-// (internal to the linear model).
+// Visits the formulas of rates once. Finds the value of each part in the flat state and its
+// response to waves (internal to the linear model).
 #pragma once
 
 #include "analysis/linear_model.h"
@@ -11,26 +11,27 @@
 
 namespace cascade::analysis {
 
-/// The coefficients of products of operators.
+/// A sum over products of operators, with the coefficient of each product.
 using Slope = std::map<OperatorProduct, NodeId>;
-using Slopes = std::vector<Slope>;  ///< By variable.
+using Slopes = std::vector<Slope>;  ///< One per variable.
 
-/// A part of the rates about a flat state.
+/// A part of the rates around a flat state.
 struct LinearPart {
-    std::array<NodeId, 3> value{};  ///< The first for a number, else the components of a vector.
-    TensorMatrix matrix{};          ///< For tensors.
-    Slopes slopes;                  ///< For numbers.
-    /// For vectors, by the axis across the faces, and by component.
+    /// A number is in the first element. A vector has its components.
+    std::array<NodeId, 3> value{};
+    TensorMatrix matrix{};  ///< The value of a tensor.
+    Slopes slopes;          ///< The slopes of a number.
+    /// For vectors: slopes, indexed first by the axis across the faces, then by the component.
     std::array<std::array<Slopes, 3>, 3> at_faces;
 };
 
-/// Writes formulas, kernels and remarkable facts into a model, whose species, unknowns and starting
-/// values are known.
+/// Completes a model whose species, unknowns and starting values are set: adds formulas, kernels
+/// and facts for users.
 class Lineariser {
 public:
     explicit Lineariser(LinearModel& model);
 
-    /// Adds a node after its operands. Fails with words for the user.
+    /// Adds a node after its operands. Fails with a message for the user.
     Result<void> add(const Node& node);
     const LinearPart& operator[](NodeId id) const { return parts_[id]; }
 
@@ -61,7 +62,7 @@ private:
     Result<void> add_function(const Node& node, Part& part);
     Result<void> without_rule(const Node& node) const;
 
-    // Vectors and tensors (linear_vectors.cpp).
+    // Linearises vectors and tensors (linear_vectors.cpp).
     struct OfVectors;
     template <typename Act>
     void at_each_face(const Act& act) const;

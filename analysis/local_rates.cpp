@@ -1,5 +1,5 @@
-// Four tapes with the same inputs. A constraint is linear in its field, so two of its values give
-// the field.
+// Four tapes with the same inputs. A constraint is linear in its field, so its values at two fields
+// determine the field that solves it.
 #include "analysis/local_rates.h"
 
 #include <algorithm>
@@ -38,13 +38,13 @@ std::vector<NodeId> entries_of(const LinearModel& model) {
     return nodes;
 }
 
-/// Entries are by rate, then by variable.
+/// The matrix whose entries are stored by rate, then by variable, from `first` on.
 Matrix matrix_of(const std::vector<double>& entries, std::size_t first, Eigen::Index count) {
     using ByRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     return Eigen::Map<const ByRows>(entries.data() + first, count, count);
 }
 
-/// The largest coefficient of a constraint's field in a constraint.
+/// The largest coefficient of a field in a constraint.
 double largest_of_unknowns(const Matrices& matrices, Eigen::Index unknowns) {
     double largest = 0;
     for (const Matrix& matrix : matrices.terms) {
@@ -71,7 +71,8 @@ ComplexMatrix jacobian_of(const LinearModel& model, const Matrices& matrices,
             symbol(model.terms[k].operators, lattice, matrices.kernels, phases) * matrices.terms[k];
     }
     if (model.unknowns.empty()) return sum;
-    // A wave that enters a constraint by no field, such as a potential's mean, is 0 in it.
+    // If the field has no effect on its constraint for a wave, the field is 0 for this wave. An
+    // example is the mean of a potential.
     const auto species = static_cast<Eigen::Index>(model.species_count());
     const auto unknowns = static_cast<Eigen::Index>(model.unknowns.size());
     ComplexMatrix by_unknowns = sum.bottomRightCorner(unknowns, unknowns);

@@ -1,4 +1,5 @@
-// Colours for colour-blind readers, too (M. Okabe, K. Ito, "Color Universal Design").
+// The colours can also be distinguished by colour-blind readers (M. Okabe, K. Ito, "Color Universal
+// Design").
 #include "analysis/map_plot.h"
 
 #include "picture/axes.h"

@@ -1,4 +1,5 @@
-// The diagram of a map over two parameters: a colour for each class, and the script's own values.
+// The diagram of a map over two parameters: a colour for each class, and a mark at the values in
+// the script.
 #pragma once
 
 #include "analysis/parameters.h"
@@ -10,7 +11,7 @@ namespace cascade::analysis {
 
 struct MapLabels {
     std::string title, across, up;
-    std::array<double, 2> present{};  ///< The values of the script.
+    std::array<double, 2> present{};  ///< The values in the script.
 };
 
 Drawing plot_map(const ParameterMap& map, const MapLabels& labels);

@@ -18,7 +18,8 @@ public:
     ConstantFactors(const Program& program, std::uint32_t stage)
         : program_(program), stage_(stage), starts_(start_values(algebra_, program, stage, {})) {}
 
-    /// 0 for a formula without nodes. Empty if the value differs from cell to cell or changes.
+    /// The value of a formula; 0 for a formula without nodes. Empty if the value differs from cell
+    /// to cell or changes in time.
     std::optional<double> value(const Formula& formula) {
         if (formula.nodes.empty()) return 0;
         const bool is_known = std::all_of(formula.nodes.begin(), formula.nodes.end(), is_plain);
@@ -32,7 +33,8 @@ public:
     }
 
 private:
-    /// Other nodes, such as sums over the domain, have an estimate as their start.
+    /// Whether the starting value of a node is its value at all times. For other nodes, such as
+    /// sums over the domain, it is an estimate.
     static bool is_plain(const Node& node) {
         const bool is_function = node.is<Call>() && is_elementary(node.function);
         return is_function || node.is<double>() || node.is<ItemId>();
@@ -44,7 +46,7 @@ private:
     IdVector<ItemId, StartValue> starts_;
 };
 
-/// The coefficient, if it is negative and nothing damps short waves.
+/// The coefficient of diffusion. Empty unless it is negative and no other term damps short waves.
 std::optional<double> coefficient(ConstantFactors& factors, const SpeciesDiffusion& diffusion) {
     double lowest = 0;
     for (std::size_t term = 0; term < mixed_term; ++term) {

@@ -1,4 +1,4 @@
-// Diffusion that makes differences grow. No step is short enough for it.
+// Finds diffusion that makes differences grow. No step is short enough for it.
 #pragma once
 
 #include "lang/program/program.h"
@@ -9,9 +9,10 @@
 
 namespace cascade::analysis {
 
-/// "v has a negative diffusion coefficient, -0.08: …", for the first species whose coefficient is a
-/// negative number in all cells and at all times, without damping by a higher power of lap. Empty
-/// if there is none, and where the coefficient is not known before the run.
+/// A message such as "v has a negative diffusion coefficient, -0.08: …", for the first species
+/// whose coefficient is a negative number in all cells and at all times, without damping by a
+/// higher power of lap. Empty if there is no such species, or if the coefficient is not known
+/// before the run.
 std::optional<std::string> negative_diffusion(const Program& program, std::uint32_t stage);
 
 }  // namespace cascade::analysis

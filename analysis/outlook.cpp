@@ -1,5 +1,5 @@
-// Checks strictly that starting values, parameters, sides and rates leave noise as the only source
-// of differences.
+// Checks strictly that nothing but noise makes cells differ: no starting value, parameter, side or
+// rate.
 #include "analysis/outlook.h"
 
 #include "analysis/stage_analysis.h"
@@ -15,7 +15,8 @@ namespace cascade::analysis {
 
 namespace {
 
-/// Stronger noise, relative to the values, might start a pattern that weak noise does not.
+/// The largest noise that counts as weak, relative to the values. Stronger noise might start a
+/// pattern that weak noise does not start.
 constexpr double weak = 0.02;
 
 bool has_values_at_sides(const Program& program, std::uint32_t stage) {
@@ -54,8 +55,8 @@ bool starts_with_noise_alone(const LinearModel& model) {
     return has_noise;
 }
 
-/// A quick test that is false for most stages refused by starts_with_noise_alone(): stages that
-/// draw nothing or continue from the pattern of an earlier stage.
+/// A quick test that makes starts_with_noise_alone() unnecessary for most stages. It is false for
+/// stages that draw no random numbers or continue from the pattern of an earlier stage.
 bool may_start_with_noise(const Program& program, std::uint32_t number) {
     const Stage& stage = program.stages[number];
     const auto is_noise = [](const Node& node) {
@@ -83,7 +84,8 @@ bool is_weak(const Vector& scatter, const Vector& state, const Vector& start) {
     return true;
 }
 
-/// The species that lets a wave grow with the least additional diffusion, and the factor.
+/// Advice to the user: which species needs the least additional diffusion so that a wave grows, and
+/// by which factor its diffusion must be multiplied.
 std::string remedy(const LinearModel& model, const Matrices& matrices) {
     if (model.has_nonlocal_parts()) return "";  // Scaling would change more than diffusion.
     const auto grows_with = [&](Eigen::Index species, double factor) {

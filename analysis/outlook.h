@@ -1,4 +1,4 @@
-// Why a stage will stay uniform, where that is certain before it runs.
+// Says why a stage will stay uniform, if that is certain before it runs.
 #pragma once
 
 #include "lang/program/program.h"
@@ -9,8 +9,8 @@
 
 namespace cascade::analysis {
 
-/// One clause, such as "no wave grows from its flat state …". Judges only a stage that starts with
-/// weak noise about a flat state. Empty for others, and where a wave may grow.
+/// The reason as one clause, such as "no wave grows from its flat state …". Empty if a wave may
+/// grow, and for stages that do not start with weak noise around a flat state.
 std::optional<std::string> why_nothing_grows(const Program& program, std::uint32_t stage);
 
 }  // namespace cascade::analysis

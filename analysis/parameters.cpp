@@ -1,4 +1,5 @@
-// Follows a flat state from value to value by Newton's method, each time from the last one.
+// Follows a flat state along values of a parameter. Newton's method finds each state from the
+// previous one.
 #include "analysis/parameters.h"
 
 #include <algorithm>
@@ -26,10 +27,10 @@ public:
         sizes_ = sizes_.cwiseMax(0.1 * std::max(sizes_.maxCoeff(), 1e-3));
     }
 
-    /// The state beside a known one. Empty if Newton's method goes astray.
+    /// The flat state near a known one. Empty if Newton's method finds none or another state.
     Place at(const std::vector<double>& values, const std::optional<Vector>& beside) {
         rates_.set_varied(values);
-        // Totals are those of the starting values, which may depend on the parameters.
+        // Conserved totals follow from the starting values, which may depend on the parameters.
         const bool has_totals = conserved_.rows() > 0;
         if (!beside && !has_totals) return {};
         const Vector guess = has_totals ? rates_.start() : *beside;
@@ -47,7 +48,7 @@ public:
     }
 
     /// Adds the equations of growing standing waves at a critical value of the only parameter.
-    /// `step` is a small change of it.
+    /// `step` is a small change of that parameter.
     void add_amplitudes(CriticalValue& change, const Place& beside, double step) {
         const auto at_value = [&](double value) {
             const Place place = at({value}, beside.state);
@@ -73,8 +74,8 @@ public:
     }
 
 private:
-    /// Whether Newton's method has found another state by accident. A state that moves far is the
-    /// same one if it follows its slope by the parameter.
+    /// Whether Newton's method has jumped to another flat state. A large change alone is no jump if
+    /// it is as large as the derivative of the state by the parameter predicts.
     bool has_jumped(const Vector& from, const Vector& to) const {
         const Vector scale = sizes_.cwiseMax(from.cwiseAbs());
         const auto distance = [&](const Vector& change) {
@@ -103,7 +104,8 @@ Result<double> present_value(const Program& program, std::uint32_t stage, ItemId
     return *number;
 }
 
-/// The value between two values at which the class changes. `step` is a small change of them.
+/// Finds the critical value between two values at which the class differs, by bisection. `step` is
+/// a small change of the parameter.
 CriticalValue bisected(Follower& follower, double low, double high, const Place& at_low,
                        const Place& at_high, double step) {
     Place below = at_low, above = at_high;
@@ -150,13 +152,14 @@ Result<ParameterScan> scan_parameter(const Program& program, std::uint32_t stage
     ParameterScan scan{span, *present, {}, {}, {}};
     const int parts = model->species_count() <= 2 ? 64 : 32;
     const double middle = std::clamp(*present, span.low, span.high);
-    // At an end of its range a parameter may be 0 and make a division impossible.
+    // Values stay slightly inside the range, since a parameter at an end may be 0 and make a
+    // division impossible.
     const double inwards = 1e-6 * (span.high - span.low);
     const double small = 1e-4 * (span.high - span.low);
     const auto walk = [&](double end) {
         double last = *present;
         Place before = follower.at({last}, state);
-        // The way to the range does not count.
+        // Changes of class between the present value and the range are not reported.
         if (middle != last) {
             for (int k = 1; k <= parts; ++k) {
                 before = follower.at({last + (middle - last) * k / parts}, before.state);
@@ -180,7 +183,7 @@ Result<ParameterScan> scan_parameter(const Program& program, std::uint32_t stage
     scan.at_low = walk(span.low + inwards);
     scan.at_high = walk(span.high - inwards);
     for (CriticalValue& change : scan.changes) {
-        // Rounding errors of 0.
+        // A value much smaller than the range is a rounding error of 0.
         if (std::abs(change.value) < 1e-8 * (span.high - span.low)) change.value = 0;
     }
     std::sort(scan.changes.begin(), scan.changes.end(),
@@ -199,7 +202,7 @@ std::vector<ParameterSpan> ranged_parameters(const Program& program, std::uint32
         const std::array items{item};
         const auto model = linear_model(program, stage, items);
         if (!model) continue;
-        // Whether a formula reads it.
+        // Keeps the parameter only if a formula reads it.
         const std::vector<NodeId> roots = model->formulas();
         const auto reads = [&](NodeId root) {
             const Formula formula = model->algebra.formula(root);
@@ -215,8 +218,8 @@ std::vector<ParameterSpan> ranged_parameters(const Program& program, std::uint32
 
 namespace {
 
-/// Finds the classes of a map: first along lines that are a block apart, then inside the blocks
-/// whose corners differ.
+/// Finds the classes of a map: first along lines that are a block apart, then inside blocks whose
+/// corners have different classes.
 class MapFiller {
 public:
     MapFiller(Follower& follower, const ParameterSpan& across, const ParameterSpan& up,
@@ -228,12 +231,12 @@ public:
 
     /// Follows the state from the script's own values along the middle row, then along columns.
     void follow_lines(const std::vector<double>& present, const Vector& state);
-    /// By row and column, once the lines are known.
+    /// The classes by row and column. The lines must be known.
     std::vector<std::optional<Stability>> classes();
 
 private:
     static constexpr std::size_t block = 8;
-    /// The steps from one line to the next, so that Newton's method stays on its branch.
+    /// The number of steps from line to line. Small steps keep Newton's method at the same state.
     static constexpr int careful = 4;
 
     struct Block {
@@ -272,7 +275,8 @@ std::size_t MapFiller::nearest_line(const ParameterSpan& span, double at) const 
     return best;
 }
 
-/// From the values `from`, at which the state is `beside`, in so many steps.
+/// The flat state at (i, j). Begins with the state `beside` at the parameters `from`, and follows
+/// it in `parts` steps.
 Place MapFiller::reach(const std::vector<double>& from, std::optional<Vector> beside, std::size_t i,
                        std::size_t j, int parts) {
     Place found;
@@ -337,7 +341,7 @@ bool MapFiller::is_uniform(const Block& at) {
            place(at.right, at.high)->stability == first;
 }
 
-/// What is not known inside of a block is like its first corner.
+/// Gives all unknown pairs of values in a block the class of its first corner.
 void MapFiller::take_classes(const Block& at, std::vector<std::optional<Stability>>& classes) {
     const auto& first = place(at.left, at.low)->stability;
     for (std::size_t j = at.low; j <= at.high; ++j) {
@@ -348,7 +352,7 @@ void MapFiller::take_classes(const Block& at, std::vector<std::optional<Stabilit
     }
 }
 
-/// A corner that has a state leads to others.
+/// Finds the state at (i, j), beginning at a corner of the block that has a state.
 void MapFiller::fill_from_corner(const Block& at, std::size_t i, std::size_t j) {
     for (const std::size_t row : {at.low, at.high}) {
         for (const std::size_t column : {at.left, at.right}) {

@@ -1,4 +1,5 @@
-// The class of a flat state by parameters: critical values of one, a map over two.
+// How the class of a flat state (its Stability) depends on parameters: critical values of one
+// parameter, or a map over two parameters.
 #pragma once
 
 #include "analysis/amplitudes.h"
@@ -18,26 +19,28 @@ struct ParameterSpan {
     double low = 0, high = 1;
 };
 
-/// A change of class.
+/// A value of a parameter at which the class changes.
 struct CriticalValue {
     double value = 0;
-    std::optional<Stability> below, above;  ///< Empty: the flat state does not exist there.
-    double cells = 0;                       ///< The fastest wave's length there, or NaN.
-    /// At the onset of standing waves, if known (amplitude_equations()).
+    /// The classes below and above the value. Empty where the flat state does not exist.
+    std::optional<Stability> below, above;
+    double cells = 0;  ///< The length of the fastest wave at this value, or NaN.
+    /// At the onset of standing waves: the result of amplitude_equations(), if it is known.
     std::optional<AmplitudeEquations> amplitudes = {};
-    /// The value at which stripes replace spots, by these equations. NaN if they do not.
+    /// The value at which stripes replace spots according to `amplitudes`; NaN if they do not.
     double stripes = std::numeric_limits<double>::quiet_NaN();
 };
 
 struct ParameterScan {
     ParameterSpan span;
-    double present = 0;  ///< Its value in the script.
+    double present = 0;  ///< The parameter's value in the script.
     std::optional<Stability> at_low, at_high;
-    std::vector<CriticalValue> changes;  ///< By increasing value.
+    std::vector<CriticalValue> changes;  ///< Ordered by value.
 };
 
-/// Follows a flat state of the script through about a hundred values of a parameter, and bisects
-/// between two of them where its class changes. Fails where linear_model() does.
+/// Follows a flat state of the script through about a hundred values of a parameter. Where its
+/// class changes between two of these values, finds the critical value by bisection. Fails if
+/// linear_model() fails.
 Result<ParameterScan> scan_parameter(const Program& program, std::uint32_t stage,
                                      const ParameterSpan& span, const Vector& state);
 
@@ -46,12 +49,14 @@ std::vector<ParameterSpan> ranged_parameters(const Program& program, std::uint32
 
 struct ParameterMap {
     ParameterSpan across, up;
-    std::size_t side = 0;                           ///< The number of values of each parameter.
-    std::vector<std::optional<Stability>> classes;  ///< Rows from the lowest value of `up`.
+    std::size_t side = 0;  ///< The number of values along each axis.
+    /// The classes row by row. The first row has the lowest value of `up`.
+    std::vector<std::optional<Stability>> classes;
 };
 
-/// Classes of a flat state of the script at side × side pairs of values, including the ends of
-/// ranges. Blocks of 8 × 8 pairs whose corners are alike count as a whole.
+/// The classes of a flat state of the script at side × side pairs of values, including the ends of
+/// both ranges. If the corners of a block of 8 × 8 pairs have the same class, the whole block gets
+/// this class. Fails if linear_model() fails.
 Result<ParameterMap> map_parameters(const Program& program, std::uint32_t stage,
                                     const ParameterSpan& across, const ParameterSpan& up,
                                     std::size_t side, const Vector& state);

@@ -1,4 +1,4 @@
-// Stable steps, and the analysis of each flat state.
+// Computes stable steps, and the analysis of each flat state.
 #include "analysis/stage_analysis.h"
 
 #include <algorithm>
@@ -30,7 +30,8 @@ bool is_stable(const StepPolynomial& polynomial, Complex z) {
     return std::norm(sum) <= 1 + 1e-12;
 }
 
-/// Where the ray at this angle from the negative axis, 0 … π/2, leaves the region of stability.
+/// Where a ray from 0 leaves the region of stability, as a distance from 0. `angle` is the ray's
+/// angle to the negative axis, 0 … π/2.
 double reach(const StepPolynomial& polynomial, double angle) {
     const Complex direction = std::polar(1.0, std::numbers::pi - angle);
     constexpr double most = 8;
@@ -42,7 +43,7 @@ double reach(const StepPolynomial& polynomial, double angle) {
         }
         inside = radius;
     }
-    // On the imaginary axis euler and rk2 amplify every wave slightly.
+    // On the imaginary axis, euler and rk2 amplify every wave slightly, so no step is stable.
     if (inside == 0 && angle > std::numbers::pi / 2 - 1e-9) return 0;
     for (int round = 0; round < 40; ++round) {
         const double middle = (inside + outside) / 2;
@@ -54,7 +55,7 @@ double reach(const StepPolynomial& polynomial, double angle) {
 }  // namespace
 
 std::vector<StableStep> stable_steps(std::span<const Complex> rates) {
-    // Among rates at about the same angle only the largest matters.
+    // The number of ranges of angles. In each range, only the largest rate limits the step.
     constexpr std::size_t sectors = 512;
     std::array<Complex, sectors + 1> largest{};
     for (const Complex rate : rates) {

@@ -1,5 +1,5 @@
 // The analysis of a stage before it runs: its flat states, the waves that grow from each of them,
-// and the stable steps for the others.
+// and the longest steps with which all other waves fade.
 #pragma once
 
 #include "analysis/dispersion.h"
@@ -16,12 +16,14 @@ namespace cascade::analysis {
 
 struct StableStep {
     Solver solver = Solver::euler;
-    double step = 0;  ///< In the time of the rates. Infinite if nothing fades, 0 if no step is.
+    /// The largest stable step in the unit of time of the rates. Infinite if nothing fades, 0 if no
+    /// step is stable.
+    double step = 0;
 };
 
-/// For euler, rk2, rk4, rk23 and rk45, by the polynomial with which each multiplies a wave in a
-/// step (E. Hairer, G. Wanner, "Solving Ordinary Differential Equations II", 1996, section IV.2).
-/// `rates` are eigenvalues whose real part is not above 0.
+/// The largest stable steps of euler, rk2, rk4, rk23 and rk45, from the polynomial by which each
+/// solver multiplies a wave in a step (E. Hairer, G. Wanner, "Solving Ordinary Differential
+/// Equations II", 1996, section IV.2). `rates` are eigenvalues whose real part is not above 0.
 std::vector<StableStep> stable_steps(std::span<const Complex> rates);
 
 struct StateAnalysis {
@@ -33,29 +35,32 @@ struct StateAnalysis {
 
 struct StageAnalysis {
     LinearModel model;
-    std::vector<StateAnalysis> states;  ///< The starting values' state first, if it exists.
-    bool has_conserved_totals = false;  ///< Flat states then come in families.
-    Vector start;                       ///< The starting values of the species.
-    std::optional<double> step;         ///< The time step, if it is one number.
+    /// The flat states. If Newton's method finds one from the starting values, it is the first.
+    std::vector<StateAnalysis> states;
+    /// Whether the reaction conserves totals, so that flat states come in families.
+    bool has_conserved_totals = false;
+    Vector start;                ///< The starting values of the species.
+    std::optional<double> step;  ///< The time step, if it is the same in all cells and fixed.
 };
 
-/// The length of the stage's steps, if it is the same in all cells and not chosen by the stage.
+/// The length of the stage's steps, if it is the same in all cells and the stage does not choose
+/// it.
 std::optional<double> fixed_step(const LinearModel& model);
 
-/// Fails where linear_model() does. The program must outlive the result.
+/// Analyses a stage. Fails if linear_model() fails. The program must outlive the result.
 Result<StageAnalysis> analyze_stage(const Program& program, std::uint32_t stage);
 
-/// The most interesting state: the first that is stable without waves and from which waves grow, or
-/// else the first. There must be one.
+/// The most interesting state: the first state that is stable against uniform changes and from
+/// which waves grow. If there is none, the first of all states. There must be at least one.
 const StateAnalysis& state_to_show(const StageAnalysis& analysis);
 
-/// "u = 1, v = 0.9", at most six of them.
+/// A text such as "u = 1, v = 0.9". Names at most six species.
 std::string values_text(const LinearModel& model, const Vector& species);
 
 /// The analysis as a text of a few lines.
 std::string describe(const StageAnalysis& analysis);
 
-/// The classes in words, such as "Turing".
+/// The name of the class for users, such as "Turing".
 std::string_view name_of(Stability stability);
 
 }  // namespace cascade::analysis

@@ -1,4 +1,4 @@
-// Walks once over the formulas of a stage's items.
+// Visits the formulas of a stage's items once.
 #include "analysis/start_values.h"
 
 #include "lang/calculus/derivative_rules.h"
@@ -46,7 +46,8 @@ private:
         if (const auto* there = node.as<StageItem>()) {
             StartValue value =
                 there->stage < earlier_.size() ? earlier_[there->stage][there->item] : none_;
-            // The pattern of an earlier stage.
+            // If the formula reads a species of an earlier stage, it gets the pattern of that
+            // stage.
             value.differs |= program_.system_of(there->stage).is_species(there->item);
             return value;
         }
@@ -101,7 +102,7 @@ private:
                 result.scatter = spread(node, of(0), of(1));
                 return result;
             case FunctionKind::pattern:
-                // Smooth noise is as random as draws.
+                // Smooth noise counts as random, like random numbers that are drawn for each cell.
                 if (node.function != Function::noise) return elsewhere(true, false);
                 result.scatter = algebra_.number(0.5);
                 return result;
@@ -114,7 +115,7 @@ private:
         const bool is_of_numbers = node.type == ValueType::number &&
                                    kind != FunctionKind::derivative &&
                                    kind != FunctionKind::stencil && kind != FunctionKind::flux;
-        if (!is_of_numbers) return result;  // A derivative of a flat state is 0.
+        if (!is_of_numbers) return result;  // In a flat state, a derivative is 0.
         Node valued = node;
         for (std::size_t n = 0; n < node.operand_count; ++n) valued.operands[n] = of(n).value;
         result.value = algebra_.call_of(valued);
@@ -132,7 +133,7 @@ private:
         return result;
     }
 
-    /// A uniform number in m ± s deviates by s / √3.
+    /// A uniform number in m ± s has the standard deviation s / √3.
     NodeId spread(const Node& node, const StartValue& mean, const StartValue& size) {
         const double factor = node.function == Function::random ? 1 / std::sqrt(3.0) : 1;
         return algebra_.sum(mean.scatter, algebra_.product(algebra_.number(factor),

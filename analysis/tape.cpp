@@ -1,4 +1,4 @@
-// The nodes required for the results, in their order, each with a register.
+// Lists the nodes on which the results depend, in order. Each node has a register.
 #include "analysis/tape.h"
 
 #include "core/check.h"

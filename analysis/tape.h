@@ -1,4 +1,4 @@
-// Formulas as a list of operations on numbers, for quick repetition at thousands of parameters.
+// Formulas as a list of operations on numbers, for fast evaluation at thousands of parameters.
 #pragma once
 
 #include "lang/calculus/algebra.h"
@@ -11,7 +11,8 @@ namespace cascade::analysis {
 
 class Tape {
 public:
-    /// The formulas may hold numbers, leaves that are among `inputs`, and functions of numbers.
+    /// `results` are the formulas. They may contain numbers, functions of numbers, and the leaves
+    /// that are in `inputs`.
     Tape(const Algebra& algebra, std::span<const NodeId> results, std::span<const NodeKind> inputs);
 
     /// The value of each formula. `inputs` has one number for each input.
@@ -23,7 +24,9 @@ private:
         std::uint32_t a, b, c, to;
     };
 
-    std::vector<double> numbers_;  ///< By register, inputs first. Those of steps are 0.
+    /// The initial value of each register: first the inputs, then numbers; 0 for results of
+    /// operations.
+    std::vector<double> numbers_;
     std::vector<Step> steps_;
     std::vector<std::uint32_t> results_;  ///< The registers of results.
 };

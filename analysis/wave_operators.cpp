@@ -1,5 +1,5 @@
 // Symbols of the differences of lang/program/stencils.cpp in closed form, because they are computed
-// for many waves; tests/unit/analysis/stencils_test.cpp compares them with the weights.
+// for many waves. tests/unit/analysis/stencils_test.cpp compares them with the weights.
 #include "analysis/wave_operators.h"
 
 #include "core/check.h"
@@ -22,7 +22,7 @@ double second_difference(const Lattice& lattice, double phase) {
     return -4 * sine * sine / (h * h);
 }
 
-/// As lang/lower/stencil_pass.cpp.
+/// The same difference as in lang/lower/stencil_pass.cpp.
 double second_derivative(const Lattice& lattice, double phase) {
     const double plain = second_difference(lattice, phase), h = lattice.spacing;
     if (lattice.is_continuous || lattice.stencil != StencilKind::fourth) return plain;
@@ -116,12 +116,13 @@ Complex WaveKernel::symbol(const Phases& phases) const {
         sum += wave * Complex(real[k], imaginary[k]);
         wave *= across;
     }
-    // Symmetric weights leave only rounding errors.
+    // If weights are symmetric, the imaginary part is only a rounding error.
     return std::abs(sum.imag()) > 1e-12 * magnitude_ ? sum : Complex(sum.real());
 }
 
 OperatorProduct followed_by(OperatorProduct first, WaveOperator then) {
-    // The mean of a mean is itself, and the mean of any difference is 0, as its symbol says.
+    // The mean of a mean is the same mean, so it is listed once. The mean of a difference is 0,
+    // which follows from the symbol of the mean.
     if (then.kind == Kind::mean && std::find(first.begin(), first.end(), then) != first.end()) {
         return first;
     }

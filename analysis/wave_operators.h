@@ -1,8 +1,8 @@
 // The effect of the discrete operators of the language on a wave.
 //
-// Each multiplies the wave exp(i θ·n), where n is the number of the cell along each axis, by a
-// factor, its symbol. Nested operators multiply their symbols, so a linear formula is a sum of
-// products of these few.
+// Each operator multiplies the wave exp(i θ·n), where n is the number of the cell along each axis,
+// by a factor, its symbol. The symbol of nested operators is the product of their symbols. So a
+// linear formula is a sum of products of these few operators.
 #pragma once
 
 #include "core/grid.h"
@@ -19,7 +19,7 @@ namespace cascade::analysis {
 
 using Complex = std::complex<double>;
 
-/// A wave by its phase from one cell to the next along each axis, in radians.
+/// A wave, given by its phase from one cell to the next along each axis, in radians.
 using Phases = std::array<double, 3>;
 
 /// The weights of a convolution, in the box around all lags.
@@ -27,29 +27,31 @@ class WaveKernel {
 public:
     explicit WaveKernel(const WeightedLags& weighted);
 
-    /// Σ weight · exp(i θ·lag), by which a convolution multiplies the wave exp(i θ·n).
+    /// Σ weight · exp(i θ·lag), the factor by which a convolution multiplies the wave exp(i θ·n).
     Complex symbol(const Phases& phases) const;
     /// The sum of all weights.
     double sum() const { return sum_; }
 
 private:
-    std::array<std::int64_t, 3> low_{}, size_{};  ///< The box, along each axis.
-    std::vector<double> weights_;                 ///< For all lags in the box: x first, z last.
-    double magnitude_ = 0;                        ///< The magnitude of all weights together.
+    /// The box of lags: its lower corner and its size along each axis.
+    std::array<std::int64_t, 3> low_{}, size_{};
+    /// The weights of all lags in the box. x varies fastest, z slowest.
+    std::vector<double> weights_;
+    double magnitude_ = 0;  ///< The sum of the magnitudes of all weights.
     double sum_ = 0;
 };
 
-/// A model's kernels, by their numbers.
+/// The kernels of a model, by index.
 using WaveKernels = std::vector<std::shared_ptr<const WaveKernel>>;
 
-/// A difference along an axis or of all axes, as the stencil of the domain has it, or another
-/// operator.
+/// One of the discrete operators: for example a difference along one axis or along all axes, by the
+/// stencil of the domain.
 struct WaveOperator {
     // clang-format off
     enum class Kind : std::uint8_t {
         difference,
-        mean,         ///< Over the domain: 1 for a change that is the same in all cells, else 0.
-        convolution,  ///< With a kernel, whose number is in place of an axis.
+        mean,  ///< The mean over the domain: 1 for a change that is the same in all cells, else 0.
+        convolution,  ///< A convolution. Its kernel's index is in `axis`.
     };
     // clang-format on
     Kind kind = Kind::difference;
@@ -59,25 +61,26 @@ struct WaveOperator {
     friend auto operator<=>(const WaveOperator&, const WaveOperator&) = default;
 };
 
-/// Successive operators in increasing order, since their order does not matter. Empty: the value
-/// itself.
+/// A product of operators. Their order does not change the product, so they are sorted in
+/// increasing order. Empty for the value itself.
 using OperatorProduct = std::vector<WaveOperator>;
 OperatorProduct followed_by(OperatorProduct first, WaveOperator then);
 
-/// The cells that carry waves.
+/// The cells on which waves exist.
 struct Lattice {
-    double spacing = 1;              ///< Between the centres of neighbours, in the script's unit.
-    std::array<bool, 3> has_axis{};  ///< Whether the grid has several cells along it.
-    std::array<double, 3> cells{};   ///< The number of cells along each axis. 0 if unknown.
+    /// The distance between the centres of neighbouring cells, in the script's unit.
+    double spacing = 1;
+    std::array<bool, 3> has_axis{};  ///< Whether the grid has several cells along each axis.
+    std::array<double, 3> cells{};   ///< The number of cells along each axis; 0 if unknown.
     std::array<bool, 3> is_periodic{};
-    /// Whether there are no axes, as on a model or a curved surface. Then derivatives are those of
-    /// calculus: lap is −k², along a first axis in place of any direction.
+    /// Whether there are no axes, as on a model or a curved surface. Derivatives are then those of
+    /// calculus: lap is −k². The first axis stands for any direction.
     bool is_continuous = false;
     StencilKind stencil = StencilKind::cross;
 };
 Lattice lattice_of(const Program& program);
 
-/// `kernels` are referred to by number in the operators.
+/// The symbol of a product of operators. Convolutions refer to `kernels` by index.
 Complex symbol(const OperatorProduct& operators, const Lattice& lattice, const WaveKernels& kernels,
                const Phases& phases);
 

@@ -1,4 +1,5 @@
-// Options whose text a function parses (internal: only files that define options include this).
+// Adds options whose text is parsed by a function. Only files that define options may include this
+// header.
 #pragma once
 
 #include "app/option_values.h"
@@ -15,7 +16,8 @@
 
 namespace cascade::option_groups {
 
-/// The value of an option; throws CLI11's error, which parse_options() catches, where it is wrong.
+/// Returns the value of an option. If the value is invalid, throws an error of CLI11, which
+/// parse_options() catches.
 template <typename T>
 T value_or_throw(Result<T> value, const std::string& option) {
     if (value) return std::move(*value);
@@ -25,7 +27,8 @@ T value_or_throw(Result<T> value, const std::string& option) {
                                            : fmt::format("{} ({})", why.message, why.hint));
 }
 
-/// Adds an option: `parse` reads its text and returns a Result<T>, `store` takes the value.
+/// Adds an option. `parse` returns a Result<T> for the option's text, and `store` receives
+/// the value.
 template <typename Parse, typename Store>
 CLI::Option* add_value(CLI::App& app, const std::string& names, const std::string& value,
                        const std::string& help, Parse parse, Store store) {
@@ -36,7 +39,7 @@ CLI::Option* add_value(CLI::App& app, const std::string& names, const std::strin
         ->type_name(value);
 }
 
-/// Functions to parse with, for add_value().
+/// The following functions return functions that can be passed to add_value() as `parse`.
 inline auto whole_number(std::int64_t low, std::int64_t high) {
     return [=](const std::string& text) { return parse_whole(text, low, high); };
 }

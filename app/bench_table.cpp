@@ -26,7 +26,7 @@ std::string sides_of(const StageBench& bench) {
     return describe_sides(grid) + " cells";
 }
 
-/// At most one digit after the point: all counts are whole except those of a model's links.
+/// Prints at most one decimal. Only the mean number of a model's links is not an integer.
 std::string number(double value) {
     return std::abs(value - std::round(value)) < 0.05 ? fmt::format("{:.0f}", value)
                                                       : fmt::format("{:.1f}", value);
@@ -48,7 +48,7 @@ std::string line(std::string_view name, const std::string& text) {
     return fmt::format("  {:<17} {}\n", name, text);
 }
 
-/// A count per cell, which may be a fraction, such as the loads of links.
+/// Prints a count for each cell, which may be a mean, such as the mean number of loaded links.
 std::string mean_count(double count, std::string_view one, std::string_view many) {
     const std::string text = number(count);
     return fmt::format("{} {}", text, text == "1" ? one : many);

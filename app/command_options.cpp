@@ -1,4 +1,4 @@
-// Which arguments and options each command takes.
+// Defines the arguments and options of each command.
 #include "app/command_options.h"
 
 #include "app/option_groups.h"
@@ -18,7 +18,7 @@ void add_scripts(CLI::App& command, Options& options, const std::string& about) 
     command.add_option("SCRIPTS", options.scripts, about)->type_name("");
 }
 
-/// Of a command that writes one file.
+/// Adds the output option of a command that writes one file.
 template <typename Path>
 void add_output(CLI::App& command, Path& path, const std::string& about) {
     command
@@ -39,6 +39,8 @@ void run(CLI::App& command, Options& options) {
     groups::add_overrides(command, options.overrides);
     groups::add_simulation(command, options, "Threads; without it all cores");
     groups::add_run_options(command, options.run, RunOption::stop_at, RunOption::stop_at);
+    groups::add_ranks(command, options);
+    groups::add_device(command, options);
     groups::add_timing(command, options);
     groups::add_quiet(command, options);
     groups::add_limits(command, options);
@@ -96,6 +98,19 @@ void systems(CLI::App& command, Options& options) {
     groups::add_json(command, options);
 }
 
+void examples(CLI::App& command, Options& options) {
+    command
+        .add_option("WORDS", options.words,
+                    "The name of an example, such as leopard or cells/fur, or words that its\n"
+                    "name or description has")
+        ->type_name("");
+    add_output(command, options.new_script,
+               "Copy the example to a new file, and the pictures that it\nreads beside it");
+    command
+        .add_flag("--path", options.prints_path, "Print where the example is, instead of its text")
+        ->group("Output");
+}
+
 void new_script(CLI::App& command, Options& options) {
     command
         .add_option_function<std::string>(
@@ -105,10 +120,24 @@ void new_script(CLI::App& command, Options& options) {
     add_output(command, options.new_script, "The script, a new file; without it standard output");
 }
 
+void import_model(CLI::App& command, Options& options) {
+    command.add_option("MODEL", options.scripts, "A file or link of another program")
+        ->type_name("")
+        ->expected(0, 1);
+    command
+        .add_option("--diffusion", options.diffusion,
+                    "Give a species a diffusion coefficient: A=0.1; may be repeated.\n"
+                    "For formats that describe reactions only")
+        ->type_name("NAME=D")
+        ->allow_extra_args(false);
+    add_output(command, options.new_script,
+               "The script, a new file; without it MODEL.cascade in this folder");
+}
+
 void palettes(CLI::App& command, Options& options) {
     command
         .add_option("WORDS", options.words,
-                    "Names of palettes, or colours of one's own in quotes; without them all")
+                    "Names of palettes, or your own colours in quotes; without them all")
         ->type_name("");
     add_output(command, options.sheet,
                "A sheet of them, " + endings_of(FormatTrait::drawing, "or"));
@@ -151,6 +180,13 @@ void view(CLI::App& command, Options& options) {
     command.add_flag("--no-browser", options.no_browser, "Print the address and open nothing");
     groups::add_overrides(command, options.overrides);
     groups::add_simulation(command, options, "Threads; without it all cores");
+}
+
+void lsp(CLI::App& command, Options& options) {
+    command.add_flag("--words", options.prints_words,
+                     "Print the words of the language as JSON, and end");
+    command.add_flag_callback(
+        "--stdio", [] {}, "Has no effect: for editors that give it to every server");
 }
 
 }  // namespace cascade::command_options

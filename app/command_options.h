@@ -1,4 +1,4 @@
-// Which arguments and options each command takes.
+// Defines the arguments and options of each command.
 #pragma once
 
 #include "app/options.h"
@@ -16,12 +16,15 @@ void analyze(CLI::App& command, Options& options);
 void bench(CLI::App& command, Options& options);
 void compile(CLI::App& command, Options& options);
 void systems(CLI::App& command, Options& options);
+void examples(CLI::App& command, Options& options);
 void new_script(CLI::App& command, Options& options);
+void import_model(CLI::App& command, Options& options);
 void palettes(CLI::App& command, Options& options);
 void format(CLI::App& command, Options& options);
 void mesh(CLI::App& command, Options& options);
 void repl(CLI::App& command, Options& options);
 void export_page(CLI::App& command, Options& options);
 void view(CLI::App& command, Options& options);
+void lsp(CLI::App& command, Options& options);
 
 }  // namespace cascade::command_options

@@ -9,7 +9,7 @@ namespace cascade {
 
 std::span<const CommandEntry> command_table() {
     using enum AtPrompt;
-    static const std::array<CommandEntry, 14> all = {{
+    static const std::array<CommandEntry, 17> all = {{
         {Command::run, "run", run_command, absent, help::run, help::run_examples,
          command_options::run},
         {Command::sweep, "sweep", sweep_command, of_script, help::sweep, help::sweep_examples,
@@ -24,8 +24,12 @@ std::span<const CommandEntry> command_table() {
          help::compile_examples, command_options::compile},
         {Command::systems, "systems", systems_command, plain, help::systems, help::systems_examples,
          command_options::systems},
+        {Command::examples, "examples", examples_command, plain, help::examples_about,
+         help::examples_examples, command_options::examples},
         {Command::new_script, "new", new_command, absent, help::new_script,
          help::new_script_examples, command_options::new_script},
+        {Command::import_model, "import", import_command, absent, help::import_model,
+         help::import_model_examples, command_options::import_model},
         {Command::palettes, "palettes", palettes_command, plain, help::palettes,
          help::palettes_examples, command_options::palettes},
         {Command::format, "fmt", format_command, absent, help::format, help::format_examples,
@@ -38,6 +42,8 @@ std::span<const CommandEntry> command_table() {
          help::export_page_examples, command_options::export_page},
         {Command::view, "view", view_command, absent, help::view, help::view_examples,
          command_options::view},
+        {Command::lsp, "lsp", lsp_command, absent, help::lsp, help::lsp_examples,
+         command_options::lsp},
     }};
     return all;
 }

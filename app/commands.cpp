@@ -1,6 +1,7 @@
-// `check`, `compile` and `--dump`, and how each command loads its script.
+// Implements `check`, `compile` and `--dump`, and loads the scripts of all commands.
 #include "app/commands.h"
 
+#include "app/examples.h"
 #include "app/exit_status.h"
 #include "app/json_answer.h"
 #include "core/counted.h"
@@ -38,15 +39,17 @@ Result<std::string> read_standard_input() {
         }
         text.append(piece, 0, static_cast<std::size_t>(count));
         if (text.size() > largest_script) {
-            return failure(fmt::format(
-                "standard input has more than the {} bytes a script may have", largest_script));
+            return failure(
+                fmt::format("standard input is longer than the {} bytes that a script may have",
+                            largest_script));
         }
     }
 }
 
 namespace {
 
-/// A log in a file, as the session of a picture would be: with the script at its end.
+/// Loads the log of a session from a file, in the same form as from a picture: with the last script
+/// of the session.
 Result<LoadedFile> load_session_file(const std::filesystem::path& path, const Overrides& options) {
     auto text = read_file(path, largest_session_log);
     if (!text) return tl::unexpected(text.error());
@@ -78,8 +81,19 @@ Result<LoadedFile> load_file(const std::string& path, const Overrides& overrides
     return LoadedFile{load_script("<standard input>", std::move(*text), ".", overrides), ""};
 }
 
-/// A hint for a path that does not exist: a file with a similar name, or `cascade new` for a
-/// system.
+/// A hint for a path that does not exist but has the name of an example. Empty if it has not.
+std::string advice_on_example(const std::filesystem::path& path) {
+    const auto examples = read_examples();
+    if (!examples) return "";
+    const std::string stem = path.stem().string();
+    const auto named = examples_named(*examples, stem);
+    if (named.empty()) return "";
+    return fmt::format("'cascade examples {} -o {}.cascade' writes the example of this name",
+                       named.front()->name, stem);
+}
+
+/// A hint for a path that does not exist. If `path` is the name of a system, the hint suggests
+/// `cascade new`. Otherwise it names a file with a similar name.
 std::string advice_on_missing(const std::filesystem::path& path) {
     std::error_code error;
     if (std::filesystem::exists(path, error)) return "";
@@ -100,14 +114,14 @@ std::string advice_on_missing(const std::filesystem::path& path) {
     std::sort(names.begin(), names.end());
     std::string near = nearest_name(path.filename().string(), names);
     if (near.empty()) near = nearest_name(path.filename().string() + ".cascade", names);
-    if (near.empty()) return "";
+    if (near.empty()) return advice_on_example(path);
     const auto beside =
         path.has_parent_path() ? path.parent_path() / near : std::filesystem::path(near);
     return fmt::format("did you mean '{}'?", beside.string());
 }
 
-/// "2 stages, 35000 steps, 64 × 64 cells", without the steps where only a run can tell their
-/// number.
+/// A summary, "2 stages, 35000 steps, 64 × 64 cells". The number of steps is left out if it is only
+/// known after a run.
 std::string summary(const Script& script) {
     const Program& program = *script.program;
     std::int64_t steps = 0;
@@ -123,7 +137,7 @@ std::string summary(const Script& script) {
                        describe_sides(program.domain.grid));
 }
 
-/// What --json says of a script that is checked.
+/// The members of --json that describe a checked script.
 nlohmann::ordered_json facts_of(const Script& script) {
     nlohmann::ordered_json facts = {{"file", script.name},
                                     {"is_correct", script.program != nullptr}};
@@ -176,8 +190,21 @@ std::optional<LoadedFile> load(const std::string& path, const Overrides& overrid
     return std::nullopt;
 }
 
+void print_list_line(std::string_view name, std::string_view about, Console& console) {
+    std::string line = fmt::format("{:<24} {}", name, about);
+    const auto columns = static_cast<std::size_t>(console.out().columns());
+    if (console.out().is_terminal && line.size() > columns) {
+        std::size_t end = columns > 2 ? columns - 2 : 0;
+        // Does not cut inside a UTF-8 character.
+        while (end > 0 && (line[end] & 0xc0) == 0x80) --end;
+        line = line.substr(0, end) + "…";
+    }
+    console.print(line + "\n");
+}
+
 int dump_command(const Script& script, const std::string& kind, Console& console) {
-    // Tokens and tree exist even for a wrong script; the other dumps need a checked program.
+    // Tokens and syntax tree exist even if the script has errors. Other dumps need a checked
+    // program.
     const bool can_be_shown = script.program || kind == "tokens" || kind == "ast";
     const auto text = can_be_shown ? dump(script, kind) : Result<std::string>(std::string());
     if (text) console.print(*text);

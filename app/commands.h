@@ -1,4 +1,4 @@
-// The commands of the program: each takes options and returns an exit status.
+// The commands of the program. Each receives options and returns an exit status.
 #pragma once
 
 #include "app/console.h"
@@ -25,14 +25,18 @@ int bench_command(const Options& options, Console& console);
 int compile_command(const Options& options, Console& console);
 int systems_command(const Options& options, Console& console);
 int new_command(const Options& options, Console& console);
+int examples_command(const Options& options, Console& console);
 int palettes_command(const Options& options, Console& console);
+int import_command(const Options& options, Console& console);
 int format_command(const Options& options, Console& console);
 int mesh_command(const Options& options, Console& console);
 int view_command(const Options& options, Console& console);
 int export_command(const Options& options, Console& console);
+int lsp_command(const Options& options, Console& console);
 int repl_command(const Options& options, Console& console);
 
-/// What a command is at the prompt: there ':check' is 'cascade check' of the script so far.
+/// How a command can be used at the prompt. With `of_script`, ':check' does the same as 'cascade
+/// check', for the script typed so far.
 enum class AtPrompt { absent, plain, of_script };
 
 struct CommandEntry {
@@ -40,7 +44,7 @@ struct CommandEntry {
     std::string_view name;
     int (*action)(const Options& options, Console& console);
     AtPrompt at_prompt;
-    /// One sentence, and the end of the command's help.
+    /// A sentence about the command, and the examples at the end of its help.
     std::string_view about, examples;
     void (*add_options)(CLI::App& command, Options& options);
 };
@@ -48,26 +52,32 @@ struct CommandEntry {
 /// All commands of the program.
 std::span<const CommandEntry> command_table();
 
-/// Prints the measures; one that does not exist (a uniform field has no wavelength) is a dash.
+/// Prints features. If a feature does not exist, such as the wavelength of a uniform field, prints
+/// a dash.
 void print_features(const measure::Features& features, Console& console);
 
-/// A bar in a terminal, lines in a pipe, nothing if `quiet`.
+/// Prints a line of a list. In a terminal, cuts it at the terminal's width.
+void print_list_line(std::string_view name, std::string_view about, Console& console);
+
+/// Makes a display that draws a bar in a terminal, prints lines to a pipe, and shows nothing if
+/// `quiet`.
 ProgressDisplay make_progress_display(const Console& console, bool quiet);
 
-/// Loads a script or a picture; "-" is the script that was typed at the prompt, else standard
-/// input. Prints an error if it cannot be read.
+/// Loads a script or a picture. The path "-" means the script typed at the prompt, or standard
+/// input if `typed` is null. Prints an error if the file cannot be read.
 std::optional<LoadedFile> load(const std::string& path, const Overrides& overrides,
                                const Console& console, const TypedScript* typed = nullptr);
 
-/// The session of a picture, if `changes` do not ask for another run than it had; tells which it
-/// is, unless `quiet`.
+/// The session that the picture `file` contains. Empty if there is none or if `changes` make the
+/// run differ from it. Prints a note about the session unless `quiet`.
 Result<std::optional<SessionLog>> session_to_play(const LoadedFile& file, Overrides changes,
                                                   const Console& console, bool quiet);
 
-/// All of standard input, as the text of a script. Fails beyond `largest_script` bytes.
+/// Reads standard input as the text of a script. Fails if it has more than `largest_script` bytes.
 Result<std::string> read_standard_input();
 
-/// Prints what `--dump` asks for, also for a script with errors. Returns the exit status.
+/// Prints the intermediate form of the script that the option `--dump` requests. Some kinds also
+/// work for a script with errors. Returns the exit status.
 int dump_command(const Script& script, const std::string& kind, Console& console);
 
 }  // namespace cascade

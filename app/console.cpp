@@ -1,4 +1,4 @@
-// Output by write(2), so that a closed pipe or a full disk is noticed and reported at the end.
+// Writes with write(2), which reports a closed pipe or a full disk.
 #include "app/console.h"
 
 #include "app/exit_status.h"

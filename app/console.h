@@ -1,4 +1,5 @@
-// The two streams of the program: results on standard output, everything else on standard error.
+// The two output streams of the program. Results go to standard output, and everything else goes to
+// standard error.
 #pragma once
 
 #include "core/result.h"
@@ -12,18 +13,18 @@ namespace cascade {
 class JsonAnswer;
 struct Script;
 
-/// What is known about a stream when the program starts.
+/// Properties of a stream that are determined when the program starts.
 struct Stream {
     int descriptor = 1;
-    bool is_terminal = false;  ///< A terminal that can move its cursor.
-    bool colour = false;       ///< A terminal, and the user has not set NO_COLOR (no-color.org).
+    bool is_terminal = false;  ///< Whether it is a terminal whose cursor can be moved.
+    bool colour = false;       ///< Whether it is a terminal and NO_COLOR is not set (no-color.org).
 
     static Stream of(int descriptor);
-    /// Width of the terminal in columns; 80 if there is none.
+    /// The width of the terminal in columns. 80 if the stream is no terminal.
     int columns() const;
-    /// Its height in lines; 24 if there is none.
+    /// The height of the terminal in lines. 24 if the stream is no terminal.
     int rows() const;
-    /// Writes all of it. The message of the failure is empty if the reader has closed the pipe.
+    /// Writes the whole text. If the reader has closed the pipe, fails with an empty message.
     Result<void> write(std::string_view text) const;
 };
 
@@ -32,38 +33,40 @@ public:
     Console(Stream out, Stream error) : out_(out), error_(error) {}
     static Console standard() { return {Stream::of(1), Stream::of(2)}; }
 
-    /// From now on all output is collected in one answer, which finish() writes.
+    /// From now on, collects all output in a single JSON object, which finish() writes.
     void answer_in_json(std::string_view command);
-    /// Null unless the output is JSON.
+    /// The object that collects output for --json. Null without --json.
     JsonAnswer* answer() const { return answer_.get(); }
 
     const Stream& out() const { return out_; }
     const Stream& error() const { return error_; }
 
-    /// Writes a result. Control characters are replaced, since parts of it may come from a file. An
-    /// error is remembered for finish().
+    /// Writes a result. Control characters are replaced, because text may come from a file.
+    /// finish() reports a failure to write.
     void print(std::string_view text);
-    /// On a terminal as print() does; else writes the bytes as they are, for other programs to
-    /// read.
+    /// Writes a result unchanged, for other programs. On a terminal, does the same as print().
     void print_exactly(std::string_view text);
-    /// Writes as it is: may hold our own control sequences, but no text from a file.
+    /// Writes text unchanged. It may contain control sequences made by this program, but no text
+    /// from a file.
     void draw(std::string_view text);
-    /// Writes to standard error as it is: text from a file must have been made printable. Errors
-    /// are ignored.
+    /// Writes text to standard error unchanged. Text from a file must have been made printable.
+    /// Failures to write are ignored.
     void say(std::string_view text) const;
     /// Writes the diagnostics of a script to standard error.
     void tell(const Script& script) const;
-    /// Writes a line to standard error, made printable.
+    /// Writes a line to standard error. Control characters are replaced.
     void note(std::string_view message) const;
-    /// Writes "cascade: error: message" and the hint on a line below, made printable.
+    /// Writes "cascade: error: message" and, on the next line, the hint. Control characters are
+    /// replaced.
     void fail(const Failure& failure) const;
-    /// Writes "cascade: warning: message", made printable.
+    /// Writes "cascade: warning: message". Control characters are replaced.
     void warn(std::string_view message) const;
 
-    /// Writes the answer, if the output is JSON.
+    /// Writes the object of --json, if any, and returns the exit status.
     ///
-    /// Returns `status`, or that of a failed run if that is good but a result could not be written.
-    /// A reader that has closed the pipe (`| head`) is not an error.
+    /// The result is `status`, or the status of a failed run if `status` is success but some output
+    /// could not be written. A reader that has closed the pipe (`| head`) does not count as a
+    /// failure.
     int finish(int status);
 
 private:

@@ -1,4 +1,4 @@
-// Lines edited with libedit. The only file that includes its header.
+// Reads lines with libedit. No other file includes libedit's header.
 #include "app/history_file.h"
 #include "app/line_reader.h"
 #include "app/prompt_text.h"
@@ -14,8 +14,8 @@ namespace cascade {
 
 namespace {
 
-/// While it exists, Ctrl-C is an ordinary character. libedit arranges that itself, but only some
-/// time after it has drawn its prompt.
+/// As long as this object exists, Ctrl-C is an ordinary character of the terminal. libedit makes it
+/// one, too, but only some time after it has drawn its prompt.
 class InterruptKeyIsText {
 public:
     InterruptKeyIsText() { set(false); }
@@ -52,12 +52,12 @@ public:
         el_set(edit, EL_HIST, ::history, history_.get());
         el_set(edit, EL_ADDFN, "cascade-complete", "Complete the word", &EditReader::complete);
         el_set(edit, EL_BIND, "^I", "cascade-complete", nullptr);
-        // Ctrl-C while a line is edited drops the line and does not end the program.
+        // Makes Ctrl-C discard the line that is being edited, instead of ending the program.
         el_set(edit, EL_SETTY, "-d", "-isig", nullptr);
         el_set(edit, EL_ADDFN, "cascade-drop", "Drop the line", &EditReader::drop);
         el_set(edit, EL_BIND, "^C", "cascade-drop", nullptr);
         el_set(edit, EL_BIND, "^R", "em-inc-search-prev", nullptr);
-        el_source(edit, nullptr);  // The user's ~/.editrc overrides our settings.
+        el_source(edit, nullptr);  // The user's ~/.editrc may override these settings.
     }
 
     TypedLine read(const std::string& prompt) override {
@@ -132,7 +132,7 @@ std::unique_ptr<LineReader> make_edit_reader(const std::filesystem::path& histor
 
 std::filesystem::path history_path() {
     const char* const state = std::getenv("XDG_STATE_HOME");
-    // The XDG base directory specification says that a relative path there is to be ignored.
+    // The XDG base directory specification says that a relative path is ignored.
     if (state && *state == '/') return std::filesystem::path(state) / "cascade/history";
     const char* const home = std::getenv("HOME");
     if (!home || !*home) return {};

@@ -1,4 +1,4 @@
-// `cascade export`: a script, its files and the engine as one page.
+// The command `cascade export` writes a script, its files and the engine as one page.
 #include "app/commands.h"
 #include "app/exit_status.h"
 #include "app/interrupt.h"
@@ -29,7 +29,8 @@ int export_command(const Options& options, Console& console) {
     RunControl control;
     const InterruptGuard interrupt(control.cancel);
     SimulationOptions simulation = options.run.simulation;
-    simulation.backend = "interp";  // Only starting values are computed.
+    // The interpreter is enough, because only starting values are computed.
+    simulation.backend = "interp";
     const auto run = LiveRun::begin(std::move(file->script), simulation, control);
     if (!run) {
         console.say(run.error().messages(console.error().colour));

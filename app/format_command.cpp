@@ -1,4 +1,4 @@
-// `cascade fmt`: rewrites scripts in the canonical style.
+// The command `cascade fmt` rewrites scripts in the standard form.
 #include "app/commands.h"
 
 #include "app/exit_status.h"
@@ -14,7 +14,8 @@ namespace cascade {
 
 namespace {
 
-/// The script in the canonical style; nothing, after printing its errors, if it cannot be parsed.
+/// The script in the standard form. If it cannot be parsed, prints its errors and returns an empty
+/// optional.
 std::optional<std::string> formatted(const std::string& name, const std::string& text,
                                      ScriptNotation notation, const Console& console) {
     Sources sources;
@@ -50,7 +51,8 @@ int format_file(const std::string& path, const Options& options, Console& consol
     return exit_status::success;
 }
 
-/// Formats standard input to standard output; with --check only the status tells.
+/// Reads a script from standard input and prints its standard form. With --check, prints no script
+/// and only returns the status.
 int format_standard_input(const Options& options, Console& console) {
     const auto text = read_standard_input();
     if (!text) {

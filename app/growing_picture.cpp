@@ -1,4 +1,4 @@
-// It is erased by moving up and clearing what is below, which every terminal understands.
+// Erases a picture by moving up and clearing everything below, which every terminal can do.
 #include "app/growing_picture.h"
 
 #include <algorithm>
@@ -7,11 +7,13 @@
 namespace cascade {
 namespace {
 
-/// Short runs show their end alone; then pictures are at least this far apart.
+/// The time from the start of the run to the first picture, and the least time between pictures. A
+/// run shorter than the first time shows only its end.
 constexpr std::chrono::milliseconds first_after(500), apart(200);
-/// Drawing takes at most a tenth of the time.
+/// The pause after a drawing, as a multiple of the time that the drawing took. So drawing takes at
+/// most a tenth of all time.
 constexpr int rest_for_drawing = 9;
-/// Its own among the pictures of a terminal.
+/// The number by which the terminal recognises this picture, so that a new drawing replaces it.
 constexpr std::uint32_t picture_number = 0xca5cade;
 
 }  // namespace

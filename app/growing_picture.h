@@ -1,4 +1,4 @@
-// The picture at the prompt that grows while steps are taken.
+// Shows a picture that grows at the prompt while steps are taken.
 #pragma once
 
 #include "app/console.h"
@@ -12,17 +12,19 @@
 
 namespace cascade {
 
-/// The picture of a run, drawn again and again in one place of a terminal with colours.
+/// Draws the picture of a run again and again at the same place of a terminal with colours.
 class GrowingPicture {
 public:
-    /// All must outlive it, and the script of the run must not change.
+    /// All arguments must outlive this object. The script of the run must not change while this
+    /// object exists.
     GrowingPicture(Console& console, const TerminalPictures& pictures, LiveRun& run);
 
-    /// Has enough time passed since it was drawn?
+    /// Whether enough time has passed since the last drawing.
     bool is_due() const;
-    /// Draws it where it was drawn before. The cursor must be at the start of the line below.
+    /// Draws the picture where it was drawn before. The cursor must be at the start of the line
+    /// below the picture.
     void draw();
-    /// Leaves the cursor where the picture began.
+    /// Erases the picture, and moves the cursor to where the picture began.
     void erase();
 
 private:
@@ -32,7 +34,7 @@ private:
     const TerminalPictures& pictures_;
     LiveRun& run_;
     std::optional<Painter> painter_;
-    std::int64_t lines_ = 0;  ///< Of the picture that is there now.
+    std::int64_t lines_ = 0;  ///< The height of the picture on the screen, in lines of text.
     Clock::time_point next_;
 };
 

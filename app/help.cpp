@@ -1,4 +1,4 @@
-// Help texts, apart from the files that include CLI11, which take long to compile.
+// Help texts. They do not include CLI11, which takes long to compile.
 #include "app/help.h"
 
 #include "core/version.h"
@@ -22,6 +22,7 @@ const std::string_view examples = R"(Examples:
   cascade run leopard.png                            draws a picture again
   cascade check my.cascade                           says what is wrong with it
   cascade systems                                    the systems of the library
+  cascade examples                                   scripts with pictures to learn from
   cascade new brusselator -o my.cascade              a script to start from
 
 A first script, spots.cascade:
@@ -57,6 +58,7 @@ const std::string_view sweep =
 const std::string_view sweep_examples = R"(Examples:
   cascade sweep spots.cascade --vary ka=1/400,1/200,1/100 --vary seed=1,2,3
   cascade sweep coral.cascade --vary gray_scott.feed=0.02..0.06:9 --vary gray_scott.kill=0.05..0.07:9
+  cascade sweep coral.cascade --vary seed=1..1000:1000 --part 3/100      a job of a cluster
 
 All goes into one folder: sheet.png, features.csv (wavelength, spots, area, direction of what the
 picture shows), and a small result of every run, so that the same command goes on where a sweep was
@@ -92,9 +94,17 @@ const std::string_view systems =
     "Lists the systems of the library, or shows one: equations, parameters, defaults.";
 const std::string_view systems_examples = R"(Examples:
   cascade systems                                    all of them, a line each
-  cascade systems spots                              those that mention spots
+  cascade systems spots                              all systems that mention spots
   cascade systems gray_scott                         its equations and parameters
-  cascade systems my.cascade                         those of a script)";
+  cascade systems my.cascade                         the systems of a script)";
+
+const std::string_view examples_about = "Lists the examples that come with Cascade, or prints one.";
+const std::string_view examples_examples = R"text(Examples:
+  cascade examples                                   all of them, a line each
+  cascade examples giraffe                           all examples that mention giraffes
+  cascade examples leopard > leopard.cascade         the text of one
+  cascade examples on_models/emperor -o my.cascade   one with the picture that it reads
+  cascade run "$(cascade examples leopard --path)"   runs it where it is)text";
 
 const std::string_view palettes = "Shows palettes: their colours, names and descriptions.";
 const std::string_view palettes_examples = R"(Examples:
@@ -106,6 +116,15 @@ const std::string_view new_script = "Prints a script to start from: a system of 
 const std::string_view new_script_examples = R"(Examples:
   cascade new brusselator -o my.cascade
   cascade run my.cascade)";
+
+const std::string_view import_model =
+    "Writes a script of a model of another program, without changing what the model means.";
+const std::string_view import_model_examples = R"(Examples:
+  cascade import Brusselator.vti                     a formula pattern of Ready
+  cascade import spots.vti -o spots2.cascade
+  cascade import 'https://visualpde.com/sim/?options=…' -o spirals.cascade
+  cascade import neuron.ode --diffusion v=1
+What cannot be said in Cascade is an error at its line. What differs is said, and written as comments.)";
 
 const std::string_view format =
     "Rewrites scripts in the canonical style: blanks, lines, indentation.";
@@ -138,6 +157,14 @@ const std::string_view view_examples = R"(Examples:
   cascade view leopard.cascade
   cascade view leopard.cascade --no-browser          prints the address
 Only this machine reaches the page. Ctrl-C ends it.)";
+
+const std::string_view lsp =
+    "Checks and explains scripts in an editor: a server of the Language Server Protocol.";
+const std::string_view lsp_examples = R"(Examples:
+  vim.lsp.config.cascade = { cmd = { "cascade", "lsp" }, filetypes = { "cascade" } }
+  (add-to-list 'eglot-server-programs '(cascade-mode "cascade" "lsp"))
+Editors start it and speak with it on standard input and output. docs/editors.md has the settings of
+VS Code, Vim, Neovim, Emacs and Kate.)";
 
 const std::string_view export_page =
     "Writes a script as one page that any browser opens: its pattern grows there, offline.";

@@ -1,4 +1,4 @@
-// What --help says besides the lists of options, and what --version says.
+// The texts of --help, except the lists of options, and the text of --version.
 #pragma once
 
 #include <string>
@@ -16,17 +16,20 @@ extern const std::string_view analyze, analyze_examples;
 extern const std::string_view bench, bench_examples;
 extern const std::string_view compile, compile_examples;
 extern const std::string_view systems, systems_examples;
+extern const std::string_view examples_about, examples_examples;
 extern const std::string_view new_script, new_script_examples;
+extern const std::string_view import_model, import_model_examples;
 extern const std::string_view palettes, palettes_examples;
 extern const std::string_view format, format_examples;
 extern const std::string_view mesh, mesh_examples;
 extern const std::string_view repl, repl_examples;
 extern const std::string_view export_page, export_page_examples;
 extern const std::string_view view, view_examples;
+extern const std::string_view lsp, lsp_examples;
 
-/// The names in lines that fit into the column of descriptions.
+/// The names, divided into lines that fit into the column of descriptions.
 std::string in_lines(const std::vector<std::string>& names);
-/// The same for the words of a text.
+/// The words of a text, divided into lines that fit into the column of descriptions.
 std::string in_lines(const std::string& text);
 
 std::string version_text();

@@ -1,4 +1,5 @@
-// Appends by O_APPEND; reading keeps the last of equal lines, and shortens a file that is too long.
+// Appends lines with O_APPEND. If several lines are equal, only the last of them is read. A file
+// that is too long is shortened.
 #include "app/history_file.h"
 
 #include "core/descriptor.h"
@@ -35,8 +36,8 @@ bool is_octal(std::string_view text) {
            text[0] < '4';
 }
 
-/// Decodes libedit's escapes; also accepts an escaped backslash and unescaped letters, which
-/// libedit writes in some versions.
+/// Decodes libedit's escapes. Also accepts an escaped backslash and unescaped letters, which some
+/// versions of libedit write.
 std::string decoded(std::string_view text) {
     std::string line;
     for (std::size_t at = 0; at < text.size(); ++at) {
@@ -72,7 +73,7 @@ std::vector<std::string> HistoryFile::load() {
         const bool is_text = line.find_first_not_of(" \t") != std::string::npos;
         if (is_text && line + "\n" != first_line) lines.push_back(std::move(line));
     }
-    // Of equal lines only the last one is kept.
+    // If several lines are equal, only the last of them is read.
     std::set<std::string> known;
     std::vector<std::string> last;
     for (auto line = lines.rbegin(); line != lines.rend() && last.size() < most_lines; ++line) {

@@ -1,7 +1,9 @@
-// The signal handlers only set lock-free atomic flags or call _exit(): little else is allowed.
+// Signal handlers only set lock-free atomic flags or call _exit(), because little else is allowed
+// in them.
 #include "app/interrupt.h"
 
 #include "app/exit_status.h"
+#include "app/last_moments.h"
 #include "core/check.h"
 
 #include <array>
@@ -17,22 +19,24 @@ namespace {
 
 constexpr std::array watched_signals = {SIGINT, SIGTERM, SIGHUP};
 
-/// One Ctrl-C may arrive twice at once: from the terminal, and from a wrapper such as timeout(1)
-/// that passes it on. A second press of the key comes later than this.
+/// A single Ctrl-C may send two signals at almost the same time, from the terminal and from a
+/// wrapper such as timeout(1). A user needs more time than this to press the key twice.
 constexpr std::int64_t least_milliseconds_between = 200;
 
-// A signal handler receives only a number, so what it changes must be global. These three and those
-// of TimeLimit are the only global variables of the program, and all are lock-free.
+// A signal handler receives only a number, so everything that it changes must be global. These
+// three variables, those of TimeLimit and LastMoments, and the slots of temporary files are the
+// program's only global variables. All are lock-free.
 std::atomic<std::atomic<bool>*> cancel_flag{nullptr};
 std::atomic<int> received{0};
-std::atomic<std::int64_t> interrupted_at{0};  ///< Time of the first SIGINT in ms; 0 for none.
+/// The time of the first SIGINT in milliseconds. 0 if there was none.
+std::atomic<std::int64_t> interrupted_at{0};
 static_assert(std::atomic<std::atomic<bool>*>::is_always_lock_free);
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 static_assert(std::atomic<std::int64_t>::is_always_lock_free);
 
 std::int64_t milliseconds_now() {
     timespec now = {};
-    clock_gettime(CLOCK_MONOTONIC, &now);  // Async-signal-safe.
+    clock_gettime(CLOCK_MONOTONIC, &now);  // This function is async-signal-safe.
     return std::int64_t{now.tv_sec} * 1000 + now.tv_nsec / 1000000 + 1;
 }
 
@@ -47,6 +51,7 @@ extern "C" void on_signal(int signal) {
     }
     int none = 0;
     received.compare_exchange_strong(none, signal);
+    if (signal != SIGINT) begin_last_moments(exit_status::signal_base + signal);
     if (std::atomic<bool>* const flag = cancel_flag.load()) flag->store(true);
 }
 
@@ -67,7 +72,7 @@ InterruptGuard::InterruptGuard(std::atomic<bool>& cancel) : saved_(std::make_uni
     action.sa_flags = SA_RESTART;
     for (std::size_t k = 0; k < watched_signals.size(); ++k) {
         sigaction(watched_signals[k], nullptr, &saved_->actions[k]);
-        // A signal that the parent process ignores (nohup, a background job) stays ignored.
+        // A signal that the parent process ignores (nohup, a background job) remains ignored.
         if (saved_->actions[k].sa_handler == SIG_IGN) continue;
         sigaction(watched_signals[k], &action, nullptr);
     }
@@ -83,7 +88,7 @@ InterruptGuard::~InterruptGuard() {
 int InterruptGuard::signal() const { return received.load(); }
 
 void stay_on_interrupt() {
-    // Not SIG_IGN: InterruptGuard would leave it ignored.
+    // SIG_IGN would be wrong here, because InterruptGuard leaves ignored signals ignored.
     struct sigaction action = {};
     action.sa_handler = [](int) {};
     sigemptyset(&action.sa_mask);

@@ -1,4 +1,4 @@
-// Ctrl-C: the first one ends the run after a complete step, the second one ends the program.
+// Ctrl-C: the first press ends the run after a complete step, and the second one ends the program.
 #pragma once
 
 #include <atomic>
@@ -6,8 +6,9 @@
 
 namespace cascade {
 
-/// While it exists, SIGINT, SIGTERM and SIGHUP set `cancel`; a second SIGINT, at least 0.2 s after
-/// the first, ends the program at once with status 130. Only one may exist at a time.
+/// As long as this object exists, SIGINT, SIGTERM and SIGHUP set `cancel`. A second SIGINT at least
+/// 0.2 s after the first ends the program at once with status 130. Only one such object may exist
+/// at a time.
 class InterruptGuard {
 public:
     explicit InterruptGuard(std::atomic<bool>& cancel);
@@ -15,7 +16,7 @@ public:
     InterruptGuard(const InterruptGuard&) = delete;
     InterruptGuard& operator=(const InterruptGuard&) = delete;
 
-    /// The signal that arrived, 0 if none.
+    /// The signal that has arrived. 0 if none has.
     int signal() const;
 
 private:
@@ -23,12 +24,12 @@ private:
     std::unique_ptr<Saved> saved_;
 };
 
-/// From now on SIGINT does nothing while no InterruptGuard exists: Ctrl-C does not leave the
-/// prompt.
+/// From now on, SIGINT has no effect while no InterruptGuard exists, so that Ctrl-C does not end a
+/// session at the prompt.
 void stay_on_interrupt();
 
-/// Writing to a closed pipe, or beyond the file size limit, becomes an error of the write instead
-/// of a signal that ends the program.
+/// From now on, a write to a closed pipe or beyond the limit of the file size fails, instead of
+/// causing a signal that ends the program.
 void take_signals_of_writes_as_errors();
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Places are lines and columns from 1, as in messages.
+// Positions are given as lines and columns, counted from 1, as in messages.
 #include "app/json_answer.h"
 
 #include "core/version.h"
@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A place, as members of a message.
+/// Adds a position in a script to a message, as JSON members.
 void add_place(Json& message, const Sources& sources, Span span) {
     const Source& source = sources[span.source];
     const Location begin = source.locate(span.begin), end = source.locate(span.end);
@@ -49,7 +49,7 @@ std::string JsonAnswer::text(int status) const {
     all.update(results_);
     all["messages"] = messages_;
     all["text"] = text_;
-    // Names of files may be no UTF-8.
+    // File names may contain bytes that are not UTF-8.
     return all.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -1,4 +1,5 @@
-// The answer of a command with --json: one object for all of its output, also if it fails.
+// The answer of a command with --json. It is one JSON object with all output, whether the command
+// succeeds or fails.
 #pragma once
 
 #include "core/result.h"
@@ -15,16 +16,16 @@ class JsonAnswer {
 public:
     explicit JsonAnswer(std::string_view command) : command_(command) {}
 
-    /// A message without a place.
+    /// Adds a message without a position in a script.
     void add(std::string_view severity, std::string_view message, std::string_view hint = "");
-    /// The diagnostics of a script, with their places.
+    /// Adds the diagnostics of a script, with their positions.
     void add(const Script& script);
-    /// A part of what is printed without --json.
+    /// Adds a part of the text that would be printed without --json.
     void print(std::string_view text) { text_ += text; }
-    /// The result of the command: a member of the answer.
+    /// A result of the command, which becomes a member of the JSON object.
     nlohmann::ordered_json& operator[](const std::string& member) { return results_[member]; }
 
-    /// The whole answer.
+    /// The whole answer as text.
     std::string text(int status) const;
 
 private:

@@ -1,6 +1,8 @@
-// Time by setitimer() and SIGALRM, memory by RLIMIT_DATA with an allowance for the program itself.
+// Limits time by setitimer() and SIGALRM, and memory by RLIMIT_DATA.
 #include "app/limits.h"
 
+#include "app/exit_status.h"
+#include "app/last_moments.h"
 #include "core/check.h"
 #include "core/parallel.h"
 
@@ -13,14 +15,16 @@ namespace cascade {
 
 namespace {
 
-// What the signal handler changes must be global.
+// These variables are global because the signal handler changes them.
 std::atomic<std::atomic<bool>*> limited{nullptr};
 std::atomic<bool> is_reached{false};
 static_assert(std::atomic<std::atomic<bool>*>::is_always_lock_free);
 
 extern "C" void on_alarm(int) {
     std::atomic<bool>* const cancel = limited.load();
-    if (cancel && !cancel->exchange(true)) is_reached = true;
+    if (!cancel || cancel->exchange(true)) return;
+    is_reached = true;
+    begin_last_moments(exit_status::time_limit);
 }
 
 void set_timer(double seconds) {
@@ -61,7 +65,8 @@ bool TimeLimit::reached() const { return is_set_ && is_reached; }
 
 void limit_memory(std::uint64_t bytes) {
     if (bytes == 0) return;
-    // The stacks of threads count in full, used or not.
+    // An allowance for the program itself. The system counts the whole stack of each thread,
+    // whether the thread uses it or not.
     constexpr std::uint64_t for_the_program = std::uint64_t{256} << 20;
     constexpr std::uint64_t for_a_thread = std::uint64_t{16} << 20;
     rlimit limit = {};
@@ -69,8 +74,9 @@ void limit_memory(std::uint64_t bytes) {
     const rlim_t wanted =
         bytes + for_the_program + static_cast<std::uint64_t>(hardware_threads()) * for_a_thread;
     limit.rlim_cur = limit.rlim_max == RLIM_INFINITY ? wanted : std::min(wanted, limit.rlim_max);
-    setrlimit(RLIMIT_DATA, &limit);  // May fail where the system has no such limit; runs are
-                                     // checked before they start anyway.
+    // This may fail on a system without such a limit. The memory of a run is estimated before the
+    // run starts in any case.
+    setrlimit(RLIMIT_DATA, &limit);
 }
 
 }  // namespace cascade

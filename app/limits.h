@@ -1,4 +1,4 @@
-// --limit-time and --limit-memory.
+// Implements the options --limit-time and --limit-memory.
 #pragma once
 
 #include <atomic>
@@ -7,8 +7,9 @@
 
 namespace cascade {
 
-/// Sets `cancel` `seconds` after its construction, unless it is destroyed before; 0 is no limit.
-/// Only one may exist at a time. It uses a system timer, since creating a thread may be denied.
+/// Sets `cancel` after a number of seconds, unless this object is destroyed before. 0 means no
+/// limit. The program's last moments begin then. Only one such object may exist at a time. Uses a
+/// system timer, because creating a thread may be forbidden.
 class TimeLimit {
 public:
     TimeLimit(double seconds, std::atomic<bool>& cancel);
@@ -16,7 +17,7 @@ public:
     TimeLimit(const TimeLimit&) = delete;
     TimeLimit& operator=(const TimeLimit&) = delete;
 
-    /// True if the time ran out before anything else set `cancel`.
+    /// Whether the time ran out before anything else set `cancel`.
     bool reached() const;
 
 private:
@@ -24,9 +25,9 @@ private:
     struct sigaction before_ = {};
 };
 
-/// --limit-memory as a backstop: the system gives this process at most `bytes` plus an allowance
-/// for code, compiler and threads; 0 is no limit. The needs of a run are estimated before it starts
-/// (run/stage/memory.h); this covers everything else.
+/// Limits the memory of this process to `bytes`, plus an allowance for code, compiler and threads.
+/// 0 means no limit. The memory for the planes of a run is estimated before the run starts
+/// (run/stage/memory.h). This limit applies to all memory.
 void limit_memory(std::uint64_t bytes);
 
 }  // namespace cascade

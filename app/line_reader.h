@@ -1,4 +1,5 @@
-// Input lines: with editing, history and completion at a terminal, plain from a pipe.
+// Reads input lines. In a terminal, they can be edited and completed, and earlier lines can be
+// recalled.
 #pragma once
 
 #include <filesystem>
@@ -12,11 +13,11 @@ namespace cascade {
 struct TypedLine {
     enum class Kind {
         line,
-        cancelled,  ///< Ctrl-C: drops the unfinished input.
-        end,        ///< Ctrl-D, or the end of the pipe.
+        cancelled,  ///< The user has pressed Ctrl-C, which discards the unfinished input.
+        end,        ///< The user has pressed Ctrl-D, or the pipe has ended.
     };
     Kind kind = Kind::end;
-    std::string text;  ///< Without its newline.
+    std::string text;  ///< Without the newline.
 };
 
 class LineReader {
@@ -25,18 +26,19 @@ public:
     virtual TypedLine read(const std::string& prompt) = 0;
 };
 
-/// All names that may start the word at the end of `line`; called at each completion.
+/// Returns the names that may complete the word at the end of `line`. Called for each completion.
 using NamesToComplete = std::function<std::vector<std::string>(const std::string& line)>;
 
-/// Reads with libedit from standard input. The history is loaded from `history`, and each line is
-/// appended to it; an empty path keeps none.
+/// Makes a reader of standard input with libedit. The history is loaded from the file `history`,
+/// and each line is appended to that file. With an empty path there is no history.
 std::unique_ptr<LineReader> make_edit_reader(const std::filesystem::path& history,
                                              NamesToComplete names);
 
-/// Reads from a file descriptor, without prompts.
+/// Makes a reader of a file descriptor that shows no prompts.
 std::unique_ptr<LineReader> make_plain_reader(int descriptor);
 
-/// $XDG_STATE_HOME/cascade/history, or ~/.local/state/cascade/history; empty without a home folder.
+/// $XDG_STATE_HOME/cascade/history or ~/.local/state/cascade/history. Empty if the user has no home
+/// folder.
 std::filesystem::path history_path();
 
 }  // namespace cascade

@@ -1,16 +1,15 @@
-// The program `cascade`: parses the options and runs a command.
+// The program `cascade`. Parses the options and runs a command.
 
 #include "app/commands.h"
 #include "app/exit_status.h"
 #include "app/interrupt.h"
 #include "app/limits.h"
 #include "app/options.h"
+#include "app/unexpected.h"
 
 #include <algorithm>
 #include <array>
 #include <clocale>
-#include <exception>
-#include <new>
 #include <string>
 #include <vector>
 
@@ -25,7 +24,7 @@ int run_chosen(const cascade::Options& options, cascade::Console& console) {
     return cascade::exit_status::bug;
 }
 
-/// Whether a wrong use of the command line is to be answered in JSON, too.
+/// Whether an error in the command line should be reported in JSON, too.
 bool wants_json(const std::vector<std::string>& arguments) {
     constexpr std::array commands = {"check", "mesh", "run", "sweep", "systems"};
     return !arguments.empty() &&
@@ -36,7 +35,8 @@ bool wants_json(const std::vector<std::string>& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    // For libedit, which asks the locale for the encoding; numbers are read and written without it.
+    // libedit finds the encoding through the locale. Numbers are read and written independently of
+    // the locale.
     std::setlocale(LC_CTYPE, "");
     cascade::take_signals_of_writes_as_errors();
     auto console = cascade::Console::standard();
@@ -57,13 +57,7 @@ int main(int argc, char** argv) {
         const auto& options = std::get<cascade::Options>(parsed);
         cascade::limit_memory(options.run.simulation.memory_limit);
         return console.finish(run_chosen(options, console));
-    } catch (const std::bad_alloc&) {
-        console.fail({"there is not enough memory",
-                      "a smaller grid, or fewer cells, need less; --limit-memory may allow more"});
-        return console.finish(cascade::exit_status::failed_run);
-    } catch (const std::exception& error) {
-        console.fail({std::string("this should not have happened: ") + error.what(),
-                      "it is a bug in Cascade"});
-        return console.finish(cascade::exit_status::bug);
+    } catch (...) {
+        return console.finish(cascade::tell_of_exception(console));
     }
 }

@@ -1,8 +1,10 @@
-// `cascade mesh`: describes 3-D models and writes them, repaired, refined, simplified or unwrapped.
+// The command `cascade mesh` describes 3-D models, and writes them repaired, refined, simplified or
+// unwrapped.
 #include "app/commands.h"
 #include "app/exit_status.h"
 #include "app/interrupt.h"
 #include "app/json_answer.h"
+#include "app/last_moments.h"
 #include "core/enough_memory.h"
 #include "core/file_format.h"
 #include "run/domain/describe_model.h"
@@ -16,14 +18,14 @@ namespace cascade {
 
 namespace {
 
-/// Describes one model after the other.
+/// Describes and writes one model after the other.
 class MeshCommand {
 public:
     MeshCommand(const Options& options, Console& console, std::optional<CellOptions> cells,
                 const std::atomic<bool>& cancel)
         : options_(options), console_(console), cells_(std::move(cells)), cancel_(cancel) {}
 
-    /// Nothing is printed of a model that fails.
+    /// Describes a model. Prints nothing if the model cannot be used.
     Result<void> describe(const std::string& model) {
         auto made = read_and_repair(model, options_.overrides.reads);
         if (!made) return tl::unexpected(made.error());
@@ -60,7 +62,7 @@ private:
         return failure("'" + model + "': " + why.message, why.hint);
     }
 
-    /// As the options say, and writes the result.
+    /// Changes a mesh according to the options, and writes the result.
     Result<void> change(SurfaceMesh& mesh, std::vector<std::string>& lines) {
         auto reshaped =
             enough_memory_for([&] { return reshape(mesh, options_.reshaping, cancel_); },
@@ -88,7 +90,7 @@ private:
     Team team_{hardware_threads()};
 };
 
-/// What is wrong with the options, or nothing.
+/// An error if options contradict each other. Otherwise empty.
 std::optional<Failure> misuse(const Options& options) {
     const bool spreads = options.cells && options.cells->kind == CellKind::places;
     if (options.cell_seed && !spreads) {
@@ -115,6 +117,9 @@ int mesh_command(const Options& options, Console& console) {
     std::optional<CellOptions> cells = options.cells;
     if (options.cell_seed) cells->seed = *options.cell_seed;
     std::atomic<bool> cancel = false;
+    std::atomic<bool> hurry = false;
+    const std::atomic<bool> may_end = true;
+    const LastMoments last(0, hurry, may_end);
     const InterruptGuard interrupt(cancel);
     MeshCommand command(options, console, cells, cancel);
     int status = exit_status::success;

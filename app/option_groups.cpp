@@ -1,4 +1,4 @@
-// Each function adds one group of options to a command; tests/help_test.sh checks the help texts.
+// Each function adds a group of options to a command. tests/help_test.sh checks the help texts.
 #include "app/option_groups.h"
 
 #include "app/add_value.h"
@@ -43,7 +43,7 @@ void add_simulation(CLI::App& app, Options& options, const std::string& threads)
                   simulation.lanes = lanes == "4" ? 4 : lanes == "8" ? 8 : 16;
               })
         ->group(group);
-    // For tests and fuzzers; not shown by --help.
+    // This option is for tests and fuzzers, so --help does not show it.
     add_value(app, "--tiling", "LEVELS,LAYER", "How steps go through memory", parse_tiling,
               [&](const Tiling& tiling) { simulation.tiling = tiling; })
         ->group("");
@@ -80,7 +80,7 @@ void add_mesh(CLI::App& app, Options& options) {
               "model's faces or points, and describe them",
               parse_cells, [&](const CellOptions& cells) { options.cells = cells; })
         ->group("Cells");
-    add_value(app, "--seed", "N", "The seed of the cells' random places (with --cells N)",
+    add_value(app, "--seed", "N", "The seed of the cells' random positions (with --cells N)",
               whole_number(0, 4294967295),
               [&](auto seed) { options.cell_seed = static_cast<std::uint32_t>(seed); })
         ->group("Cells");
@@ -88,6 +88,21 @@ void add_mesh(CLI::App& app, Options& options) {
 
 void add_timing(CLI::App& app, Options& options) {
     app.add_flag("--timing", options.timing, "Print a table of where the time went")
+        ->group(execution_group);
+}
+
+void add_ranks(CLI::App& app, Options& options) {
+    add_value(app, "--ranks", "N", "Share the steps among N processes, which mpiexec starts",
+              whole_number(1, 100000), [&](auto ranks) { options.ranks = static_cast<int>(ranks); })
+        ->group(execution_group);
+}
+
+void add_device(CLI::App& app, Options& options) {
+    add_value(
+        app, "--device", "gpu|N|list",
+        "Take steps on a device by OpenCL: the first graphics\nprocessor, or number N of 'list'",
+        parse_device, [&](auto device) { options.device = device; })
+        ->excludes("--ranks")
         ->group(execution_group);
 }
 

@@ -1,5 +1,5 @@
-// Groups of options that commands share (internal: this header includes CLI11, whose headers take
-// seconds to compile).
+// Groups of options that several commands have. Only files that define options may include this
+// header, because it includes CLI11, whose headers take seconds to compile.
 #pragma once
 
 #include "app/options.h"
@@ -17,16 +17,19 @@ inline constexpr const char* execution_group =
 void add_script(CLI::App& app, Options& options, const std::string& help);
 void add_allow_read(CLI::App& app, ReadAccess& reads, const std::string& about);
 void add_overrides(CLI::App& app, Overrides& overrides);
-/// Of `cascade run`, or those of them that `cascade sweep` has, too.
+/// Adds the picture options of `cascade run`, or only those that `cascade sweep` has, too.
 void add_picture_options(CLI::App& app, PictureChanges& picture, bool is_sweep = false);
 void add_files(CLI::App& app, RunRequest& run);
-/// The rows of run_options.def from the first to the last.
+/// Adds the options of run_options.def from `first` to `last`.
 void add_run_options(CLI::App& app, RunRequest& run, RunOption first, RunOption last);
-/// Options of all commands that take steps: backend, threads (`threads` is their help text), lanes.
+/// Adds the options of all commands that take steps: backend, threads and lanes. `threads` is the
+/// help text of the option --threads.
 void add_simulation(CLI::App& app, Options& options, const std::string& threads);
-/// Models, and the cells to make on them.
+/// Adds the arguments and options of `cascade mesh` for models and the cells on them.
 void add_mesh(CLI::App& app, Options& options);
 void add_timing(CLI::App& app, Options& options);
+void add_ranks(CLI::App& app, Options& options);
+void add_device(CLI::App& app, Options& options);
 void add_limits(CLI::App& app, Options& options);
 void add_quiet(CLI::App& app, Options& options);
 void add_dump(CLI::App& app, Options& options);

@@ -1,4 +1,4 @@
-// Options of pictures and runs, and of what changes a script, from their tables.
+// The options of pictures, of runs and of scripts, made from their tables.
 #include "app/add_value.h"
 #include "app/help.h"
 #include "app/option_groups.h"
@@ -27,15 +27,16 @@ std::vector<std::string> palette_names() {
     return names;
 }
 
-/// How the values of both tables are typed: functions of a text, or one of the following.
+/// How the values of options in all three tables are parsed. Each is a function of a text, or one
+/// of the following objects.
 namespace typed_values {
 
-/// An option without a value, which sets this one.
+/// For an option without an argument, which sets a constant.
 template <typename T>
 struct Constant {
     T value;
 };
-/// Texts of an option that may be given again.
+/// For an option that may be given several times. Each adds a text.
 struct Texts {};
 
 template <typename T>
@@ -66,7 +67,7 @@ auto degrees(float, float) { return parse_fov; }
 auto part_of_model(float, float) { return parse_bump; }
 auto background() { return background_named; }
 
-/// One of some words, as the value that it names.
+/// Parses one of several words, and converts it to the value with that name.
 template <typename Named>
 auto named(std::vector<std::string> words, Named value_of) {
     return [known = one_of(std::move(words)), value_of](const std::string& text) {
@@ -86,7 +87,7 @@ auto precision() {
     return word_of(std::array{name_of(Precision::single), name_of(Precision::binary64)},
                    precision_of_name);
 }
-/// `imex2` is taken as in scripts, though no longer listed (solver_of()).
+/// `imex2` is accepted as in scripts (see solver_of()), but not listed.
 auto solver() {
     std::vector<std::string> names = solver_names();
     names.emplace_back("imex2");
@@ -139,13 +140,13 @@ CLI::Option* add_row(CLI::App& app, const std::string& flag, const std::string& 
     return app.add_option(flag, member, help)->allow_extra_args(false)->type_name(value);
 }
 
-/// Of the name of a member.
+/// The name of the option that sets the member `name`.
 std::string flag_of(std::string name) {
     std::replace(name.begin(), name.end(), '_', '-');
     return "--" + name;
 }
 
-/// What the table does not say: options that need or exclude another one.
+/// Says which options need or exclude others, because the tables do not contain this.
 void relate(CLI::App& app) {
     const auto find = [&](const char* flag) { return app.get_option_no_throw(flag); };
     for (const auto& [flag, needed] :

@@ -27,6 +27,11 @@ void add_sweep(CLI::App& app, Options& options) {
         "A table of parameter sets: names in its first line, and a\nrow of numbers for each run",
         any_text, [&](auto path) { options.sweep_sets = path; })
         ->group(varied);
+    add_value(app, "--seeds", "FIRST..LAST",
+              "Repeat every run with these seeds, or with a list 3,7,12;\nensembles.csv has means "
+              "with their 95 % intervals",
+              parse_seeds, [&](auto seeds) { options.sweep_seeds = std::move(seeds); })
+        ->group(varied);
     const std::string files = "Files";
     add_value(app, "-o,--output", "FOLDER",
               "Folder of the results; without it SCRIPT_sweep in this folder", parse_folder,
@@ -45,9 +50,29 @@ void add_sweep(CLI::App& app, Options& options) {
               path_of(FormatKind::film), [&](auto path) { sweep.film = path; })
         ->group(files);
     add_run_options(app, options.run, RunOption::fps, RunOption::seconds);
+    app.add_option("--curve", sweep.curves,
+                   "Draw a feature over the first varied name, as FEATURE.svg;\nmay be given again")
+        ->allow_extra_args(false)
+        ->type_name("FEATURE")
+        ->group(files);
     app.add_flag("--fields", sweep.fields, "Save every field of every run, to read or to resume")
         ->group(files);
     app.add_flag("--force", sweep.force, "Repeat runs of an earlier sweep")->group(files);
+    const std::string divided = "Many processes";
+    add_value(app, "--part", "K/N",
+              "Take the K-th of N parts of the runs; the same command\n"
+              "without it draws the sheet when all parts are done",
+              parse_part, [&](auto part) { sweep.part = part; })
+        ->group(divided);
+    app.add_option_function<std::vector<std::string>>(
+           "--gather",
+           [&](const std::vector<std::string>& folders) {
+               sweep.gathered.assign(folders.begin(), folders.end());
+           },
+           "Copy the results that this folder of another sweep holds;\nmay be given again")
+        ->allow_extra_args(false)
+        ->type_name("FOLDER")
+        ->group(divided);
 }
 
 }  // namespace cascade::option_groups

@@ -1,4 +1,5 @@
-// Numbers are read by from_chars(), which ignores the locale, and must use up the whole text.
+// from_chars() reads numbers, because it ignores the locale. A number must extend over the whole
+// text.
 #include "app/option_values.h"
 
 #include "core/file_format.h"
@@ -19,7 +20,7 @@ namespace cascade {
 
 namespace {
 
-/// True if all of `text` is a number.
+/// Reads a number. Returns false unless the number extends over the whole text.
 template <typename Number>
 bool read_all(std::string_view text, Number& number) {
     const char* const end = text.data() + text.size();
@@ -27,7 +28,7 @@ bool read_all(std::string_view text, Number& number) {
     return error == std::errc() && stop == end;
 }
 
-/// Two numbers with a comma between them.
+/// Reads two numbers with a comma between them.
 bool read_two(std::string_view text, float& first, float& second) {
     const std::size_t comma = text.find(',');
     return comma != std::string_view::npos && read_all(text.substr(0, comma), first) &&
@@ -43,7 +44,7 @@ Result<std::int64_t> parse_whole(std::string_view text, std::int64_t low, std::i
 }
 
 Result<GridSize> parse_grid(std::string_view text) {
-    // Numbers of cells that are too large are refused later, with a message about the grid.
+    // A grid that is too large is refused later, with a message about the grid.
     constexpr std::int64_t largest = std::numeric_limits<std::int32_t>::max();
     std::array<std::int64_t, 3> sides{1, 1, 1};
     std::size_t begin = 0;
@@ -80,7 +81,7 @@ Result<Slice> parse_slice(std::string_view text) {
         return slice;
     }
     return failure(fmt::format("'{}' is not a slice", text),
-                   "write an axis and a place from 0 to 1, as in --slice z=0.5");
+                   "write an axis and a position from 0 to 1, as in --slice z=0.5");
 }
 
 Result<ValueRange> parse_range(std::string_view text) {
@@ -93,11 +94,11 @@ Result<ValueRange> parse_range(std::string_view text) {
 Result<View> parse_view(std::string_view text) {
     View view;
     if (read_two(text, view.azimuth, view.elevation) && makes_sense(view)) return view;
-    return failure(fmt::format("'{}' is not a place to look from", text),
+    return failure(fmt::format("'{}' is not a direction to look from", text),
                    "write degrees around (-360 to 360) and above (-89 to 89), as in --view 30,25");
 }
 
-/// "3x2", or "3" for both.
+/// Reads "3x2", or "3" for both numbers.
 std::optional<std::array<std::int64_t, 2>> parse_sides(std::string_view text,
                                                        std::int64_t largest) {
     const std::size_t cross = text.find('x');
@@ -109,7 +110,7 @@ std::optional<std::array<std::int64_t, 2>> parse_sides(std::string_view text,
 }
 
 Result<PictureSize> parse_picture_size(std::string_view text) {
-    // Pictures that are too large are refused later, when the scale is known.
+    // A picture that is too large is refused later, when the scale is known.
     constexpr std::int64_t largest = std::numeric_limits<std::int32_t>::max();
     if (const auto sides = parse_sides(text, largest)) return PictureSize{(*sides)[0], (*sides)[1]};
     return failure(fmt::format("'{}' is not the size of a picture", text),
@@ -120,7 +121,7 @@ Result<PictureCopies> parse_copies(std::string_view text) {
     if (const auto sides = parse_sides(text, most_copies)) {
         return PictureCopies{static_cast<int>((*sides)[0]), static_cast<int>((*sides)[1])};
     }
-    return failure(fmt::format("'{}' is no number of copies", text),
+    return failure(fmt::format("'{}' is not a number of copies", text),
                    fmt::format("write copies across x down, each 1 to {}, as in --copies 2x2",
                                most_copies));
 }
@@ -151,6 +152,14 @@ Result<Tiling> parse_tiling(std::string_view text) {
     return Tiling{static_cast<int>(*levels), *layer};
 }
 
+Result<std::string> parse_device(std::string_view text) {
+    if (text == "list" || text == "gpu" || text == "cpu" || parse_whole(text, 0, 999)) {
+        return std::string(text);
+    }
+    return failure(fmt::format("'{}' is not a device", text),
+                   "write gpu, or a number that 'cascade run --device list' shows");
+}
+
 Result<StopAt> parse_stop_at(std::string_view text) {
     const std::size_t colon = text.rfind(':');
     if (colon != std::string_view::npos && colon > 0) {
@@ -160,6 +169,20 @@ Result<StopAt> parse_stop_at(std::string_view text) {
     }
     return failure(fmt::format("'{}' is not a place to stop at", text),
                    "write STAGE:STEP, as in --stop-at stage2:3000");
+}
+
+Result<SweepPart> parse_part(std::string_view text) {
+    const std::size_t slash = text.find('/');
+    if (slash != std::string_view::npos) {
+        constexpr auto most = static_cast<std::int64_t>(most_runs);
+        const auto count = parse_whole(text.substr(slash + 1), 1, most);
+        const auto number = parse_whole(text.substr(0, slash), 1, count ? *count : most);
+        if (count && number) {
+            return SweepPart{static_cast<std::size_t>(*number), static_cast<std::size_t>(*count)};
+        }
+    }
+    return failure(fmt::format("'{}' is not a part of a sweep", text),
+                   "write K/N, as in --part 3/100 for the third of 100 parts");
 }
 
 Result<double> parse_time(std::string_view text) {
@@ -191,7 +214,7 @@ struct Unit {
     double size = 1;
 };
 
-/// A number with an optional unit; a unit with an empty name stands for none.
+/// Reads a number with a unit. If the text has no unit, the unit whose name is empty applies.
 std::optional<double> read_with_unit(std::string_view text, std::span<const Unit> units) {
     const std::size_t digits = std::min(text.find_first_not_of("0123456789."), text.size());
     double number = 0;
@@ -273,17 +296,17 @@ Result<float> parse_bump(std::string_view text) {
     float bump = 0;
     if (read_all(text, bump) && std::abs(bump) <= 1) return bump;
     return failure(fmt::format("'{}' is not a number from -1 to 1", text),
-                   "it is a part of the model's longest side, as in --bump 0.02");
+                   "give a fraction of the model's longest side, as in --bump 0.02");
 }
 
 Result<std::string> parse_output_path(std::string_view text) {
     if (output_kind(std::filesystem::path(text))) return std::string(text);
     if (is_called_like_a_movie(std::filesystem::path(text))) {
-        return failure(fmt::format("'{}' is a film in a format that is not written", text),
+        return failure(fmt::format("'{}' is a film in a format that Cascade cannot write", text),
                        "the endings of films are " + endings_of(FormatKind::film, "and"));
     }
     if (is_of_kind(text, FormatKind::volume)) {
-        return failure(fmt::format("'{}' is a volume, and -o writes what is seen of it", text),
+        return failure(fmt::format("'{}' is a volume, but -o writes pictures of it", text),
                        fmt::format("--volume {} writes it", text));
     }
     const std::string ending = lower_ending(std::filesystem::path(text));
@@ -293,7 +316,7 @@ Result<std::string> parse_output_path(std::string_view text) {
                        "fields over time, --log EXPR a table of numbers over time");
     }
     return failure(
-        fmt::format("'{}' has no ending of a file that can be written", text),
+        fmt::format("the ending of '{}' is not that of a file that can be written", text),
         fmt::format("{} is a picture, {} a figure with axes; {} are films; on a model, {} are "
                     "models, {} their cells",
                     endings_of(FormatKind::picture), endings_of(FormatKind::figure, "or"),
@@ -306,10 +329,18 @@ Result<std::string> any_text(std::string_view text) {
     return std::string(text);
 }
 
+bool has_ending_of_file(const std::filesystem::path& path) {
+    static constexpr std::array<std::string_view, 6> not_written = {".jpg",  ".jpeg", ".tif",
+                                                                    ".tiff", ".bmp",  ".txt"};
+    return find_format(path) != nullptr ||
+           std::ranges::find(not_written, lower_ending(path)) != not_written.end();
+}
+
 Result<std::string> parse_folder(std::string_view text) {
     const std::filesystem::path path(text);
-    if (!output_kind(path)) return any_text(text);
-    return failure(fmt::format("'{}' has the ending of a file, and a folder is written", text),
+    if (!has_ending_of_file(path)) return any_text(text);
+    return failure(fmt::format("'{}' has the ending of a file, but this option writes a folder",
+                               text),
                    fmt::format("write {}, or {}/ for a folder of that name",
                                (path.parent_path() / path.stem()).string(), text));
 }
@@ -317,7 +348,7 @@ Result<std::string> parse_folder(std::string_view text) {
 Result<std::string> parse_frames_folder(std::string_view text) {
     const bool is_number = !text.empty() && text.find_first_not_of("0123456789") == text.npos;
     if (!is_number) return std::string(text);
-    return failure(fmt::format("a folder is missing, and '{}' is a number", text),
+    return failure(fmt::format("the name of a folder is missing before the number '{}'", text),
                    fmt::format("the stage's 'interval' says how many frames there are; the folder "
                                "./{} can be named so",
                                text));

@@ -1,4 +1,4 @@
-// Parsers for values of command-line options. Failures say what the option takes.
+// Parsers for the values of command-line options. A failure says which values the option accepts.
 #pragma once
 
 #include "core/file_format.h"
@@ -6,9 +6,11 @@
 #include "picture/image.h"
 #include "picture/slice.h"
 #include "run/commands/run.h"
+#include "run/commands/sweep.h"
 #include "run/domain/describe_model.h"
 
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,72 +19,86 @@
 
 namespace cascade {
 
-/// A whole number within [low, high], written with digits only.
+/// Parses an integer from `low` to `high`, written with digits only.
 Result<std::int64_t> parse_whole(std::string_view text, std::int64_t low, std::int64_t high);
 
-/// "256x128" is 256 columns of 128 rows; "60" is one row of 60 cells.
+/// Parses a grid: "256x128" has 256 columns and 128 rows, "60" has one row of 60 cells.
 Result<GridSize> parse_grid(std::string_view text);
 
-/// "600" cells, 1 … 10⁹, spread over a surface; "faces" or "vertices" of a model.
+/// Parses the setting of cells: "600" for 1 to 10⁹ cells that are spread over a surface, or "faces"
+/// or "vertices" for a cell on each face or vertex of a model.
 Result<CellOptions> parse_cells(std::string_view text);
 
-/// "z=0.5": a slice across an axis, 0 … 1 along it.
+/// Parses a slice: "z=0.5" is perpendicular to an axis, at a position 0 … 1 along it.
 Result<Slice> parse_slice(std::string_view text);
 
-/// "0,8": two different finite numbers. If the first is larger the palette is reversed.
+/// Parses two different finite numbers, "0,8". If the first number is larger, the palette is
+/// reversed.
 Result<ValueRange> parse_range(std::string_view text);
 
-/// "30,25": degrees around, −360 … 360, and above the horizon, −89 … 89.
+/// Parses a direction of view, "30,25": an angle around the object, −360 … 360 degrees, and the
+/// angle above the horizon, −89 … 89 degrees.
 Result<View> parse_view(std::string_view text);
-/// "1920x1080"; each at least 1.
+/// Parses the size of a picture, "1920x1080". Each number is at least 1.
 Result<PictureSize> parse_picture_size(std::string_view text);
 Result<PictureCopies> parse_copies(std::string_view text);
-/// Degrees, 1 … 120.
+/// Parses a field of view in degrees, 1 … 120.
 Result<float> parse_fov(std::string_view text);
 Result<double> parse_texels(std::string_view text);
 
-/// "large:12000": a stage and a number of steps.
+/// Parses the choice of a device: "gpu", "cpu", a number, or "list".
+Result<std::string> parse_device(std::string_view text);
+/// Parses a stage and a number of steps, "large:12000".
 Result<StopAt> parse_stop_at(std::string_view text);
-/// "4,2": tiles of four steps, two rows or slices a layer; "1,1": no tiling.
+/// Parses "3/100", the third of a hundred parts of a sweep.
+Result<SweepPart> parse_part(std::string_view text);
+/// Parses a tiling. "4,2" has tiles of four steps, and layers of two rows or slices. "1,1" has
+/// no tiles.
 Result<Tiling> parse_tiling(std::string_view text);
 
-/// "10": a time of a run, more than 0.
+/// Parses a time of a run, "10", which must be above 0.
 Result<double> parse_time(std::string_view text);
-/// "1,2,5,10": times that rise.
+/// Parses ascending times, "1,2,5,10".
 Result<std::vector<double>> parse_times(std::string_view text);
 
-/// "90s", "20m", "1.5h", "2d" or "90": seconds, more than 0 and at most ten years.
+/// Parses a duration in seconds: "90s", "20m", "1.5h", "2d" or "90". It must be above 0 and at most
+/// ten years.
 Result<double> parse_duration(std::string_view text);
-/// "0.5", "2s": seconds to measure for, 0.001 … 3600.
+/// Parses seconds for measuring, "0.5" or "2s", 0.001 … 3600.
 Result<double> parse_measuring_time(std::string_view text);
-/// "12.5": frames of a film in a second.
+/// Parses the frames per second of a film, "12.5".
 Result<double> parse_frame_rate(std::string_view text);
-/// "8", "2m": seconds that a film lasts, 0.1 … 3600.
+/// Parses the length of a film in seconds, "8" or "2m", 0.1 … 3600.
 Result<double> parse_film_length(std::string_view text);
-/// "2 h", "1.5 min", "90 s".
+/// Prints a duration: "2 h", "1.5 min", "90 s".
 std::string describe_duration(double seconds);
 
-/// "500MB", "2GB", "1.5GiB", "800KB" or bytes; at least a megabyte.
+/// Parses a number of bytes: "500MB", "2GB", "1.5GiB", "800KB" or without a unit. At least a
+/// megabyte.
 Result<std::uint64_t> parse_size(std::string_view text);
 
-/// "p,q" as a list; fails if a name is empty.
+/// Parses a list of names, "p,q". Fails if a name is empty.
 Result<std::vector<std::string>> parse_names(std::string_view text);
 
-/// One of `choices`; a failure lists them and suggests the nearest one.
+/// Parses one of `choices`. A failure lists all choices and suggests the nearest one.
 Result<std::string> parse_choice(std::string_view text, std::span<const std::string> choices);
 
-/// "0.02": the largest displacement of a surface, as a part of the model's longest side, −1 … 1.
+/// Parses the largest displacement of a surface, "0.02": a fraction of the model's longest
+/// side, −1 … 1.
 Result<float> parse_bump(std::string_view text);
 
-/// The path of an output of `run -o`; see output_kind() for the endings.
+/// Parses the path of an output of `run -o`. output_kind() knows the valid endings.
 Result<std::string> parse_output_path(std::string_view text);
-/// A text that is not empty.
+/// Accepts any text that is not empty.
 Result<std::string> any_text(std::string_view text);
-/// The path of a folder that is written; it must not end as an output of `run -o` does.
+/// Does a path end as files do, of a format that Cascade writes or that newcomers may try?
+bool has_ending_of_file(const std::filesystem::path& path);
+/// Parses the path of a folder for output. It must not end as a file does.
 Result<std::string> parse_folder(std::string_view text);
-/// A folder for frames; a number alone is refused, since it was meant as the number of frames.
+/// Parses the path of a folder for frames. A number is refused, because it was probably meant as
+/// the number of frames.
 Result<std::string> parse_frames_folder(std::string_view text);
-/// The path of a file whose name ends as those of its kind do.
+/// Parses the path of a file. Its ending must belong to a format of the given kind.
 Result<std::string> parse_path_of(FormatKind kind, std::string_view text);
 
 }  // namespace cascade

@@ -1,9 +1,10 @@
-// One CLI11 application with a subcommand for each command; its errors are reworded.
+// Makes a CLI11 application with a subcommand for each command, and rewords the messages of CLI11.
 #include "app/options.h"
 
 #include "app/commands.h"
 #include "app/exit_status.h"
 #include "app/help.h"
+#include "app/manual.h"
 #include "app/option_values.h"
 #include "core/near_name.h"
 #include "lang/vocabulary/settings.h"
@@ -19,7 +20,7 @@ namespace cascade {
 
 namespace {
 
-/// Formats help: what the command does, usage, options, examples.
+/// Formats help: the purpose of the command, its usage, options and examples.
 class HelpFormatter : public CLI::Formatter {
 public:
     HelpFormatter() {
@@ -44,18 +45,18 @@ public:
     }
 };
 
-/// Everything of CLI11 in one struct, so that it is destroyed after parsing.
+/// All objects of CLI11 together, so that they are destroyed after parsing.
 struct Parser {
     CLI::App app;
     Options options;
     bool show_version = false;
 
-    /// Knows the options of those commands alone that are among the words.
+    /// Adds options only for the commands that occur among the words.
     Parser(const std::string& program, const std::vector<std::string>& words);
-    /// --help of the chosen command, or of the program if there is none.
+    /// The text of --help for the chosen command, or for the program if no command is chosen.
     std::string help();
     CLI::App* chosen();
-    /// The command as the user calls it, such as "cascade run".
+    /// The command as the user typed it, such as "cascade run".
     std::string called(const std::string& program) {
         return chosen() ? fmt::format("{} {}", program, chosen()->get_name()) : program;
     }
@@ -72,7 +73,7 @@ struct Parser {
 
 std::string Parser::help() {
     std::string text = chosen() ? chosen()->help(app.get_name()) : app.help();
-    // CLI11 leaves two empty lines between groups.
+    // CLI11 puts two empty lines between groups. This removes one of them.
     for (std::size_t at = 0; (at = text.find("\n\n\n", at)) != std::string::npos;) {
         text.erase(at, 1);
     }
@@ -82,7 +83,8 @@ std::string Parser::help() {
 Parser::Parser(const std::string& program, const std::vector<std::string>& words)
     : app(std::string(help::about), program) {
     app.formatter(std::make_shared<HelpFormatter>());
-    app.option_defaults()->disable_flag_override();  // Else --fast=0 and --fast=3 are taken.
+    // Without this, --fast=0 and --fast=3 would be accepted.
+    app.option_defaults()->disable_flag_override();
     app.set_help_flag("-h,--help", "This text; 'cascade COMMAND --help' describes a command");
     app.add_flag("-V,--version", show_version, "The version, and what it was built with");
     app.get_option("--help")->group("Options");
@@ -92,8 +94,9 @@ Parser::Parser(const std::string& program, const std::vector<std::string>& words
         CLI::App* const command = app.add_subcommand(name, std::string(entry.about));
         command->footer(std::string(entry.examples));
         command->group("Commands");
-        command->set_help_flag();  // It is added last, so that it is listed last.
-        // The options of all commands take longer to add than the program takes to start.
+        command->set_help_flag();  // It is added again at the end, so that it is listed last.
+        // Adding the options of all commands would take longer than starting the program, so only
+        // the commands that were typed get options.
         if (std::find(words.begin(), words.end(), name) == words.end()) continue;
         entry.add_options(*command, options);
         command->set_help_flag("-h,--help", "This text")->group("More");
@@ -114,7 +117,7 @@ std::string Parser::near_option(const std::string& word) {
     return nearest_name(word.substr(0, word.find('=')), names);
 }
 
-/// The first argument that looks like an option and is none.
+/// The first argument that looks like an option but is none.
 std::optional<std::string> Parser::unknown_option() const {
     for (const std::string& word : app.remaining(true)) {
         if (word.starts_with("-") && word.size() > 1) return word;
@@ -122,7 +125,8 @@ std::optional<std::string> Parser::unknown_option() const {
     return std::nullopt;
 }
 
-/// "--set F=0.05" for the value of `--set F 0.05`; empty if there is no such option.
+/// The option with its value in one word, "--set F=0.05", if the user has written `--set F 0.05`.
+/// Empty if the command has no such option.
 std::string Parser::in_one_word(const std::string& value) {
     const CLI::Option* const option = chosen()->get_option_no_throw("--set");
     if (option == nullptr || option->results().empty()) return "";
@@ -130,7 +134,8 @@ std::string Parser::in_one_word(const std::string& value) {
     return last.find('=') == std::string::npos ? fmt::format("--set {}={}", last, value) : "";
 }
 
-/// What another program's option is here; empty if there is none.
+/// The option of this program that corresponds to an option of other programs. Empty if there is
+/// none.
 std::string_view option_elsewhere(std::string_view name) {
     struct Row {
         std::string_view name, here;
@@ -147,8 +152,9 @@ std::string_view option_elsewhere(std::string_view name) {
     return {};
 }
 
-/// Describes an unknown option, since a word after it may only be its value; else the first word
-/// that no option and no argument has taken.
+/// Describes an unknown option if there is one. An unexpected word after it may only be its value,
+/// so that word is not described. If all options are known, describes the first word that no option
+/// and no argument has used.
 std::string Parser::describe_unexpected(const std::string& program) {
     const std::string where = called(program);
     if (const auto option = unknown_option()) {
@@ -182,7 +188,7 @@ std::string Parser::describe_unexpected(const std::string& program) {
     for (const CLI::App* sub : app.get_subcommands({})) names.push_back(sub->get_name());
     std::string near = nearest_name(word, names);
     if (near.empty() && word.find('.') != std::string::npos) near = "run " + word;
-    if (word == "list" || word == "examples" || word == "models" || word == "library") {
+    if (word == "list" || word == "models" || word == "library") {
         near = "systems";
     }
     if (word == "version") near = "--version";
@@ -195,7 +201,8 @@ Leave Parser::wrong_use(const std::string& program, const CLI::ParseError& error
     if (dynamic_cast<const CLI::ExtrasError*>(&error)) {
         return leave(program, describe_unexpected(program));
     }
-    // The value of an unknown option looks like an extra argument: report the option.
+    // The value of an unknown option looks like an extra argument, so the option is reported
+    // instead of the argument.
     if (unknown_option()) return leave(program, describe_unexpected(program));
     const std::string words = error.what();
     if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) && words.starts_with("--")) {
@@ -209,15 +216,18 @@ Leave Parser::wrong_use(const std::string& program, const CLI::ParseError& error
     return leave(program, fmt::format("{}: {}", called(program), words));
 }
 
-/// Names a required argument that is missing, which CLI11 cannot check; empty if there is none.
+/// The name of a required argument that is missing. Empty if none is. CLI11 cannot check this.
 std::string missing_argument(const Options& options) {
     const bool needs_script =
         options.command == Command::sweep || options.command == Command::check ||
         options.command == Command::analyze || options.command == Command::bench ||
         options.command == Command::compile || options.command == Command::format ||
         options.command == Command::export_page ||
-        (options.command == Command::run && options.run.resume.empty());
+        (options.command == Command::run && options.run.resume.empty() && options.device != "list");
     if (needs_script && options.scripts.empty()) return "a script is missing";
+    if (options.command == Command::import_model && options.scripts.empty()) {
+        return "a file or link to import is missing";
+    }
     if (options.command == Command::mesh && options.models.empty()) return "a model is missing";
     if (options.command == Command::new_script && options.words.empty()) {
         return "the name of a system is missing ('cascade systems' lists them)";
@@ -225,8 +235,8 @@ std::string missing_argument(const Options& options) {
     return "";
 }
 
-/// Removes `--`, after which no word is an option: a word that begins with '-' is a path there, so
-/// './' is put before it.
+/// Removes `--`. All words after it are arguments. If such a word begins with '-', it must be a
+/// path, and './' is put before it.
 std::vector<std::string> without_terminator(std::vector<std::string> arguments) {
     const auto mark = std::find(arguments.begin(), arguments.end(), "--");
     if (mark == arguments.end()) return arguments;
@@ -237,7 +247,39 @@ std::vector<std::string> without_terminator(std::vector<std::string> arguments) 
     return arguments;
 }
 
+/// The options of a command that --help shows, or its arguments.
+std::vector<ManualOption> describe(const CLI::App& app, bool arguments) {
+    std::vector<ManualOption> all;
+    for (const CLI::Option* option : app.get_options()) {
+        if (option->get_positional() != arguments || option->get_group().empty()) continue;
+        ManualOption& each = all.emplace_back();
+        for (const std::string& name : option->get_snames()) each.names.push_back("-" + name);
+        for (const std::string& name : option->get_lnames()) each.names.push_back("--" + name);
+        if (arguments) each.names = {option->get_name(true, false)};
+        else if (option->get_type_size() != 0) each.value = option->get_type_name();
+        each.about = option->get_description();
+        each.group = option->get_group();
+        each.is_repeatable = option->get_expected_max() > 1;
+    }
+    return all;
+}
+
 }  // namespace
+
+Manual read_manual() {
+    std::vector<std::string> names;
+    for (const CommandEntry& entry : command_table()) names.emplace_back(entry.name);
+    Parser parser("cascade", names);
+    Manual manual = {
+        std::string(help::about), std::string(help::examples), describe(parser.app, false), {}};
+    for (const CommandEntry& entry : command_table()) {
+        const CLI::App& command = *parser.app.get_subcommand(std::string(entry.name));
+        manual.commands.push_back({std::string(entry.name), std::string(entry.about),
+                                   std::string(entry.examples), describe(command, true),
+                                   describe(command, false)});
+    }
+    return manual;
+}
 
 PictureRequest apply(const PictureChanges& changes, PictureRequest request) {
 #define CASCADE_PICTURE_OPTION(type, member, ...) \
@@ -251,7 +293,7 @@ std::variant<Options, Leave> parse_options(const std::string& program,
     Parser parser(program, arguments);
     try {
         std::vector<std::string> words = without_terminator(arguments);
-        std::reverse(words.begin(), words.end());  // CLI11 takes the arguments in reverse order.
+        std::reverse(words.begin(), words.end());  // CLI11 expects the arguments in reverse order.
         parser.app.parse(std::move(words));
     } catch (const CLI::CallForHelp&) {
         return Leave{exit_status::success, parser.help()};
@@ -269,6 +311,7 @@ std::variant<Options, Leave> parse_options(const std::string& program,
     if (const std::string missing = missing_argument(options); !missing.empty()) {
         return parser.leave(program, fmt::format("{}: {}", parser.called(program), missing));
     }
+    options.arguments = arguments;
     return std::move(options);
 }
 

@@ -1,4 +1,4 @@
-// The command line as values. Only options.cpp and option_*.cpp see CLI11, since its headers take
+// The command line as values. Only options.cpp and option_*.cpp include CLI11, whose headers take
 // seconds to compile.
 #pragma once
 
@@ -30,17 +30,20 @@ enum class Command {
     bench,
     compile,
     systems,
+    examples,
     new_script,
+    import_model,
     palettes,
     format,
     mesh,
     repl,
     view,
+    lsp,
     export_page
 };
 
-/// The picture options that were given. A picture that is run again has stored options of its own,
-/// so an option that was given must be told from a default.
+/// The picture options that the user has given explicitly. When the run of a saved picture is
+/// repeated, these options replace those stored in the picture. Defaults do not.
 struct PictureChanges {
 #define CASCADE_PICTURE_OPTION(type, member, ...) std::optional<type> member;
 #include "run/script/picture_options.def"
@@ -48,7 +51,7 @@ struct PictureChanges {
 
 PictureRequest apply(const PictureChanges& changes, PictureRequest request);
 
-/// A script that is in no file.
+/// A script that was typed or read from standard input, not from a file.
 struct TypedScript {
     std::string name, text;
     std::filesystem::path folder;
@@ -57,25 +60,34 @@ struct TypedScript {
 
 struct Options {
     Command command = Command::run;
-    std::vector<std::string>
-        scripts;  ///< One, except for `check`, `bench` and `fmt`; none with --resume alone.
-    std::optional<TypedScript> typed;  ///< Stands for the script "-".
+    std::vector<std::string> arguments;  ///< The words after the program's name.
+    /// Contains one script, or several for `check`, `bench` and `fmt`. Empty if only --resume is
+    /// given.
+    std::vector<std::string> scripts;
+    std::optional<TypedScript> typed;  ///< The script that "-" means.
     Overrides overrides;
     PictureChanges picture;
-    RunRequest run;      ///< Its `picture` keeps the defaults.
-    SweepRequest sweep;  ///< Its `picture`, `simulation` and `pace` keep the defaults.
-    std::filesystem::path sweep_sets;  ///< `sweep --sets`
-    double limit_seconds = 0;          ///< `--limit-time`; 0 for none.
-    std::string dump;                  ///< The kind of dump; empty to run.
-    bool timing = false;               ///< Print how the time was spent.
-    bool json = false;                 ///< All output as one object.
-    bool quiet = false;                ///< Neither progress nor remarks.
-    std::vector<std::string> words;    ///< What `systems` searches for; the system of `new`.
-    std::filesystem::path new_script;  ///< `new -o`
-    std::filesystem::path sheet;       ///< `palettes -o`
-    bool check_only = false;           ///< `fmt --check`
+    RunRequest run;      ///< Its member `picture` contains the defaults.
+    SweepRequest sweep;  ///< Its members `picture`, `simulation` and `pace` contain the defaults.
+    std::filesystem::path sweep_sets;      ///< `sweep --sets`
+    std::optional<Variation> sweep_seeds;  ///< `sweep --seeds`
+    double limit_seconds = 0;              ///< `--limit-time`. 0: no limit.
+    std::string dump;  ///< The kind of `--dump`. Empty if the script is run instead.
+    /// `run --device`: "gpu", "cpu", a number, or "list". If empty, threads take all steps.
+    std::string device;
+    int ranks = 0;        ///< `run --ranks`: the number of processes. 0: this process runs alone.
+    bool timing = false;  ///< Whether the program prints how the time was spent.
+    bool json = false;    ///< Whether all output is printed as one JSON object.
+    bool quiet = false;   ///< Whether progress and remarks are omitted.
+    /// The words to search for with `systems` and `examples`, or the name of the system for `new`.
+    std::vector<std::string> words;
+    std::filesystem::path new_script;                      ///< `new -o`, `examples -o`, `import -o`
+    bool prints_path = false;                              ///< `examples --path`
+    std::vector<std::string> diffusion;                    ///< `import --diffusion`
+    std::filesystem::path sheet;                           ///< `palettes -o`
+    bool check_only = false;                               ///< `fmt --check`
     ScriptNotation notation = ScriptNotation::as_written;  ///< `fmt --unicode`, `--ascii`
-    std::vector<std::string> models;                       ///< Arguments of `mesh`.
+    std::vector<std::string> models;                       ///< The arguments of `mesh`.
     std::optional<CellOptions> cells;                      ///< `mesh --cells`.
     std::optional<std::uint32_t> cell_seed;                ///< `mesh --seed`.
     Reshaping reshaping;                                   ///< `mesh --subdivide`, `--simplify`.
@@ -83,10 +95,11 @@ struct Options {
     ModelFileOptions mesh_files;                           ///< `mesh --unwrap`.
     std::filesystem::path mesh_output;                     ///< `mesh -o`.
     AnalyzeRequest analyze;
-    BenchRequest bench;  ///< Its `simulation` keeps the defaults.
+    BenchRequest bench;  ///< Its member `simulation` contains the defaults.
     bool csv = false;    ///< `bench --csv`
     CompileRequest compile;
     bool no_browser = false;       ///< `view --no-browser`
+    bool prints_words = false;     ///< `lsp --words`
     std::filesystem::path object;  ///< `compile -o`
     std::filesystem::path header;  ///< `compile --header`
     std::filesystem::path html;    ///< `export --html`
@@ -97,13 +110,14 @@ inline const TypedScript* typed_of(const Options& options) {
     return options.typed ? &*options.typed : nullptr;
 }
 
-/// Print `text` and leave: --help, --version, wrong use.
+/// The program must print `text` and end. Used for --help and --version, and after wrong options.
 struct Leave {
     int status = 0;
-    std::string text;  ///< For standard output if `status` is 0, else for standard error.
+    /// Printed to standard output if `status` is 0, and otherwise to standard error.
+    std::string text;
 };
 
-/// `program` is the program's name in messages; `arguments` are those after it.
+/// `program` is the program's name in messages. `arguments` are the words after the name.
 std::variant<Options, Leave> parse_options(const std::string& program,
                                            const std::vector<std::string>& arguments);
 

@@ -1,4 +1,5 @@
-// `cascade palettes`: palettes as bars of colour in a terminal, as lines in a pipe, as a sheet.
+// The command `cascade palettes` shows palettes as bars of colour in a terminal, as lines in a
+// pipe, or as a sheet.
 #include "app/commands.h"
 
 #include "app/exit_status.h"
@@ -22,8 +23,8 @@ namespace {
 
 constexpr int columns_of_bar = 32, width_of_name = 12;
 
-/// A bar in 24-bit colour, two colours to a character: a left half block in one, the background in
-/// the other.
+/// A bar in 24-bit colour with two colours for each character: a half block on the left, and the
+/// background on the right.
 std::string bar_in_terminal(const Palette& palette) {
     const auto channels = [&](int place) {
         const Colour colour = colour_at(palette, (place + 0.5) / (2 * columns_of_bar));
@@ -37,7 +38,8 @@ std::string bar_in_terminal(const Palette& palette) {
     return bar + "\x1b[0m";
 }
 
-/// The name and the description; of colours of one's own only the colours.
+/// The name and description of a palette. If the user has given a list of colours, returns only the
+/// list.
 std::string words_of(const Palette& palette) {
     if (palette.name.starts_with('#')) return std::string(palette.name);
     return fmt::format("{:<{}}{}", palette.name, width_of_name, palette.description);
@@ -80,7 +82,7 @@ int palettes_command(const Options& options, Console& console) {
         for (const Palette& each : palettes()) names.emplace_back(each.name);
         const std::string near = nearest_name(word, names);
         console.fail({fmt::format("there is no palette '{}'", word),
-                      near.empty() ? "colours of one's own are 2 to 64 such as \"#1b2a49 #fff\""
+                      near.empty() ? "your own colours are 2 to 64 such as \"#1b2a49 #fff\""
                                    : fmt::format("did you mean '{}'?", near)});
         return exit_status::wrong_use;
     }

@@ -1,4 +1,4 @@
-// Lines from a pipe or a file, read in blocks; the last line need not end in a newline.
+// Reads lines from a pipe or a file in blocks. The last line may lack a newline.
 #include "app/line_reader.h"
 
 #include <cerrno>

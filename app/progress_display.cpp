@@ -1,4 +1,5 @@
-// Redraws a line with carriage return and "erase line"; facts that do not fit are left out.
+// Draws a line again with a carriage return and the control sequence "erase line". Facts that do
+// not fit into the line are left out.
 #include "app/progress_display.h"
 
 #include <fmt/format.h>
@@ -17,7 +18,7 @@ constexpr int widest_bar = 40;
 constexpr int narrowest_bar = 8;
 constexpr auto between_lines = std::chrono::seconds(10);
 
-/// From empty to full in eighths of a character.
+/// Blocks from empty to full, in eighths of a character.
 constexpr std::array<std::string_view, 9> blocks = {" ", "▏", "▎", "▍", "▌", "▋", "▊", "▉", "█"};
 
 std::string draw_bar(double share, int width) {
@@ -35,7 +36,7 @@ double share_of(const Progress& progress) {
     return static_cast<double>(progress.step) / static_cast<double>(progress.steps);
 }
 
-/// Width of a text in terminal columns, one for each code point.
+/// The width of a text in terminal columns. Each code point counts as one column.
 int width_of(std::string_view text) {
     return static_cast<int>(std::count_if(text.begin(), text.end(), [](char c) {
         return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
@@ -62,7 +63,7 @@ std::string stage_text(const Progress& progress) {
 }  // namespace
 
 std::string clock_time(double seconds) {
-    // Longer times are shown as a thousand hours.
+    // A duration of more than a thousand hours is shown as a thousand hours.
     const auto whole = static_cast<std::int64_t>(std::ceil(std::clamp(seconds, 0.0, 3.6e6)));
     const std::int64_t hours = whole / 3600, minutes = whole / 60 % 60;
     if (hours > 0) return fmt::format("{}:{:02}:{:02}", hours, minutes, whole % 60);
@@ -175,7 +176,7 @@ void ProgressDisplay::clear() {
     drawn_ = false;
 }
 
-/// Lines are only for progress with a known end.
+/// Prints a line for an activity outside of stages, but only if it is known how much of it remains.
 void ProgressDisplay::show_doing_line(const Progress& progress) {
     if (progress.steps <= 0) return;
     const Time now = output_.now();
@@ -188,7 +189,7 @@ void ProgressDisplay::show_doing_line(const Progress& progress) {
 void ProgressDisplay::show_line(const Progress& progress) {
     const Time now = output_.now();
     if (progress.stage_done) {
-        // The rate of the whole stage is steadier than that of the last second.
+        // The rate over the whole stage varies less than the rate of the last second.
         const double seconds = std::chrono::duration<double>(now - stage_begun_).count();
         Progress whole = progress;
         whole.steps_per_second =

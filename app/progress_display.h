@@ -1,5 +1,5 @@
-// Progress of a run: a bar that is redrawn in a terminal, or now and then a line in a pipe or a
-// log.
+// Shows the progress of a run, either as a bar that is redrawn in a terminal, or as occasional
+// lines in a pipe or log.
 #pragma once
 
 #include "core/run_control.h"
@@ -13,19 +13,21 @@
 
 namespace cascade {
 
-/// "0:07", "12:34", "3:02:01".
+/// A duration, such as "0:07", "12:34" or "3:02:01".
 std::string clock_time(double seconds);
 
-/// One line of at most `columns` columns, without a newline: stage, bar, steps, rate, time left.
-/// What does not fit is left out, the least important first.
+/// A line of at most `columns` columns, without a newline. It contains the stage, a bar, the steps,
+/// the rate and the remaining time. If it would be too long, the least important parts are left
+/// out.
 std::string progress_bar(const Progress& progress, int columns);
 
-/// The bar of a sweep: "12 of 81 runs", bar, time left.
+/// The line with the bar of a sweep: "12 of 81 runs", the bar and the remaining time.
 std::string progress_bar(const SweepProgress& progress, int columns);
-/// "12 of 81 runs, 0:41 left".
+/// The line of a sweep without a bar: "12 of 81 runs, 0:41 left".
 std::string progress_line(const SweepProgress& progress);
 
-/// "stage 2/2 'small': 3,000 of 7,000 steps, 12,340 steps/s, 0:05 left".
+/// The line of a run without a bar: "stage 2/2 'small': 3,000 of 7,000 steps, 12,340 steps/s, 0:05
+/// left".
 std::string progress_line(const Progress& progress);
 
 class ProgressDisplay {
@@ -42,7 +44,7 @@ public:
 
     void show(const Progress& progress);
     void show(const SweepProgress& progress);
-    /// Erases the bar, so that other text can be written. The next show() draws it again.
+    /// Erases the bar, so that other text can be written. The next call of show() draws it again.
     void clear();
 
 private:
@@ -52,9 +54,9 @@ private:
     Kind kind_;
     Output output_;
     bool drawn_ = false;
-    int stage_ = 0;           ///< The stage shown last.
-    bool swept_ = false;      ///< True once a sweep has been shown.
-    bool has_begun_ = false;  ///< Likewise what is done while no stage runs.
+    int stage_ = 0;           ///< The stage that was shown last.
+    bool swept_ = false;      ///< Whether the progress of a sweep has been shown.
+    bool has_begun_ = false;  ///< Whether an activity outside of stages has been shown.
     Time stage_begun_;
     std::int64_t first_step_ = 0;
     Time last_line_;

@@ -1,4 +1,4 @@
-// What can follow at the end of a line that is being typed.
+// Finds the names that can complete a line that is being typed.
 #pragma once
 
 #include "lang/program/program.h"
@@ -9,9 +9,9 @@
 
 namespace cascade {
 
-/// Names that may begin the word at the end of a line, for completion: after `STAGE.` the items of
-/// that stage, after a command what it takes (items, stages, files), else all names of the
-/// language and of the program.
+/// Names that may complete the word at the end of a line. After `STAGE.` these are the items of
+/// that stage, and after a command its possible arguments (items, stages, files). Otherwise they
+/// are all names of the language and of the program.
 std::vector<std::string> names_at_end(std::string_view line, const Program& program);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Commands of the prompt that concern the run: start, step, show, save.
+// The commands of the prompt that concern the run: they start it, take steps, show it and save it.
 #include "app/prompt_session.h"
 
 #include "app/commands.h"
@@ -19,26 +19,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <csignal>
 #include <limits>
-#include <string_view>
 
 namespace cascade {
 
 namespace {
 
-/// Steps after which a growing picture may be drawn again: whole passes through memory.
+/// A growing picture may be drawn after this many steps. With fewer steps at a time, the solver
+/// could not take several of them in one pass through memory.
 constexpr std::int64_t steps_between_looks = 64;
 
-/// Endings of formats that Cascade does not write, but newcomers may ask for.
-bool is_often_a_file(std::string_view ending) {
-    static constexpr std::array<std::string_view, 8> endings = {".jpg", ".jpeg", ".tif", ".tiff",
-                                                                ".bmp", ".npy",  ".csv", ".txt"};
-    return std::ranges::find(endings, ending) != endings.end();
-}
-
-/// A run with a progress display that Ctrl-C stops.
+/// Shows the progress of a run, which Ctrl-C can stop.
 struct WatchedRun {
     RunControl control;
     ProgressDisplay display;
@@ -63,18 +55,18 @@ struct WatchedRun {
     WatchedRun& operator=(const WatchedRun&) = delete;
 };
 
-/// The values of all cells: "3.5 in all cells", "0.1 to 0.9".
+/// The values of a field in words, such as "3.5 in all cells" or "0.1 to 0.9".
 std::string in_words(const Field& field) {
     const Spread values = spread_of(field);
     if (values.count == 0) return "no values\n";
-    if (values.is_even()) {
+    if (values.is_uniform()) {
         return fmt::format("{:.6g} in all cells{}\n", values.mean,
                            values.is_one_number() ? "" : ", within a 100,000th of it");
     }
     return fmt::format("{:.6g} to {:.6g}\n", values.smallest, values.largest);
 }
 
-/// How far a stage is, and what has become of its cells if they crawl.
+/// The progress of a stage, and the numbers of its cells if they crawl.
 std::string progress_in_words(const Stage& stage, const StageState& state) {
     const std::string place = describe_place(stage, state);
     const auto cells = counts_of_cells(state);
@@ -91,8 +83,8 @@ bool PromptSession::has_something_to_run() {
     return false;
 }
 
-/// Replaces the run by one that `make` makes, which may take a while: the cells of a model, steps
-/// that are taken again. False if that failed.
+/// Replaces the run by the result of `make`, which may take a while to make the cells of a model or
+/// to repeat steps. Returns false if `make` fails.
 bool PromptSession::begin_with(
     const std::function<Accepted<std::unique_ptr<LiveRun>>(RunControl&)>& make) {
     WatchedRun watched(console_, kept_);
@@ -107,7 +99,7 @@ bool PromptSession::begin_with(
     return true;
 }
 
-/// Starts the first stage, unless there is a run.
+/// Starts the first stage, unless there is already a run. Returns false if that fails.
 bool PromptSession::begin_run() {
     if (run_) return true;
     if (!has_something_to_run()) return false;
@@ -121,19 +113,20 @@ bool PromptSession::begin_run() {
         return false;
     }
     take_over(std::move(*made));
-    run_->script().diagnostics = {};  // Its warnings have been printed.
+    run_->script().diagnostics = {};  // These warnings have been printed.
     return true;
 }
 
 void PromptSession::take_over(std::unique_ptr<LiveRun> run) {
     run_ = std::move(run);
     script_.reset();
-    // The log of a run that began with a saved one does not grow it again.
+    // If the run began with a saved run, its log cannot reproduce it, and is not stored.
     const bool is_kept = at_terminal_ && !run_->is_resumed();
     kept_ = is_kept ? SessionFile::of(*run_, stem_, "repl", false) : nullptr;
 }
 
-/// Makes a change of the run and prints the warnings of a changed script. False if it was refused.
+/// Applies a change to the run, and prints the warnings of a changed script. Returns false if the
+/// run refuses the change.
 bool PromptSession::apply(const Change& change) {
     WatchedRun watched(console_, kept_);
     const auto applied = run_->apply(change, watched.control);
@@ -149,7 +142,7 @@ bool PromptSession::apply(const Change& change) {
     return true;
 }
 
-/// Takes the run to another moment.
+/// Moves the run back to an earlier moment, or forward again.
 void PromptSession::move(const std::function<Accepted<void>(RunControl&)>& go) {
     WatchedRun watched(console_, kept_);
     const auto done = go(watched.control);
@@ -205,7 +198,7 @@ void PromptSession::run(const std::string& count) {
     if (good && at_terminal_) show("");
 }
 
-/// Takes `steps` steps, from stage to stage. False if a run failed.
+/// Takes `steps` steps, also across the ends of stages. Returns false if the run failed.
 bool PromptSession::advance(std::int64_t steps) {
     WatchedRun watched(console_, kept_);
     GrowingPicture picture(console_, pictures_, *run_);
@@ -238,7 +231,8 @@ void PromptSession::remark(const std::string& words) {
     if (!words.empty()) console_.warn(words);
 }
 
-/// Of the run, which begins if there is none. Nothing if that or the expression is wrong.
+/// A painter of the run. Begins the run if there is none. Empty if the run cannot begin or if the
+/// expression has errors.
 std::optional<Painter> PromptSession::painter_of(const std::string& expression) {
     if (!begin_run()) return std::nullopt;
     auto painter = make_painter(*run_, picture_of(expression));
@@ -260,7 +254,7 @@ void PromptSession::show(const std::string& expression) {
     }
 }
 
-/// The answer to an expression that is typed.
+/// Prints the value of an expression that was typed.
 void PromptSession::print_value(const std::string& expression) {
     auto painter = painter_of(expression);
     if (!painter) return;
@@ -272,7 +266,7 @@ void PromptSession::print_features_shown(const std::string&) {
     auto painter = painter_of(shown_);
     if (!painter) return;
     const Simulation& simulation = run_->simulation();
-    if (simulation.state(shown_stage(simulation)).tissue) {
+    if (simulation.state(shown_stage(simulation)).tissue()) {
         return fail({"cells that crawl have no rows and columns", ""});
     }
     if (simulation.domain().model)
@@ -303,7 +297,7 @@ void PromptSession::save(const std::string& path) {
     }
     if (ending == ".cascade") return save_text(path);
     if (ending == ".png") return save_picture(path);
-    if (find_format(path) != nullptr || is_often_a_file(ending)) {
+    if (has_ending_of_file(path)) {
         return fail({fmt::format("':save' writes no file that ends with {}", ending),
                      "it writes NAME.png, NAME.cascade, NAME.session, or a folder of fields"});
     }
@@ -312,7 +306,7 @@ void PromptSession::save(const std::string& path) {
     console_.note(fmt::format("wrote {} files in {}", written->size(), path));
 }
 
-/// The picture that was shown last, as it is now.
+/// Saves a picture of the present state. It shows the same expression as the last picture.
 void PromptSession::save_picture(const std::string& path) {
     const auto file = session_picture(*run_, picture_of(shown_));
     if (!file) return print_refusal(file.error());
@@ -320,7 +314,7 @@ void PromptSession::save_picture(const std::string& path) {
     console_.note(fmt::format("wrote {}", path));
 }
 
-/// Fails where the text would grow another pattern than the run.
+/// Saves the text of the script. Fails if a run of this text would not make the present pattern.
 void PromptSession::save_text(const std::string& path) {
     if (!run_->script().overrides.sets.empty()) {
         return fail({"parameters that ':set' changed are not in the text of the script",

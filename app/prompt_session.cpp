@@ -1,4 +1,5 @@
-// The table of commands, and those that change the script; app/prompt_run.cpp has those of the run.
+// The table of commands, and the commands that change the script. app/prompt_run.cpp contains the
+// commands that concern the run.
 #include "app/prompt_session.h"
 
 #include "app/exit_status.h"
@@ -19,7 +20,7 @@
 
 namespace cascade {
 
-/// A command, which begins with a colon.
+/// A command of the prompt, which begins with a colon.
 struct PromptSession::Command {
     std::string_view name;
     std::string_view argument;
@@ -58,7 +59,7 @@ std::span<const PromptSession::Command> PromptSession::commands() {
 
 namespace {
 
-/// The commands of the shell that the prompt has, too.
+/// The commands of `cascade` that are also commands of the prompt.
 std::vector<const CommandEntry*> shell_commands() {
     std::vector<const CommandEntry*> found;
     for (const CommandEntry& entry : command_table()) {
@@ -99,7 +100,7 @@ bool PromptSession::take(const std::string& line) {
     if (pending_.empty()) {
         const std::string_view words = trim(line);
         if (words.starts_with(":")) return obey(words);
-        // Words that other prompts accept; none of them is a statement of the language.
+        // These words are commands of other prompts. None of them is a statement of the language.
         if (words == "help" || words == "?") return obey(":help");
         if (words == "quit" || words == "exit") return obey(":quit");
         if (says_nothing(line)) return true;
@@ -164,7 +165,7 @@ void PromptSession::print_refusal(const Refusal& refusal) {
 
 namespace {
 
-/// Is the text one expression and nothing else?
+/// Whether the text is one expression and nothing else.
 bool is_expression(const std::string& text) {
     Sources sources;
     Diagnostics errors;
@@ -175,7 +176,8 @@ bool is_expression(const std::string& text) {
 
 }  // namespace
 
-/// A block replaces the one of the same name.
+/// Adds a text to the script. A block replaces the block of the same name. If the text is an
+/// expression, prints its value instead.
 void PromptSession::add_text(const std::string& text) {
     if (is_expression(text)) return print_value(std::string(trim(text)));
     const std::string whole = script() ? with_blocks(script()->text, text) : text;
@@ -188,7 +190,7 @@ void PromptSession::add_text(const std::string& text) {
     }
 }
 
-/// Takes over a script if it has no errors. There is no run yet.
+/// Makes `changed` the script, if it has no errors. Must not be called if there is a run.
 bool PromptSession::change(Script changed) {
     const std::string messages = changed.messages(console_.error().colour);
     if (!changed.program) {
@@ -198,7 +200,7 @@ bool PromptSession::change(Script changed) {
     if (messages != last_warnings_) console_.say(messages);
     last_warnings_ = messages;
     script_ = std::make_unique<Script>(std::move(changed));
-    script_->diagnostics = {};  // They are printed; from now on only new errors count.
+    script_->diagnostics = {};  // These have been printed. From now on, only new errors matter.
     return true;
 }
 
@@ -222,7 +224,7 @@ void PromptSession::load(const std::string& path) {
         const Script& read = file->script;
         file->script = load_script(read.name, read.text + "\n", read.folder, read.overrides);
     }
-    // A script that is loaded starts anew, even if its stages have the names of the old ones.
+    // A loaded script starts anew, even if its stages have the same names as before.
     if (!change(std::move(file->script))) return;
     run_.reset();
     kept_.reset();
@@ -295,7 +297,7 @@ void PromptSession::forget(const std::string&) {
     shown_.clear();
 }
 
-/// Does what `cascade COMMAND` would; a script that it takes is the one that was typed.
+/// Runs a command of `cascade`. If the command needs a script, it gets the script that was typed.
 void PromptSession::obey_shell(const CommandEntry& command, std::vector<std::string> words) {
     words.insert(words.begin(), std::string(command.name));
     const bool asks_for_help = std::find(words.begin(), words.end(), "--help") != words.end();

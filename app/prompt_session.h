@@ -1,4 +1,5 @@
-// A session at the prompt: a script that grows line by line, and its run.
+// A session at the prompt. Its script grows line by line, and its run continues with each new
+// script.
 #pragma once
 
 #include "app/commands.h"
@@ -21,41 +22,42 @@
 
 namespace cascade {
 
-/// Takes the lines of a LineReader. A line with an error changes neither the script nor the fields.
-/// Otherwise it is kept, and the run goes on with it (LiveRun).
+/// Handles the lines of a LineReader. A line with an error changes neither the script nor the
+/// fields. Any other line is added to the script, and the run continues with the new script
+/// (LiveRun).
 class PromptSession {
 public:
-    /// `at_terminal`: a picture after each :run, and the session is kept in a file while it goes
-    /// on.
+    /// If `at_terminal` is true, draws a picture after each command :run, and stores the session in
+    /// a file until it ends.
     PromptSession(const SimulationOptions& options, Console& console, bool at_terminal,
                   const TerminalPictures& pictures);
     ~PromptSession();
 
-    /// Handles one line. False when the user leaves.
+    /// Handles one line. Returns false if the line ends the session.
     bool take(const std::string& line);
-    /// Drops an unfinished block (Ctrl-C).
+    /// Discards an unfinished block after Ctrl-C.
     void drop_pending() { pending_.clear(); }
-    /// Where the session is kept, when that is new.
+    /// Prints, only once, in which file the session is stored.
     void tell_where_kept() const {
         if (kept_) tell_news(*kept_, console_);
     }
-    /// End of input: checks an unfinished block as it is.
+    /// Must be called at the end of the input. Checks an unfinished block as if it were complete.
     void end();
 
-    /// The prompt for the next line: its number in the script.
+    /// The prompt for the next line, with its number in the script.
     std::string prompt() const;
-    /// Names that can follow at the end of `line`, for completion.
+    /// Names that can complete the word at the end of `line`.
     std::vector<std::string> names(const std::string& line) const;
-    /// True once a line had an error or a run failed.
+    /// Whether any line had an error, or any run has failed.
     bool has_failed() const { return has_failed_; }
-    /// Loads a script, a picture or a saved folder, as :load does.
+    /// Loads a script, a picture or a saved run, like the command :load.
     void load(const std::string& path);
 
 private:
     struct Command;
     static std::span<const Command> commands();
 
-    // The script (prompt_session.cpp).
+    // The following functions change the script (prompt_session.cpp).
     bool obey(std::string_view line);
     void add_text(const std::string& text);
     bool change(Script script);
@@ -69,7 +71,7 @@ private:
     void help_on(const std::string& topic);
     void obey_shell(const CommandEntry& command, std::vector<std::string> words);
 
-    // Its run (prompt_run.cpp).
+    // The following functions control the run (prompt_run.cpp).
     bool has_something_to_run();
     bool begin_with(const std::function<Accepted<std::unique_ptr<LiveRun>>(RunControl&)>& make);
     bool begin_run();
@@ -96,12 +98,12 @@ private:
     void tell_over();
     void remark(const std::string& words);
 
-    // Errors (prompt_session.cpp).
+    // The following functions report errors (prompt_session.cpp).
     void fail(const Failure& failure);
     void print_errors(const Script& script);
     void print_refusal(const Refusal& refusal);
 
-    /// Null until something was typed.
+    /// The script of the run, or the script typed so far. Null before anything was typed.
     const Script* script() const { return run_ ? &run_->script() : script_.get(); }
 
     SimulationOptions options_;
@@ -112,10 +114,12 @@ private:
     std::string last_warnings_;
     std::string shown_;  ///< The expression of the picture that was drawn last.
     bool has_failed_ = false;
-    std::unique_ptr<Script> script_;     ///< Without errors; before there is a run.
-    std::unique_ptr<LiveRun> run_;       ///< Null until something is run.
-    std::string stem_ = "prompt";        ///< Of the file that was loaded.
-    std::shared_ptr<SessionFile> kept_;  ///< Of the run, at a terminal.
+    std::unique_ptr<Script> script_;  ///< Never has errors. Null if there is a run.
+    std::unique_ptr<LiveRun> run_;    ///< Null until the first command that needs a run.
+    std::string stem_ = "prompt";  ///< The beginning of the names of output files. Taken from the
+                                   ///< file that was loaded.
+    /// The stored log of the run. Null if the session is not at a terminal.
+    std::shared_ptr<SessionFile> kept_;
 };
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Counts brackets and looks at the last character, outside of comments and strings; does not parse.
+// Counts brackets and examines the last character, ignoring comments and strings. Does not parse.
 #include "app/prompt_text.h"
 
 #include "lang/service/known_names.h"
@@ -27,7 +27,8 @@ bool ends_in_operator(std::string_view text) {
                        [&](std::string_view word) { return ends_in_word(text, word); });
 }
 
-/// Position of a line's comment, or its size. Strings end with the line.
+/// The position at which the comment of a line begins, or the length of the line if it has none. A
+/// string ends at the latest with the line.
 std::size_t comment_begin(std::string_view line) {
     bool quoted = false;
     for (std::size_t k = 0; k < line.size(); ++k) {
@@ -37,7 +38,7 @@ std::size_t comment_begin(std::string_view line) {
     return line.size();
 }
 
-/// The number of opening brackets of a line less that of closing ones.
+/// The number of opening brackets in a line minus the number of closing ones.
 long open_brackets(std::string_view line) {
     long open = 0;
     bool quoted = false;
@@ -70,7 +71,8 @@ bool is_complete(std::string_view text) {
         if (!line.empty()) last = line;
         text.remove_prefix(std::min(end + 1, text.size()));
     }
-    // With a closing bracket too many the parser is to report the error.
+    // If there are too many closing brackets, the text counts as complete, so that the parser
+    // reports them.
     return open <= 0 && !ends_in_operator(last);
 }
 
@@ -92,7 +94,7 @@ Completion complete_word(std::string_view line, std::vector<std::string> names) 
     choices.erase(std::unique(choices.begin(), choices.end()), choices.end());
     if (choices.empty()) return completion;
 
-    // In sorted order the first and the last have the shortest common beginning.
+    // The choices are sorted, so their common beginning is that of the first and the last.
     const std::string& first = choices.front();
     const std::string& last = choices.back();
     std::size_t common = word.size();

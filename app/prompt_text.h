@@ -1,5 +1,5 @@
-// What the prompt must know about lines before they are parsed: whether one is complete, and how
-// the word at its end can continue.
+// Examines lines at the prompt before they are parsed: whether they are complete, and how the last
+// word can continue.
 #pragma once
 
 #include <string>
@@ -8,27 +8,27 @@
 
 namespace cascade {
 
-/// False while a bracket is open, or the last line ends in a comma or an operator. Comments and
-/// strings do not count.
+/// Whether a text is complete. It is incomplete while a bracket is open, or if its last line ends
+/// in a comma or an operator. Brackets in comments and strings are ignored.
 bool is_complete(std::string_view text);
 
-/// True for blank lines and comments.
+/// Whether the line is blank or a comment.
 bool says_nothing(std::string_view line);
 
-/// How the word at the end of a line can continue.
+/// How the last word of a line can continue.
 struct Completion {
-    std::string insert;                ///< What all choices have in common after the word.
-    std::vector<std::string> choices;  ///< Sorted, without repetition.
+    std::string insert;                ///< The text to insert. All choices begin with it.
+    std::vector<std::string> choices;  ///< Sorted, without repetitions.
 };
 
-/// A word is made of letters, digits and _; a ':' at the start of the line belongs to it. A space
-/// follows if there is only one choice.
+/// Completes the word at the end of a line. A word consists of letters, digits and _. At the start
+/// of the line it may also contain ':'. If there is only one choice, a space is inserted after it.
 Completion complete_word(std::string_view line, std::vector<std::string> names);
 
 /// `text` without white space at both ends.
 std::string_view trim(std::string_view text);
 
-/// The words of a command as a shell sees them: divided at blanks, except between quotes.
+/// Divides a command into words like a shell, at blanks that are not between quotes.
 std::vector<std::string> words_of(std::string_view text);
 
 }  // namespace cascade

@@ -1,4 +1,5 @@
-// The loop of `cascade repl`: a line editor at a terminal, plain lines from a pipe.
+// The command `cascade repl` handles lines one after the other, from a line editor at a terminal,
+// or from a pipe.
 #include "app/commands.h"
 #include "app/exit_status.h"
 #include "app/interrupt.h"
@@ -27,7 +28,7 @@ int repl_command(const Options& options, Console& console) {
                            loaded, "repl", console);
     }
     if (!loaded.empty()) session.load(loaded.string());
-    // Errors set the status only for a pipe: at a terminal the user has seen them.
+    // Errors change the status only for a pipe, because at a terminal the user has seen them.
     const auto status = [&] {
         return !at_terminal && session.has_failed() ? exit_status::wrong_line
                                                     : exit_status::success;

@@ -1,16 +1,21 @@
-// `cascade run`: loads the script, shows progress, and reports what was written.
+// The command `cascade run` loads the script, shows progress, and reports the written files.
 
 #include "app/commands.h"
+#include "app/device_option.h"
 #include "app/exit_status.h"
 #include "app/interrupt.h"
 #include "app/json_answer.h"
+#include "app/last_moments.h"
 #include "app/limits.h"
 #include "app/option_values.h"
 #include "app/progress_display.h"
+#include "app/rank_process.h"
 #include "app/time_table.h"
 #include "core/counted.h"
 #include "core/with_commas.h"
 #include "lang/syntax/replace_blocks.h"
+#include "ranks/launcher.h"
+#include "ranks/ranks.h"
 #include "run/script/embedded_script.h"
 #include "run/script/script_folder.h"
 #include "run/session/session_picture.h"
@@ -24,7 +29,8 @@ namespace cascade {
 
 namespace {
 
-/// The script to run, and the picture options that it brings.
+/// Loads the script to run, with the picture options that are stored with it in a picture or saved
+/// run.
 std::optional<LoadedFile> load_for_run(const Options& options, const Console& console) {
     if (options.run.resume.empty()) return load(options.scripts[0], options.overrides, console);
     std::optional<LoadedFile> given;
@@ -43,8 +49,8 @@ std::optional<LoadedFile> load_for_run(const Options& options, const Console& co
             if (!differ_in_pictures_only(given->script.text, saved->text)) {
                 console.fail({fmt::format("{} differs from the script of the run saved in {}",
                                           options.scripts[0], options.run.resume.string()),
-                              "a saved run goes on with its own script: leave SCRIPT out; only "
-                              "pictures and shapes may be others"});
+                              "a saved run continues with its own script: leave SCRIPT out; only "
+                              "pictures and shapes may differ"});
                 return std::nullopt;
             }
             saved = load_saved_script(options.run.resume, options.overrides, given->script.folder,
@@ -58,15 +64,15 @@ std::optional<LoadedFile> load_for_run(const Options& options, const Console& co
     }
     const auto edited = find_edited_script(options.run.resume, saved->name, saved->text);
     if (!given && edited) {
-        console.warn(
-            fmt::format("{} differs from the script of the saved run, which goes on with its own; "
-                        "files are looked for in {} and where --allow-read says",
-                        edited->string(), options.run.resume.string()));
+        console.warn(fmt::format(
+            "{} differs from the script of the saved run, which continues with its own script; "
+            "files are looked for in {} and where --allow-read says",
+            edited->string(), options.run.resume.string()));
     }
     return LoadedFile{std::move(*saved), ""};
 }
 
-/// Prints what was written; the pictures of --frames as one line.
+/// Prints the written files. All pictures of --frames together are one line.
 void tell_written(const RunReport& report, const RunRequest& request, Console& console) {
     std::size_t frames = 0;
     for (const auto& path : report.written) {
@@ -84,7 +90,7 @@ void tell_written(const RunReport& report, const RunRequest& request, Console& c
     for (const std::string& note : report.notes) console.note(note);
 }
 
-/// What --json says of a run.
+/// Adds the members of --json that describe a run.
 void answer(const RunReport& report, bool limit_reached, JsonAnswer& all) {
     using Json = nlohmann::ordered_json;
     const bool is_cancelled = report.status == RunStatus::cancelled;
@@ -142,7 +148,7 @@ Result<std::optional<SessionLog>> session_to_play(const LoadedFile& file, Overri
                                                   const Console& console, bool quiet) {
     auto log = session_of(file);
     if (!log || !*log) return log;
-    // Where files are found does not matter.
+    // Only the name of the model's file is compared, not its folder.
     const auto name_of_model = [](const Overrides& overrides) {
         return std::filesystem::path(overrides.model.value_or("")).filename();
     };
@@ -185,7 +191,16 @@ ProgressDisplay make_progress_display(const Console& console, bool quiet) {
              [] { return std::chrono::steady_clock::now(); }}};
 }
 
+static int run_script(const Options& options, Console& console, Ranks* ranks);
+
 int run_command(const Options& options, Console& console) {
+    if (options.device == "list") return print_devices(console);
+    if (launched_ranks()) return run_as_rank(options, console, run_script);
+    if (options.ranks > 0) return start_ranks(options, console);
+    return run_script(options, console, nullptr);
+}
+
+static int run_script(const Options& options, Console& console, Ranks* ranks) {
     TimeAccount times;
     auto file = [&] {
         const TimeAccount::Scope spent(&times, Spent::reading);
@@ -196,7 +211,7 @@ int run_command(const Options& options, Console& console) {
     if (!options.dump.empty()) return dump_command(script, options.dump, console);
     console.tell(script);
     if (!script.program) return exit_status::wrong_script;
-    script.diagnostics = {};  // Warnings have been printed.
+    script.diagnostics = {};  // These warnings have been printed.
 
     RunRequest request = options.run;
     if (!file->picture_options.empty()) {
@@ -227,8 +242,24 @@ int run_command(const Options& options, Console& console) {
         display.clear();
         if (!options.quiet) console.note(message);
     };
-    const InterruptGuard interrupt(control.cancel);
-    const TimeLimit limit(options.limit_seconds, control.cancel);
+    if (ranks != nullptr) {
+        if (auto shared = share_steps(script, *ranks, request, control); !shared) {
+            console.fail(shared.error());
+            return exit_status::failed_run;
+        }
+    }
+    if (!options.device.empty()) {
+        if (auto used = use_device(options.device, script, request, control); !used) {
+            console.fail(used.error());
+            return exit_status::failed_run;
+        }
+    }
+    // Several ranks end at the same step, on which they agree.
+    std::atomic<bool>& to_end = ranks != nullptr ? ranks->end_flag() : control.cancel;
+    const LastMoments last(control, options.limit_seconds);
+    const InterruptGuard interrupt(to_end);
+    const bool is_first = ranks == nullptr || ranks->is_root();
+    const TimeLimit limit(is_first ? options.limit_seconds : 0, to_end);
     const auto report = run(script, request, control);
     display.clear();
     if (report) {

@@ -1,5 +1,6 @@
-// A whole log is renamed into its place, and what happens later is appended. The file is locked
-// while its session goes on, which tells it from one that was left.
+// Writes a whole log to a temporary file, renames it, and appends later changes. The file is locked
+// while its session lasts. A file without a lock was left by a session that did not end in the
+// usual way.
 #include "app/session_file.h"
 
 #include "core/file.h"
@@ -18,13 +19,15 @@ namespace cascade {
 namespace {
 
 constexpr int most_files = 100;
-/// A file of this size, or of twice what the log needs, is written anew without what was undone.
+/// A file of at least this size, and of at least twice the size that the log needs, is written
+/// again without undone changes.
 constexpr std::uint64_t usual_bytes = std::uint64_t{1} << 20;
-/// Steps alone are written no more often than this.
+/// If only steps are taken, the least time between two entries.
 constexpr auto between_places = std::chrono::seconds(1);
 constexpr std::string_view mark = ".unsaved";
 
-/// Of a session that goes on with a file that was left, the name is that of the first session.
+/// The name of the first session without its ending, if a session continues from a file that was
+/// left.
 std::string first_stem(std::string stem) {
     const std::size_t begin = stem.find(mark);
     if (begin != std::string::npos && begin > 0) stem.resize(begin);
@@ -88,7 +91,7 @@ void SessionFile::write(const SessionLog& log, RunPlace now, bool is_step) {
     append(log_.lines(log, now));
 }
 
-/// Takes a name that no other session has.
+/// Creates a file with a name that no other session uses.
 Result<void> SessionFile::create() {
     for (int number = 1;; ++number) {
         const auto path = numbered(folder_, stem_, number);
@@ -96,8 +99,8 @@ Result<void> SessionFile::create() {
         if (file.is_open()) {
             path_ = path;
             news_ = fmt::format(
-                "what is done is kept in {0} until this session ends; if the program is ended, "
-                "'cascade {1} {0}' goes on with it",
+                "the session is saved in {0} until it ends; if the program is killed, "
+                "'cascade {1} {0}' continues it",
                 path.string(), command_);
             return {};
         }
@@ -129,7 +132,8 @@ Result<void> SessionFile::replace(const std::string& text) {
     return {};
 }
 
-/// What was written stays, up to the last whole line, and is played again as far as it goes.
+/// Stops writing. The lines so far remain in the file, so that the session up to them can be
+/// repeated.
 void SessionFile::give_up(Failure why) {
     has_failed_ = true;
     news_ = tl::unexpected(std::move(why));
@@ -160,8 +164,8 @@ void tell_of_files_left(const std::filesystem::path& folder, const std::string& 
     for (const auto& left : SessionFile::left_in(folder, stem)) {
         if (left.lexically_normal() == file.lexically_normal()) continue;
         console.note(
-            fmt::format("{0} holds a session that was ended from outside; 'cascade {1} "
-                        "{0}' goes on with it",
+            fmt::format("{0} holds a session whose program was killed; 'cascade {1} "
+                        "{0}' continues it",
                         left.string(), command));
     }
 }

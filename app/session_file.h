@@ -1,7 +1,7 @@
-// The file in which the log of a session is kept while it goes on.
+// The file that stores the log of a session until the session ends.
 //
-// Each change is appended when it is made, so that nothing is lost if the terminal is closed or the
-// program is killed. spec/session.md says where the file is and when it is removed.
+// Each change is appended when it is made, so that no change is lost if the terminal is closed or
+// the program is killed. spec/session.md says where the file is and when it is removed.
 #pragma once
 
 #include "app/console.h"
@@ -22,27 +22,28 @@
 
 namespace cascade {
 
-/// Made with the first change, or step: `STEM.unsaved.session`, or with a number if there is one.
-/// Functions may be called from any thread.
+/// The file is created by the first change or step. Its name is `STEM.unsaved.session`, with a
+/// number if that name is taken. Any thread may call the functions.
 class SessionFile {
 public:
-    /// Keeps the log of a run. `stem` is that of its outputs; `command` plays the file again. With
-    /// `has_file` the script is in a file, and before the first change nothing can be lost.
+    /// Stores the log of a run. `stem` is the beginning of the names of the run's outputs.
+    /// `command` is the command that can repeat the session from the file. If `has_file` is true,
+    /// the script itself is in a file, so there is nothing to store before the first change.
     static std::shared_ptr<SessionFile> of(LiveRun& run, const std::string& stem,
                                            std::string command, bool has_file);
-    /// Removes the file: the user has ended the session.
+    /// Removes the file, because the user has ended the session.
     ~SessionFile();
     SessionFile(const SessionFile&) = delete;
     SessionFile& operator=(const SessionFile&) = delete;
 
-    /// The destructor leaves the file where it is.
+    /// Makes the destructor leave the file on the disk.
     void leave();
 
-    /// What the user should know since the last call: where the file is, or, as a failure, that
-    /// there is none.
+    /// Something to tell the user, if there is any news since the last call: the path of the new
+    /// file, or a failure with the reason why there is no file.
     std::optional<Result<std::string>> news();
 
-    /// The files that sessions left which were ended from outside.
+    /// The files of sessions that were not ended by their users.
     static std::vector<std::filesystem::path> left_in(const std::filesystem::path& folder,
                                                       const std::string& stem);
 
@@ -67,10 +68,11 @@ private:
     std::optional<Result<std::string>> news_;
 };
 
-/// Prints the news of a file.
+/// Tells the user the news of a file, if there is any.
 void tell_news(SessionFile& file, const Console& console);
 
-/// Says which files sessions of a script have left, but for `file`, which is played now.
+/// Prints which files earlier sessions of a script have left, except `file`, from which the present
+/// session is repeated.
 void tell_of_files_left(const std::filesystem::path& folder, const std::string& stem,
                         const std::filesystem::path& file, std::string_view command,
                         const Console& console);

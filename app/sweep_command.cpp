@@ -1,9 +1,11 @@
-// `cascade sweep`: runs a script with many values, shows progress, and reports what was written.
+// The command `cascade sweep` runs a script with many values, shows progress, and reports the
+// written files.
 
 #include "app/commands.h"
 #include "app/exit_status.h"
 #include "app/interrupt.h"
 #include "app/json_answer.h"
+#include "app/last_moments.h"
 #include "app/limits.h"
 #include "app/option_values.h"
 #include "app/progress_display.h"
@@ -13,14 +15,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 
 namespace cascade {
 
 namespace {
 
-/// "81 runs (12 done before), 2,430,000 steps in 41.20 s".
-std::string summary(const SweepReport& report) {
-    std::string text = counted(report.runs, "run");
+/// A summary: "81 runs (12 done before), 2,430,000 steps in 41.20 s", or "part 3 of 100: 27 runs
+/// …".
+std::string summary(const SweepReport& report, const SweepPart& part) {
+    std::string text;
+    if (!part.is_all()) text = fmt::format("part {} of {}: ", part.number, part.count);
+    text += counted(report.runs, "run");
     if (report.done_before > 0)
         text += fmt::format(" ({} done before)", with_commas(report.done_before));
     if (report.steps > 0) {
@@ -31,7 +37,10 @@ std::string summary(const SweepReport& report) {
 
 int tell(const SweepReport& report, const Options& options, int signal, bool limit_reached,
          Console& console) {
+    const SweepPart& part = options.sweep.part;
     if (JsonAnswer* const all = console.answer()) {
+        (*all)["part"] = part.number;
+        (*all)["parts"] = part.count;
         (*all)["runs"] = report.runs;
         (*all)["done_before"] = report.done_before;
         (*all)["failed"] = report.failed;
@@ -45,14 +54,14 @@ int tell(const SweepReport& report, const Options& options, int signal, bool lim
         for (const auto& path : report.written) {
             console.print(fmt::format("wrote {}\n", path.string()));
         }
-        console.say(summary(report));
+        console.say(summary(report, part));
     }
     if (report.missing > 0) {
         const std::string why = limit_reached
                                     ? fmt::format("the limit of {} is reached",
                                                   describe_duration(options.limit_seconds))
                                     : std::string("interrupted");
-        console.say(fmt::format("cascade: {}; {} of {} are done, and the same command goes on\n",
+        console.say(fmt::format("cascade: {}; {} of {} are done, and the same command continues\n",
                                 why, with_commas(report.runs - report.missing),
                                 counted(report.runs, "run")));
         return limit_reached ? exit_status::time_limit : exit_status::signal_base + signal;
@@ -60,22 +69,28 @@ int tell(const SweepReport& report, const Options& options, int signal, bool lim
     if (report.failed == 0) return exit_status::success;
     console.fail({fmt::format("{} of {} failed: {}", with_commas(report.failed),
                               counted(report.runs, "run"), report.first_failure),
-                  "features.csv says why of each"});
+                  part.is_all()
+                      ? "features.csv gives the reason for each"
+                      : "features.csv gives the reason for each, when all parts are done"});
     return exit_status::failed_run;
 }
 
-/// What to vary: the options, else what the sheet of an earlier sweep that is given varied.
+/// The variations that options give. If there are no such options, the variations stored in `file`,
+/// which is then the sheet of an earlier sweep.
 Result<std::vector<Variation>> variations(const Options& options, const LoadedFile& file) {
-    if (!options.sweep.varied.empty() || !options.sweep_sets.empty()) return options.sweep.varied;
-    std::vector<Variation> varied;
+    std::vector<Variation> varied = options.sweep.varied;
+    if (options.sweep_seeds) varied.push_back(*options.sweep_seeds);
+    if (!varied.empty() || !options.sweep_sets.empty()) return varied;
     for (const std::string& text : file.varied) {
         auto variation = parse_variation(text);
         if (!variation) return tl::unexpected(variation.error());
         varied.push_back(std::move(*variation));
     }
     if (!varied.empty()) return varied;
-    return failure("nothing is varied",
-                   "say what with --vary, as in --vary feed=0.02..0.06:9, or with --sets FILE.csv");
+    return failure(
+        "nothing is varied",
+        "say what with --vary, as in --vary feed=0.02..0.06:9, with --sets FILE.csv or with "
+        "--seeds 1..20");
 }
 
 }  // namespace
@@ -118,6 +133,9 @@ int sweep_command(const Options& options, Console& console) {
     SweepControl control;
     ProgressDisplay display = make_progress_display(console, options.quiet);
     control.report = [&](const SweepProgress& progress) { display.show(progress); };
+    std::atomic<bool> hurry = false;
+    const std::atomic<bool> may_end = true;  // Each run that is done has been kept.
+    const LastMoments last(options.limit_seconds, hurry, may_end);
     const InterruptGuard interrupt(control.cancel);
     const TimeLimit limit(options.limit_seconds, control.cancel);
     const auto report = sweep(script, request, control);

@@ -1,4 +1,4 @@
-// `cascade systems` and `cascade new`: the systems of the library and of scripts.
+// The commands `cascade systems` and `cascade new` show the systems of the library and of scripts.
 #include "app/commands.h"
 
 #include "app/exit_status.h"
@@ -22,14 +22,15 @@ namespace cascade {
 namespace {
 
 const System* find_system(const Script& script, std::string_view name) {
-    const System* found = nullptr;  // A system of the script hides one of the library.
+    // A system of the script hides a system of the library with the same name.
+    const System* found = nullptr;
     for (const System& system : script.program->systems) {
         if (system.name == name && (found == nullptr || !system.built_in)) found = &system;
     }
     return found;
 }
 
-/// What --json says of a system.
+/// Adds the members of --json that describe a system.
 void answer_with(std::string_view name, std::string_view about, Console& console) {
     if (JsonAnswer* const all = console.answer()) {
         nlohmann::ordered_json system = {{"name", name}};
@@ -38,8 +39,8 @@ void answer_with(std::string_view name, std::string_view about, Console& console
     }
 }
 
-/// Prints description, equations, species, parameters and settings of a system. Systems that
-/// `script` lacks are looked up in the library.
+/// Prints the description, equations, species, parameters and settings of a system. If `script`
+/// does not define the system, uses the definition in the library.
 void print_system(std::string_view title, const ast::Script& script, const Sources& sources,
                   std::string_view name, const LibraryText* text, Console& console) {
     console.print(fmt::format("{}\n", title));
@@ -62,18 +63,6 @@ void print_system(const Script& script, const System& system, Console& console) 
                  script.tree, script.sources, system.name, text, console);
 }
 
-/// A line of a list, cut at the terminal's width.
-void print_line(std::string_view name, std::string_view about, Console& console) {
-    std::string line = fmt::format("{:<24} {}", name, about);
-    const auto columns = static_cast<std::size_t>(console.out().columns());
-    if (console.out().is_terminal && line.size() > columns) {
-        std::size_t end = columns > 2 ? columns - 2 : 0;
-        while (end > 0 && (line[end] & 0xc0) == 0x80) --end;  // Never inside a character.
-        line = line.substr(0, end) + "…";
-    }
-    console.print(line + "\n");
-}
-
 std::vector<std::string> library_names() {
     std::vector<std::string> names;
     for (const auto texts : {library_texts(), library_cells(), library_shapes()}) {
@@ -82,7 +71,7 @@ std::vector<std::string> library_names() {
     return names;
 }
 
-/// The description of a system or a shape of the library.
+/// The description of a system or shape of the library.
 LibraryNote note_of_name(std::string_view name) {
     const LibraryText* const system = find_library_text(name);
     return note_of(system != nullptr ? *system : *find_shape_text(name));
@@ -95,7 +84,7 @@ Failure unknown_system(std::string_view name) {
                          : fmt::format("did you mean '{}'?", near)};
 }
 
-/// Systems of the library that contain all `words`.
+/// The systems of the library that contain all `words`.
 std::vector<std::string> matches(const std::vector<std::string>& words) {
     std::vector<std::string> names;
     for (const std::string& name : library_names()) {
@@ -118,8 +107,8 @@ bool is_script_path(const std::string& word) {
 
 namespace {
 
-/// A hint for a word that no system contains: the systems that contain its longest beginning of at
-/// least four letters.
+/// A hint for a word that occurs in no system. Names systems that contain the longest possible
+/// beginning of the word, which must have at least four letters.
 std::string hint_by_beginning(const std::string& word) {
     constexpr std::size_t fewest_letters = 4, most_named = 6;
     for (std::size_t letters = word.size(); letters-- > fewest_letters;) {
@@ -132,7 +121,7 @@ std::string hint_by_beginning(const std::string& word) {
     return "'cascade systems' lists them";
 }
 
-/// `cascade systems [WORDS]`
+/// Implements `cascade systems [WORDS]`.
 int search_library(const std::vector<std::string>& words, Console& console) {
     if (words.size() == 1) {
         if (const LibraryText* text = find_library_text(words.front())) {
@@ -149,7 +138,7 @@ int search_library(const std::vector<std::string>& words, Console& console) {
     const std::vector<std::string> found = matches(words);
     for (const std::string& name : found) {
         answer_with(name, note_of_name(name).about, console);
-        print_line(name, note_of_name(name).about, console);
+        print_list_line(name, note_of_name(name).about, console);
     }
     if (!found.empty()) return exit_status::success;
     Failure failure = unknown_system(words.front());
@@ -161,7 +150,7 @@ int search_library(const std::vector<std::string>& words, Console& console) {
     return exit_status::wrong_use;
 }
 
-/// `cascade systems SCRIPT [NAME]`
+/// Implements `cascade systems SCRIPT [NAME]`.
 int show_systems_of(const Script& script, const std::vector<std::string>& names, Console& console) {
     console.tell(script);
     if (!script.program) return exit_status::wrong_script;

@@ -1,5 +1,6 @@
-// Every terminal answers the query for its features (DA1), so that one that does not know the query
-// before it is not waited for. What is printed by a terminal that knows no such query is erased.
+// Every terminal answers the last query, which asks for its features (DA1). After that answer there
+// is no need to wait for answers to earlier queries, which some terminals do not support. If a
+// terminal prints such a query as text, the text is erased.
 #include "app/terminal_pictures.h"
 
 #include "picture/terminal_graphics.h"
@@ -28,7 +29,7 @@ std::string_view variable(const char* name) {
     return value ? value : "";
 }
 
-/// Numbers between semicolons.
+/// Reads the numbers, which are separated by semicolons.
 std::vector<int> numbers_in(std::string_view text) {
     std::vector<int> numbers(1);
     for (const char c : text) {
@@ -39,8 +40,8 @@ std::vector<int> numbers_in(std::string_view text) {
     return numbers;
 }
 
-/// The parameters of the first control sequence with this first and last character; empty if there
-/// is none.
+/// The parameters of the first control sequence that begins with `begin` and ends with `end`. Empty
+/// if there is none.
 std::optional<std::string_view> sequence(std::string_view text, std::string_view begin, char end) {
     for (std::size_t at = text.find(begin); at != std::string_view::npos;
          at = text.find(begin, at + 1)) {
@@ -55,7 +56,7 @@ std::optional<std::string_view> sequence(std::string_view text, std::string_view
 
 bool has_answered(std::string_view text) { return sequence(text, "\x1b[?", 'c').has_value(); }
 
-/// Standard input without echo, and a byte at a time, while it lives.
+/// Turns off echo and buffering of standard input, during its lifetime.
 class RawInput {
 public:
     RawInput() : is_on_(::tcgetattr(STDIN_FILENO, &before_) == 0) {
@@ -78,7 +79,7 @@ private:
     bool is_on_;
 };
 
-/// What comes until the terminal has told its features, or a second has passed.
+/// Everything that the terminal sends until it has listed its features, or within one second.
 std::string answers_to(const Stream& out, const std::string& query) {
     using Clock = std::chrono::steady_clock;
     constexpr std::size_t longest = 4096;
@@ -98,14 +99,15 @@ std::string answers_to(const Stream& out, const std::string& query) {
     return text;
 }
 
-/// Is something typed already? It would be lost among the answers.
+/// Whether the user has typed anything that is still unread. It would be mixed with the terminal's
+/// answers.
 bool has_input() {
     int waiting = 0;
     return ::ioctl(STDIN_FILENO, FIONREAD, &waiting) != 0 || waiting > 0;
 }
 
-/// tmux and screen know neither kitty's pictures nor always how to skip them; some other terminals
-/// print what they do not know.
+/// Whether the terminal may be asked about kitty's pictures. tmux and screen do not support them
+/// and do not always ignore the query. Some other terminals print queries that they do not support.
 bool may_ask_for_kitty() {
     const std::string_view terminal = variable("TERM");
     return variable("TMUX").empty() && variable("STY").empty() && !terminal.starts_with("tmux") &&
@@ -113,7 +115,8 @@ bool may_ask_for_kitty() {
            variable("TERM_PROGRAM") != "Apple_Terminal";
 }
 
-/// The largest picture of at most these sides: enlarged by a whole factor, or averaged down.
+/// The largest picture that fits into `width` × `height` pixels. It is enlarged by an integer, or
+/// reduced by averaging.
 Image fitted(const Image& image, std::int64_t width, std::int64_t height, int most_enlarged) {
     const std::int64_t fitting = std::min(width / image.width, height / image.height);
     if (fitting >= 1) {
@@ -166,7 +169,7 @@ TerminalPictures ask_terminal(const Stream& out) {
 
 std::string TerminalPictures::draw(const Image& image, const Stream& out,
                                    std::optional<std::uint32_t> id) const {
-    constexpr int lines_around = 3;  // The prompt, and what is said of the picture.
+    constexpr int lines_around = 3;  // Lines for the prompt and for the text about the picture.
     const int rows = std::max(out.rows() - lines_around, 1);
     if (image.width < 1 || image.height < 1) return "";
     if (!out.colour) return plain_characters(image, out.columns());
@@ -178,8 +181,9 @@ std::string TerminalPictures::draw(const Image& image, const Stream& out,
     const Image shown = fitted(image, std::int64_t{out.columns()} * cell_width,
                                std::int64_t{rows} * cell_height, std::max(cell_height / 2, 1));
     const auto lines = static_cast<std::size_t>((shown.height + cell_height - 1) / cell_height);
-    // The lines are made first, so that the window scrolls before the picture is there. The cursor
-    // is kept, because sixels leave it where the terminal likes.
+    // The lines are made first, so that the window scrolls before the picture is drawn. The
+    // position of the cursor is saved, because terminals differ in where they leave the cursor
+    // after sixels.
     return fmt::format(
         "{}\x1b[{}A\x1b"
         "7{}\x1b"

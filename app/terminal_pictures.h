@@ -1,4 +1,5 @@
-// How the terminal at hand shows pictures: in pixels if it can, else in characters.
+// Shows pictures in the terminal, in pixels if the terminal supports them, and otherwise in
+// characters.
 #pragma once
 
 #include "app/console.h"
@@ -15,23 +16,25 @@ enum class PictureProtocol { characters, kitty, sixel };
 
 struct TerminalPictures {
     PictureProtocol protocol = PictureProtocol::characters;
-    int cell_width = 10, cell_height = 20;  ///< Of a character, in pixels.
+    int cell_width = 10, cell_height = 20;  ///< The size of a character in pixels.
 
-    /// A picture, never higher than the window, and as text in lines. In pixels, one with an id
-    /// replaces an earlier one of that id.
+    /// The text that draws a picture, which is never higher than the window. If the terminal can
+    /// show pixels, the picture replaces an earlier one with the same id.
     std::string draw(const Image& image, const Stream& out,
                      std::optional<std::uint32_t> id = std::nullopt) const;
-    /// Takes back a picture of so many lines above the cursor, and leaves the cursor at its start.
+    /// The text that erases a picture of `lines` lines above the cursor, and moves the cursor to
+    /// where the picture began.
     std::string erase(std::int64_t lines, std::uint32_t id) const;
 };
 
-/// Asks the terminal of `out`, whose answers come from standard input, and waits for a second at
-/// most. CASCADE_PICTURES=kitty, sixel or characters decides instead. A stream without colours, or
-/// one that is no terminal, is asked nothing.
+/// Asks the terminal of `out` what it can show, and reads its answer from standard input. Waits for
+/// at most one second. The variable CASCADE_PICTURES overrides the answer if it is kitty, sixel or
+/// characters. The terminal is not asked if the stream has no colours or is no terminal.
 TerminalPictures ask_terminal(const Stream& out);
 
-/// What answers to the queries say: `CSI ? … c` lists features, of which 4 are sixels; `CSI 6 ; H ;
-/// W t` is the size of a character; `APC G … OK ST` comes from kitty's protocol.
+/// Interprets the terminal's answers. `CSI ? … c` lists features. Feature 4 is sixels. `CSI 6 ; H ;
+/// W t` gives the height and width of a character. `APC G … OK ST` means that kitty's protocol is
+/// supported.
 TerminalPictures understood(std::string_view answers);
 
 }  // namespace cascade

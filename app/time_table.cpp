@@ -1,4 +1,5 @@
-// Each time is read once before drawing, since the account keeps running meanwhile.
+// Reads each time only once, before drawing, because the measured times grow while the table is
+// made.
 #include "app/time_table.h"
 
 #include "core/counted.h"
@@ -60,7 +61,7 @@ private:
     std::string text_;
 };
 
-/// "28,000 steps, 250 M cell-steps/s; 16 steps a pass".
+/// Describes the steps of a stage, such as "28,000 steps, 250 M cell-steps/s; 16 steps a pass".
 std::string remark_on_steps(const TimeAccount::Stage& stage) {
     if (stage.steps == 0) return "";
     const double seconds = stage.seconds[static_cast<std::size_t>(Spent::stepping)];
@@ -73,7 +74,7 @@ std::string remark_on_steps(const TimeAccount::Stage& stage) {
     return text;
 }
 
-/// "2 kernels compiled, 1 found on disk".
+/// Describes kernels, such as "2 kernels compiled, 1 found on disk".
 std::string remark_on_kernels(const KernelCounts& kernels) {
     std::string text;
     const auto add = [&](std::int64_t count, std::string_view what) {
@@ -92,7 +93,7 @@ std::string remark_on_kernels(const KernelCounts& kernels) {
 }  // namespace
 
 std::string time_table(TimeAccount& account, bool bars) {
-    // Time passes while the table is made, so each part is read once.
+    // Time passes while the table is made, so each time is read only once.
     std::vector<double> seconds_of_parts;
     for (const Part& part : parts) seconds_of_parts.push_back(account.seconds(part.what));
     const double everything =

@@ -7,8 +7,9 @@
 
 namespace cascade {
 
-/// How the time of a run was spent: a line for each part with its share of the total, one for each
-/// stage if there are several; with bars if `bars`. Ends with a newline.
+/// Describes how the time of a run was spent: a line for each category with its fraction of the
+/// time, and a line for each stage if there are several. `bars` adds a bar to each line. Ends with
+/// a newline.
 std::string time_table(TimeAccount& account, bool bars);
 
 }  // namespace cascade

@@ -1,4 +1,5 @@
-// `cascade view`: serves the page of a session until Ctrl-C, and opens it in the browser.
+// The command `cascade view` serves the page of a session until Ctrl-C, and opens the page in the
+// browser.
 #include "app/commands.h"
 #include "app/exit_status.h"
 #include "app/interrupt.h"
@@ -22,8 +23,9 @@ namespace cascade {
 
 namespace {
 
-/// A page that leads to an address, in a file that only its user reads: an argument of a program
-/// would show the token to everybody on the machine.
+/// A page that redirects to an address. It is in a file that only this user can read. If the
+/// address were an argument of the browser's command, every user of the machine could see the token
+/// in it.
 class LeadingPage {
 public:
     explicit LeadingPage(const std::string& address) {
@@ -52,7 +54,8 @@ private:
     std::string path_;
 };
 
-/// For models that are loaded on the page: a new folder that only this user reads, while it exists.
+/// A new folder for models that users load into the page. Only this user can read it. The
+/// destructor removes it.
 class FolderOfModels {
 public:
     FolderOfModels() {
@@ -66,14 +69,14 @@ public:
     FolderOfModels(const FolderOfModels&) = delete;
     FolderOfModels& operator=(const FolderOfModels&) = delete;
 
-    /// Empty if it could not be made.
+    /// Empty if the folder could not be made.
     const std::filesystem::path& path() const { return path_; }
 
 private:
     std::filesystem::path path_;
 };
 
-/// Does this process have a screen on which a browser could be?
+/// Whether this process has a screen on which a browser could open.
 bool has_screen() { return std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY"); }
 
 void open_in_browser(const std::string& path) {
@@ -91,7 +94,7 @@ void open_in_browser(const std::string& path) {
     posix_spawn_file_actions_destroy(&actions);
 }
 
-/// What is run until a system of the library is chosen on the page.
+/// The script that runs until the user chooses a system of the library in the page.
 LoadedFile script_to_replace(const Overrides& overrides) {
     const std::string text = starting_script(*find_library_text("gray_scott"));
     return {load_script("new.cascade", text, ".", overrides), ""};

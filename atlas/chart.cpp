@@ -1,4 +1,5 @@
-// Corners become positions by union-find. Stretches are singular values in closed form.
+// Finds the corners that share a position by union-find. Stretches are singular values, computed in
+// closed form.
 #include "atlas/chart.h"
 
 #include "mesh/disjoint_sets.h"
@@ -38,7 +39,7 @@ Chart chart_of(const SurfaceMesh& mesh, const Seams& seams, std::vector<std::uin
     std::vector<std::uint32_t> place_of(3 * triangles.size());
     std::uint32_t count = 0;
     for (std::uint32_t c = 0; c < place_of.size(); ++c) {
-        // A set's number is its first corner's, which is visited before the others.
+        // A set has the number of its first corner, which is visited before its other corners.
         const std::uint32_t first = same.find(c);
         place_of[c] = first == c ? count++ : place_of[first];
         chart.corners[c / 3][c % 3] = place_of[c];

@@ -14,17 +14,19 @@
 
 namespace cascade {
 
-/// For each edge of each triangle, whether the surface is cut there: on both sides alike, and at
-/// each boundary.
+/// For each edge of each triangle, whether the surface is cut there. Both sides of an edge have the
+/// same value. Boundaries count as cuts.
 using Seams = std::vector<std::array<bool, 3>>;
 
-/// Triangles connected over edges without a seam. A point of the surface divided by seams has
+/// Triangles connected over edges without a seam. A point of the surface that seams divide has
 /// several positions in the chart.
 struct Chart {
-    std::vector<std::uint32_t> triangles;               ///< Triangles of the surface.
-    std::vector<std::array<std::uint32_t, 3>> corners;  ///< Per triangle, in indices of positions.
-    std::vector<Vector2d> places;                       ///< Positions in the plane.
-    /// The x axis of each triangle's own frame (shape_of) in the plane, of length 1.
+    std::vector<std::uint32_t> triangles;  ///< Indices of triangles of the surface.
+    /// Per triangle: its corners as indices of positions.
+    std::vector<std::array<std::uint32_t, 3>> corners;
+    std::vector<Vector2d> places;  ///< Positions in the plane.
+    /// Per triangle: the direction in the plane, of length 1, of the x axis of its own frame
+    /// (shape_of).
     std::vector<Vector2d> turns;
 
     /// Rotates all positions about the origin.
@@ -37,8 +39,8 @@ struct Chart {
     }
 };
 
-/// A triangle in its own frame, as in own_frame(), but with edges and heights of at least 10⁻⁴ of
-/// its longest edge, so that a triangle without area can be laid flat, too.
+/// A triangle laid flat by own_frame(). Its edges and heights are increased to at least 10⁻⁴ of its
+/// longest edge, so that a triangle without area can be laid flat, too.
 FlatTriangle shape_of(const SurfaceMesh& mesh, std::uint32_t triangle);
 
 /// Twice the area, positive if the corners are counterclockwise.
@@ -46,17 +48,18 @@ inline double double_area(const FlatTriangle& flat) {
     return cross(flat[1] - flat[0], flat[2] - flat[0]);
 }
 
-/// Joins triangles at all edges without a seam, without computing positions. `numbers` has an
-/// element for each triangle of the surface. The elements of these triangles are overwritten.
+/// Makes a chart of triangles by joining them at all edges without a seam. Computes no positions.
+/// `numbers` is scratch memory with an element for each triangle of the surface. The elements of
+/// the chart's triangles are overwritten.
 Chart chart_of(const SurfaceMesh& mesh, const Seams& seams, std::vector<std::uint32_t> triangles,
                std::span<std::uint32_t> numbers);
 
-/// The factors by which a triangle's flat image lengthens directions, the larger first. The second
-/// one is negative if the image is mirrored.
+/// The factors by which a triangle's flat image lengthens directions, the larger first. The smaller
+/// factor is negative if the image is mirrored.
 std::array<double, 2> stretches(const FlatTriangle& shape, const FlatTriangle& image);
 
-/// The largest factor by which lengths change, ≥ 1: the larger stretch or the inverse of the
-/// smaller one. Infinite if the image has no area or is mirrored.
+/// The largest factor by which lengths change, ≥ 1: the larger stretch or the reciprocal of the
+/// smaller one, whichever is larger. Infinite if the image has no area or is mirrored.
 inline double distortion(const std::array<double, 2>& stretches) {
     if (!(stretches[1] > 0)) return std::numeric_limits<double>::infinity();
     return std::max(stretches[0], 1 / stretches[1]);

@@ -1,4 +1,5 @@
-// One side of the smallest rectangle touches an edge of the convex hull.
+// The smallest rectangle has a side that contains an edge of the convex hull, so each edge is
+// tried.
 #include "atlas/chart_box.h"
 
 #include <utility>
@@ -8,7 +9,7 @@ namespace cascade {
 
 namespace {
 
-/// Andrew's monotone chain, counterclockwise.
+/// The convex hull, counterclockwise, by Andrew's monotone chain.
 std::vector<Vector2d> convex_hull(std::vector<Vector2d> points) {
     std::sort(points.begin(), points.end(),
               [](Vector2d a, Vector2d b) { return std::pair(a.x, a.y) < std::pair(b.x, b.y); });

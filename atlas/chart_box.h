@@ -8,7 +8,7 @@
 
 namespace cascade {
 
-/// A rectangle along the axes.
+/// A rectangle parallel to the axes.
 struct FlatBox {
     Vector2d low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
     Vector2d high{low.x * -1, low.y * -1};
@@ -20,10 +20,11 @@ struct FlatBox {
     Vector2d size() const { return high - low; }
 };
 
-/// The smallest rectangle around a chart in any direction.
+/// The smallest rectangle, of any direction, around a chart.
 struct TurnedBox {
-    Vector2d turn{1, 0};  ///< The rotation of its sides to the axes, of length 1.
-    Vector2d size;        ///< The size after rotation.
+    /// The rotation, of length 1, that makes the rectangle's sides parallel to the axes.
+    Vector2d turn{1, 0};
+    Vector2d size;  ///< The size after rotation.
 };
 TurnedBox smallest_box(const Chart& chart);
 

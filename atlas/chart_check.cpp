@@ -1,4 +1,4 @@
-// Compares the outline's edges with all edges whose spans along x overlap theirs.
+// Compares each edge of the outline with all edges whose ranges along x overlap its own range.
 #include "atlas/chart_check.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 /// An edge of the outline, with the chart on its left.
 struct Side {
     std::uint32_t from = 0, to = 0;  ///< Indices of positions.
-    double low = 0, high = 0;        ///< Its span along x.
+    double low = 0, high = 0;        ///< Its range along x.
 };
 
 std::vector<Side> outline_of(const Seams& seams, const Chart& chart) {
@@ -59,11 +59,12 @@ bool has_crossing(const Chart& chart, std::vector<Side> sides) {
     return false;
 }
 
-/// The number of counterclockwise loops.
+/// The number of loops of the outline that are counterclockwise.
 std::size_t count_outer(const Chart& chart, const std::vector<Side>& sides) {
     constexpr std::uint32_t none = 0xffffffff;
     std::vector<std::uint32_t> next(chart.places.size(), none);
-    for (const Side& side : sides) next[side.from] = side.to;  // One fan per position.
+    // Each position has one fan, so one edge begins there.
+    for (const Side& side : sides) next[side.from] = side.to;
     std::size_t outer = 0;
     for (const Side& side : sides) {
         double area = 0;
@@ -83,7 +84,8 @@ std::size_t count_outer(const Chart& chart, const std::vector<Side>& sides) {
 
 bool is_injective(const Seams& seams, const Chart& chart) {
     for (std::size_t n = 0; n < chart.triangles.size(); ++n) {
-        if (!(double_area(chart.flat(n)) > 0)) return false;  // Also false if it is not finite.
+        // The negation also rejects areas that are not finite.
+        if (!(double_area(chart.flat(n)) > 0)) return false;
     }
     std::vector<Side> sides = outline_of(seams, chart);
     return count_outer(chart, sides) == 1 && !has_crossing(chart, std::move(sides));

@@ -1,4 +1,4 @@
-// The linear system is the same in each round and is factorised once. No other file of the room
+// The linear system is the same in each round and is factorised once. No other file of atlas/
 // includes Eigen.
 #include "atlas/flatten.h"
 
@@ -11,7 +11,7 @@ namespace cascade {
 
 namespace {
 
-/// A triangle's own shape, and the weight of each edge: the cotangent of the angle opposite.
+/// A triangle's own shape, and for each edge its weight, the cotangent of the opposite angle.
 struct Rigid {
     FlatTriangle shape;
     std::array<double, 3> weights;
@@ -27,7 +27,7 @@ Rigid rigid_of(const SurfaceMesh& mesh, std::uint32_t triangle) {
     return rigid;
 }
 
-/// The rotation that brings a triangle's edges nearest to the edges of its image.
+/// The rotation that turns a triangle's edges closest to the edges of its image.
 Vector2d best_turn(const Rigid& rigid, const FlatTriangle& image) {
     Vector2d sum{};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -77,7 +77,7 @@ public:
         }
     }
 
-    /// Sets the rotations and returns the mean square of their changes.
+    /// Sets the rotation of each triangle and returns the mean square of their changes.
     double find_turns() {
         double sum = 0;
         for (std::size_t n = 0; n < rigid_.size(); ++n) {
@@ -90,14 +90,16 @@ public:
     }
 
 private:
-    /// Position 0 is the origin. The others are unknown.
+    /// The row of a position in the linear system. Position 0 is the origin, and the others are
+    /// unknown.
     static Eigen::Index row(std::uint32_t place) { return static_cast<Eigen::Index>(place) - 1; }
 
     void factorise() {
         std::vector<Eigen::Triplet<double>> entries;
         entries.reserve(9 * rigid_.size());
         const auto add = [&](std::uint32_t a, std::uint32_t b, double weight) {
-            if (a == 0 || b == 0 || a < b) return;  // The lower half is enough.
+            // The matrix is symmetric, so its lower half is enough.
+            if (a == 0 || b == 0 || a < b) return;
             entries.emplace_back(row(a), row(b), weight);
         };
         for (std::size_t n = 0; n < rigid_.size(); ++n) {

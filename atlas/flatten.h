@@ -5,14 +5,16 @@
 
 namespace cascade {
 
-/// Sets the rotations of a chart's triangles to their directions seen against `axis`.
+/// Sets the rotation of each of the chart's triangles to the triangle's direction when the surface
+/// is viewed along `axis`.
 void turn_towards(const SurfaceMesh& mesh, Vector3d axis, Chart& chart);
 
-/// Computes positions, beginning with the rotations of the chart, in at most `rounds` rounds, ≥ 1.
-/// Each round finds the positions whose edges are nearest to the edges of the rotated triangles,
-/// then the best rotations for these positions. L. Liu et al., "A Local/Global Approach to Mesh
-/// Parameterization", Computer Graphics Forum 27(5), 2008 ("as rigid as possible"). The result may
-/// overlap itself, and is not finite if the arithmetic fails. Always the same bits.
+/// Computes the chart's positions, beginning with the rotations stored in it, in at most `rounds`
+/// rounds (at least 1). Each round finds the positions whose edges are nearest to the edges of the
+/// rotated triangles, then the best rotations for these positions. L. Liu et al., "A Local/Global
+/// Approach to Mesh Parameterization", Computer Graphics Forum 27(5), 2008 ("as rigid as
+/// possible"). The result may overlap itself. It is not finite if the arithmetic fails. It has the
+/// same bits in every run.
 void flatten(const SurfaceMesh& mesh, Chart& chart, int rounds);
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
-// Each round takes pairs in the order of the part of their outlines that would disappear, each
-// chart in at most one pair, and tries them side by side.
+// Works in rounds. A round sorts pairs of charts by the fraction of their outline that would
+// disappear, takes each chart in at most one pair, and tries to join all these pairs in parallel.
 #include "atlas/join_charts.h"
 
 #include "atlas/chart_box.h"
@@ -20,18 +20,21 @@ namespace {
 
 constexpr double most_mean = 1.10, most_bad = 0.01;
 constexpr double small_area = 1.0 / 512;
-constexpr double least_gain = 0.12;  ///< Narrower bridges are not built.
-// A chart must have room beside others in a square of area 1.
+/// Pairs with a smaller gain are not joined, since the connection between the charts would be
+/// narrow.
+constexpr double least_gain = 0.12;
+// Limits of a chart's length, so that a square of area 1 has room for other charts beside it.
 constexpr double longest_side = 1.5, longest_joined_side = 1.1;
 constexpr double least_filled = 0.55, small_joined_area = 1.0 / 64;
-constexpr std::size_t most_triangles = 250'000;  ///< For a joined chart, to limit time.
+/// The most triangles of a joined chart, to limit the time.
+constexpr std::size_t most_triangles = 250'000;
 constexpr int rounds_of_trial = 8;
 
 /// Two charts with a common border.
 struct Pair {
     std::uint32_t one = 0, other = 0;
-    double gain = 0;                  ///< The border as a part of the shorter outline.
-    std::vector<TriangleEdge> edges;  ///< The border, seen from `one`.
+    double gain = 0;  ///< The length of the border as a fraction of the shorter outline.
+    std::vector<TriangleEdge> edges;  ///< The border as edges of chart `one`.
 };
 
 class Joining {
@@ -80,7 +83,7 @@ private:
                       mesh_.corner(e.triangle, e.edge));
     }
 
-    /// Records the chart of its triangles.
+    /// Records for the chart's triangles that they belong to this chart.
     void note(std::uint32_t chart) {
         for (const std::uint32_t t : charts_[chart].triangles) chart_of_[t] = chart;
     }
@@ -100,7 +103,7 @@ private:
         note(static_cast<std::uint32_t>(charts_.size() - 1));
     }
 
-    /// All pairs with a common border that have not failed yet.
+    /// All pairs with a common border whose join has not failed yet.
     std::vector<Pair> pairs() const {
         std::vector<double> outline(charts_.size());
         for (std::uint32_t c = 0; c < charts_.size(); ++c) {
@@ -165,7 +168,8 @@ private:
     std::vector<TriangleEdge> longest_run(const Pair& pair) const {
         const std::vector<TriangleEdge>& border = pair.edges;
         struct End {
-            std::uint32_t here, there, edge;  ///< Positions in both charts. The number of an edge.
+            /// The positions of a point in both charts, and the index of an edge of the border.
+            std::uint32_t here, there, edge;
         };
         std::vector<End> ends;
         for (std::uint32_t e = 0; e < border.size(); ++e) {
@@ -197,8 +201,8 @@ private:
         return run;
     }
 
-    /// Joins along the whole border, or otherwise along its longest run, so that a tube can be
-    /// closed to a sheet.
+    /// Joins two charts along the whole border or, if that fails, along its longest run. So two
+    /// halves of a tube can become a sheet.
     std::optional<Chart> try_to_join(const Pair& pair) {
         if (auto joined = try_edges(pair, pair.edges)) return joined;
         number(charts_[pair.one]);
@@ -225,7 +229,7 @@ private:
         return std::nullopt;
     }
 
-    /// Whether a joined chart leaves no room that is hard to use.
+    /// Whether a joined chart leaves no gaps around it that are hard to fill.
     bool packs_well(const Chart& joined) const {
         const Vector2d box = smallest_box(joined).size;
         double area = 0;
@@ -234,7 +238,7 @@ private:
                (area <= small_joined_area || area >= least_filled * box.x * box.y);
     }
 
-    /// The rotation that brings the edges of `other` to those of `one`.
+    /// The rotation that turns the edges of `other` onto the edges of `one`.
     Vector2d turn_between(const Chart& one, const Chart& other,
                           std::span<const TriangleEdge> edges) const {
         const auto along = [&](const Chart& chart, TriangleEdge e) {
@@ -257,7 +261,8 @@ private:
     std::span<std::uint32_t> numbers_;
     std::vector<std::uint32_t> chart_of_;  ///< The chart of each triangle.
     std::vector<std::uint8_t> is_used_;    ///< 0 once a chart has been joined.
-    std::vector<TriangleEdge> border_;     ///< Edges with a seam, one side of each.
+    /// Edges with a seam. Only one side of each edge is listed.
+    std::vector<TriangleEdge> border_;
     std::set<std::pair<std::uint32_t, std::uint32_t>> failed_;
 };
 

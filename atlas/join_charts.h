@@ -1,4 +1,4 @@
-// Joining charts along common edges (internal to atlas/).
+// Joins charts along common edges (internal to atlas/).
 #pragma once
 
 #include "atlas/chart.h"
@@ -10,8 +10,8 @@
 
 namespace cascade {
 
-/// Calls `work(k)` for 0 … count − 1 on the threads of a team, until `cancel` becomes true. Throws
-/// std::bad_alloc if one of the calls does.
+/// Calls `work(k)` for k from 0 to count − 1 on the threads of a team, until `cancel` becomes true.
+/// Throws std::bad_alloc if a call throws it.
 template <typename Work>
 void in_turn(Team& team, std::size_t count, const std::atomic<bool>& cancel, const Work& work) {
     std::atomic<std::size_t> next = 0;
@@ -26,11 +26,11 @@ void in_turn(Team& team, std::size_t count, const std::atomic<bool>& cancel, con
     if (lacks_memory) throw std::bad_alloc();
 }
 
-/// Whether a chart of a surface of area 1 has no overlaps, is at most 1.5 long and, unless it is
-/// small, has little distortion.
+/// Whether a chart has no overlaps, is at most 1.5 long and has little distortion. Small charts may
+/// have more distortion. The unit of length is the square root of the surface's area.
 bool is_good(const SurfaceMesh& mesh, const Seams& seams, const Chart& chart);
 
-/// Joins charts as long as the results are good, and removes the seams between them.
+/// Joins charts as long as the joined charts fulfil is_good(), and removes the seams between them.
 std::vector<Chart> join_charts(const SurfaceMesh& mesh, std::vector<Chart> charts, Seams& seams,
                                std::span<std::uint32_t> numbers, Team& team,
                                const std::atomic<bool>& cancel);

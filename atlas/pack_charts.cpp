@@ -1,4 +1,5 @@
-// The factor is found by bisection among powers of a number slightly below 1.
+// Tries factors that are powers of a number slightly below 1. Finds the largest that fits by
+// bisection.
 #include "atlas/pack_charts.h"
 
 #include "atlas/chart_box.h"
@@ -18,14 +19,14 @@ namespace cascade {
 
 namespace {
 
-// The occupied cells of a grid, and the search for room (internal to atlas/).
+// The occupied cells of a grid, and the search for free cells (internal to atlas/).
 
 /// Cells first … end − 1 of a row.
 struct CellSpan {
     int row = 0, first = 0, end = 0;
 };
 
-/// A set of cells within width × height.
+/// A set of cells in a rectangle of width × height.
 struct CellShape {
     int width = 0, height = 0;
     std::vector<CellSpan> spans;
@@ -37,14 +38,14 @@ struct CellPlace {
 
 class CellRows {
 public:
-    /// A square of free cells.
+    /// Makes a square of free cells.
     explicit CellRows(int side);
 
-    /// The free position for a shape with the smallest y, then the smallest x, where y is at least
-    /// `lowest` and the upper end, y + height, below `limit`.
+    /// The free position for a shape with the smallest y and, among these, the smallest x. y is at
+    /// least `lowest`, and y + height is below `limit`.
     std::optional<CellPlace> find_room(const CellShape& shape, int lowest, int limit) const;
 
-    /// Occupies the cells of a shape and the eight around each of them.
+    /// Occupies the cells of a shape and the eight cells around each of them.
     void take(const CellShape& shape, CellPlace place);
 
 private:
@@ -54,8 +55,9 @@ private:
     void mark_blocked(const CellSpan& span, int y, std::vector<Word>& blocked,
                       std::vector<Word>& some) const;
 
-    int side_, stride_;        ///< In cells, in words.
-    std::vector<Word> words_;  ///< One bit per cell: 1 if it is occupied. One extra word per row.
+    int side_, stride_;  ///< `side_` is in cells, `stride_` in words.
+    /// One bit per cell: 1 if the cell is occupied. Each row has one extra word.
+    std::vector<Word> words_;
 };
 
 CellRows::CellRows(int side)
@@ -63,7 +65,7 @@ CellRows::CellRows(int side)
       stride_((side + bits - 1) / bits + 1),
       words_(static_cast<std::size_t>(side * stride_)) {}
 
-/// ORs bits moved down by `by` into `to`. Moves in zeros.
+/// Moves bits down by `by`, shifting in zeros, and ORs them into `to`.
 void add_moved(const std::vector<std::uint64_t>& from, int by, std::vector<std::uint64_t>& to) {
     const std::size_t whole = static_cast<std::size_t>(by / 64);
     const int rest = by % 64;
@@ -74,15 +76,15 @@ void add_moved(const std::vector<std::uint64_t>& from, int by, std::vector<std::
     }
 }
 
-/// Marks each x for which a cell x + first … x + end − 1 of a row is occupied.
+/// Marks each x for which one of the cells x + first … x + end − 1 of a row is occupied.
 void CellRows::mark_blocked(const CellSpan& span, int y, std::vector<Word>& blocked,
                             std::vector<Word>& some) const {
     some.assign(row(y), row(y) + stride_);
-    // After each round bit x covers `count` cells from x on.
+    // After each round, bit x is the OR of the `count` cells that begin at x.
     const int length = span.end - span.first;
     for (int count = 1; count < length;) {
         const int more = std::min(count, length - count);
-        // In place: words are read before the words that add them change.
+        // Works in place, because each word is read before it changes.
         add_moved(some, more, some);
         count += more;
     }
@@ -128,7 +130,7 @@ void CellRows::take(const CellShape& shape, CellPlace place) {
 
 constexpr double step_of_scale = 0.98;
 constexpr int most_steps = 700;  ///< 0.98⁷⁰⁰ is 10⁻⁶.
-constexpr int small_shape = 12;  ///< In cells. Smaller shapes are tried in one orientation.
+constexpr int small_shape = 12;  ///< In cells. A smaller shape is tried in one orientation only.
 
 Vector2d quarter_turned(Vector2d v, int quarters) {
     const std::array<Vector2d, 4> turned = {v, Vector2d{-v.y, v.x}, Vector2d{-v.x, -v.y},
@@ -136,7 +138,8 @@ Vector2d quarter_turned(Vector2d v, int quarters) {
     return turned[static_cast<std::size_t>(quarters)];
 }
 
-/// The cells touched by a scaled chart. The lower corner of its bounds is a cell's.
+/// The cells that a scaled chart touches. The lower corner of the chart's bounds is the corner of a
+/// cell.
 CellShape shape_of_chart(const Chart& chart, double scale, int quarters) {
     FlatBox bounds;
     for (const Vector2d p : chart.places) bounds.add(quarter_turned(p, quarters) * scale);
@@ -150,7 +153,7 @@ CellShape shape_of_chart(const Chart& chart, double scale, int quarters) {
         for (Vector2d& p : flat) p = quarter_turned(p, quarters) * scale - bounds.low;
         const auto [low, high] = std::minmax({flat[0].y, flat[1].y, flat[2].y});
         for (int row = cell(low); row <= cell(high); ++row) {
-            // The part of the triangle in this row.
+            // The range of the triangle within this row.
             double left = std::numeric_limits<double>::infinity(), right = -left;
             for (std::size_t k = 0; k < 3; ++k) {
                 Vector2d a = flat[k], b = flat[corner_after(k)];
@@ -181,7 +184,7 @@ CellShape shape_of_chart(const Chart& chart, double scale, int quarters) {
             shape.spans.push_back(span);
         }
     }
-    // The longest first, because they rule out most positions.
+    // Sorts the longest spans first, because they exclude most positions.
     std::stable_sort(shape.spans.begin(), shape.spans.end(),
                      [](const CellSpan& a, const CellSpan& b) {
                          return a.end - a.first > b.end - b.first;
@@ -223,10 +226,11 @@ public:
 
     double run(const std::atomic<bool>& cancel) {
         for (const auto& order : orders_) {
-            // Another order is worth a search only if it is better by a step.
+            // An order of charts is only worth a search if it fits at a smaller step than the best
+            // order so far.
             if (fitting_ <= most_steps && !fits(fitting_ - 1, order, cancel)) continue;
             search(order, cancel);
-            if (fitting_ > most_steps) break;  // Other orders do not help either.
+            if (fitting_ > most_steps) break;  // Other orders would not fit either.
         }
         if (fitting_ > most_steps || cancel) return 0;
         return move_charts(best_, scale_of(fitting_));
@@ -235,16 +239,19 @@ public:
 private:
     using Order = std::vector<std::size_t>;
 
-    /// Cells per length. At the first step the charts' area is the square's.
+    /// The number of cells per unit of length. At step 0 the charts' area equals the area of the
+    /// square.
     double scale_of(int step) const {
         double scale = cells_ / std::sqrt(area_);
         for (int k = 0; k < step; ++k) scale *= step_of_scale;
         return scale;
     }
 
-    /// Finds the first step at which charts fit in an order, below the best one so far.
+    /// Finds the first step at which the charts fit in this order, if it is below the best step so
+    /// far.
     void search(const Order& order, const std::atomic<bool>& cancel) {
-        // Most fit at three quarters of the square's area or less.
+        // Begins at step 7, because charts usually fill at most three quarters of the square's
+        // area.
         int too_large = -1;
         for (int next = std::min(7, fitting_ / 2); fitting_ - too_large > 1 && !cancel;) {
             if (!fits(next, order, cancel)) too_large = next;
@@ -253,7 +260,8 @@ private:
         }
     }
 
-    /// Stores the positions if they fit.
+    /// Whether all charts fit into the square with the scale number `step`. If so, stores their
+    /// positions.
     bool fits(int step, const Order& order, const std::atomic<bool>& cancel) {
         auto placed = place_all(scale_of(step), order, cancel);
         if (!placed) return false;
@@ -264,7 +272,8 @@ private:
 
     std::optional<std::vector<Placed>> place_all(double scale, const Order& order,
                                                  const std::atomic<bool>& cancel) {
-        // A cell at the upper sides stays free. Half of it is moved to the lower sides.
+        // One row and one column of cells at the upper sides stay free. Half of this width is later
+        // moved to the lower sides.
         CellRows rows(cells_ - 1);
         std::vector<Placed> placed(charts_.size());
         std::map<std::pair<int, int>, int> full_below;
@@ -292,7 +301,7 @@ private:
         return placed;
     }
 
-    /// Moves the charts and returns the factor.
+    /// Moves the charts to their positions and returns the factor by which they are scaled.
     double move_charts(const std::vector<Placed>& placed, double scale) {
         for (std::size_t c = 0; c < charts_.size(); ++c) {
             FlatBox bounds;
@@ -311,9 +320,9 @@ private:
     std::span<Chart> charts_;
     int cells_;
     double area_ = 0;
-    std::array<Order, 3> orders_;   ///< The largest first, by several measures.
+    std::array<Order, 3> orders_;   ///< The largest chart first, by three measures of size.
     int fitting_ = most_steps + 1;  ///< The best step so far.
-    std::vector<Placed> best_;      ///< The positions at this step.
+    std::vector<Placed> best_;      ///< The positions of the charts at this step.
 };
 
 }  // namespace

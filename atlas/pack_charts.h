@@ -1,4 +1,4 @@
-// Packing charts into a square.
+// Packs charts into a square.
 #pragma once
 
 #include "atlas/chart.h"
@@ -8,12 +8,14 @@
 
 namespace cascade {
 
-/// Rotates, moves and scales charts, all by one factor as large as possible, so that they lie in
-/// the square 0 … 1², at least 1 / cells apart and half as far from its sides. Returns the factor,
-/// or 0 if they do not fit or `cancel` became true. `cells` is in 8 … 4096. Always the same bits.
+/// Rotates, moves and scales charts so that they lie in the square 0 … 1², at least 1 / cells apart
+/// and half as far from its sides. All are scaled by the same factor, which is as large as
+/// possible. Returns the factor, or 0 if the charts do not fit or `cancel` became true. `cells` is
+/// 8 … 4096. The result has the same bits in every run.
 ///
-/// Charts become sets of cells of a grid. Each chart, the largest first, is put at the lowest free
-/// position, in the best of four orientations. "Largest" has three meanings: the best one wins.
+/// Each chart is represented by a set of cells of a grid. Beginning with the largest chart, each
+/// gets the lowest free position in the best of four orientations. Three measures of size are tried
+/// for this order, and the best result is used.
 double pack_charts(std::span<Chart> charts, int cells, const std::atomic<bool>& cancel);
 
 }  // namespace cascade

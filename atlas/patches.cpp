@@ -1,4 +1,4 @@
-// Patches grow in ascending order of the cost of their paths, all at once (E. Dijkstra 1959).
+// All patches grow at once, in ascending order of the cost of their paths (E. Dijkstra 1959).
 #include "atlas/patches.h"
 
 #include <algorithm>
@@ -14,14 +14,17 @@ namespace {
 
 constexpr std::uint32_t none = 0xffffffff;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double flat_cost = 0.2;       ///< The cost of a unit of length on flat parts.
-constexpr double crease_cost = 0.5;     ///< At a right angle to an edge, in lengths.
-constexpr double least_crease = 0.13;   ///< One minus the cosine of 30°.
-constexpr double most_bent = 0.64;      ///< The cosine of 50°.
-constexpr double bent_share = 0.05;     ///< The part of a patch that may bend more.
-constexpr double least_divided = 5e-4;  ///< Smaller patches are not divided.
+constexpr double flat_cost = 0.2;      ///< The cost of a path on flat parts, per unit of length.
+constexpr double crease_cost = 0.5;    ///< The cost of crossing a crease of 90°, in lengths.
+constexpr double least_crease = 0.13;  ///< One minus the cosine of 30°.
+/// The cosine of 50°. A triangle bends too much if the cosine between its normal and the patch's
+/// mean normal is smaller.
+constexpr double most_bent = 0.64;
+constexpr double bent_share = 0.05;     ///< The fraction of a patch's area that may bend too much.
+constexpr double least_divided = 5e-4;  ///< Patches with a smaller area are not divided.
 constexpr int most_rounds = 40, settling_rounds = 3, most_passes = 8;
-constexpr std::ptrdiff_t enough = 10;  ///< At most one patch in ten may stay bent.
+/// Division ends when at most one in this many patches bends too much.
+constexpr std::ptrdiff_t enough = 10;
 
 struct Seed {
     std::uint32_t node = 0;
@@ -30,7 +33,8 @@ struct Seed {
 
 /// Triangles as nodes of a graph.
 struct Nodes {
-    std::vector<Vector3d> centres, normals;  ///< Normals of length 1, or 0 without an area.
+    /// Normals have length 1, or 0 for triangles without area.
+    std::vector<Vector3d> centres, normals;
 
     void add(const SurfaceMesh& mesh, std::uint32_t triangle) {
         centres.push_back(
@@ -42,11 +46,11 @@ struct Nodes {
 };
 
 struct Growth {
-    std::vector<std::uint32_t> owners;  ///< The seed of each node.
+    std::vector<std::uint32_t> owners;  ///< The seed from which each node was reached.
     std::vector<double> costs;
 };
 
-/// `neighbour(node, k)` is the node across edge k, or none.
+/// Grows patches from seeds. `neighbour(node, k)` is the node across edge k, or none.
 template <typename Neighbour>
 Growth grow(const Nodes& nodes, std::span<const Seed> seeds, const Neighbour& neighbour) {
     Growth growth{std::vector<std::uint32_t>(nodes.size(), none),
@@ -148,8 +152,9 @@ private:
         for (std::uint32_t t = 0; t < nodes_.size(); ++t) visit(t, patches_[growth_.owners[t]]);
     }
 
-    /// Gives a triangle that juts out into one other patch, with two of its edges, to that patch if
-    /// this makes the seam shorter. Its own patch stays connected.
+    /// Gives a triangle that juts out into another patch to that patch, if two of the triangle's
+    /// edges are at that patch and the seam becomes shorter. The patch that loses the triangle
+    /// stays connected.
     void straighten() {
         std::vector<std::uint32_t>& owners = growth_.owners;
         const auto beyond = [&](std::uint32_t t, std::uint32_t k) {
@@ -227,7 +232,7 @@ std::array<std::vector<std::uint32_t>, 2> halves(const SurfaceMesh& mesh, const 
     const Seed start = seed(0);
     const Seed one = seed(farthest_of(grow(nodes, {&start, 1}, neighbour)));
     std::array<Seed, 2> ends = {one, seed(farthest_of(grow(nodes, {&one, 1}, neighbour)))};
-    // Where all costs are equal, any other triangle is an end.
+    // If all costs are equal, any other triangle can be the second end.
     if (ends[1].node == ends[0].node) ends[1] = seed(ends[0].node == 0 ? 1 : 0);
     const Growth growth = grow(nodes, ends, neighbour);
     std::array<std::vector<std::uint32_t>, 2> parts;

@@ -1,4 +1,4 @@
-// Counts covered and shared parts in samples. The rest is exact.
+// Measures the covered and the shared fraction by samples. All other facts are exact.
 #include "atlas/texture_facts.h"
 
 #include "atlas/chart.h"

@@ -1,5 +1,5 @@
-// Rasterises triangles by edge functions with a fill rule for points on edges (as GPUs have), so
-// that two triangles with a common edge never share a sample.
+// Rasterises triangles by edge functions. A fill rule for points on edges, as in GPUs, ensures that
+// two triangles with a common edge never share a sample.
 #include "atlas/texture_layout.h"
 
 #include <algorithm>
@@ -10,13 +10,14 @@ namespace cascade {
 
 namespace {
 
-/// Positive if `point` is to the left of the line from a to b. Exactly negated by swapping a and b.
+/// Positive if `point` is to the left of the line from a to b. Swapping a and b negates the result
+/// exactly.
 double side_of(Vector2d a, Vector2d b, Vector2d point) {
     if (b.x < a.x || (b.x == a.x && b.y < a.y)) return -cross(a - b, point - b);
     return cross(b - a, point - a);
 }
 
-/// The index of a sample without repetitions of the texture.
+/// The index of a sample, wrapped into the repeating texture.
 std::int64_t wrapped(std::int64_t number, std::int64_t size) {
     const std::int64_t rest = number % size;
     return rest < 0 ? rest + size : rest;
@@ -26,7 +27,8 @@ std::int64_t divided_down(std::int64_t number, std::int64_t size) {
     return (number - wrapped(number, size)) / size;
 }
 
-/// The first and the last sample whose centres are not below and not above a number.
+/// The first sample whose centre is not below `low`, and the last whose centre is not above a
+/// number.
 std::int64_t first_from(double low) { return static_cast<std::int64_t>(std::ceil(low - 0.5)); }
 std::int64_t last_to(double high) { return static_cast<std::int64_t>(std::floor(high - 0.5)); }
 
@@ -70,7 +72,7 @@ TextureLayout::TextureLayout(const SurfaceMesh& mesh, std::int64_t width, std::i
         repeats_ =
             repeats_ || drawn.top != 0 || drawn.bottom != 0 || drawn.left != 0 || drawn.right != 0;
         area += std::abs(twice) / 2;
-        if (twice > 0) mirrored += twice / 2;  // Rows go down.
+        if (twice > 0) mirrored += twice / 2;  // In the texture, rows go down.
     }
     const double all = static_cast<double>(width) * static_cast<double>(height);
     covered_area_ = area / all;
@@ -82,7 +84,8 @@ bool TextureLayout::holds(const Drawn& triangle, Vector2d point, std::array<doub
         const Vector2d a = triangle.corners[k], b = triangle.corners[(k + 1) % 3];
         inside[k] = triangle.sign * side_of(a, b, point);
         if (inside[k] > 0) continue;
-        // On the edge: decided as if the point were slightly to the right and even less below.
+        // A point on an edge is treated as if it were slightly to the right and, by even less,
+        // below.
         const Vector2d along = (b - a) * triangle.sign;
         const bool has_edge = along.y < 0 || (along.y == 0 && along.x > 0);
         if (inside[k] < 0 || !has_edge) return false;
@@ -102,7 +105,7 @@ void TextureLayout::visit_columns(const Drawn& triangle, std::int64_t row, const
         high = std::max(high, x);
     }
     if (!(low <= high)) return;
-    // One more at either end, as a margin for rounding.
+    // The loop includes one more sample at either end, as a margin for rounding.
     std::array<double, 3> inside{};
     for (std::int64_t column = first_from(low) - 1; column <= last_to(high) + 1; ++column) {
         if (holds(triangle, middle_of(column, row), inside)) visit(column);
@@ -113,7 +116,7 @@ TextureLayout::Overlap TextureLayout::find_owners(std::int64_t first, std::int64
                                                   std::span<std::uint32_t> owners) const {
     std::fill(owners.begin(), owners.end(), nothing);
     Overlap overlap;
-    constexpr std::uint32_t shared_mark = 0x80000000;  // No number of a triangle is that large.
+    constexpr std::uint32_t shared_mark = 0x80000000;  // No triangle has a number as large as this.
     const auto share = [&](std::uint32_t& owner) {
         ++overlap.again;
         overlap.shared += (owner & shared_mark) == 0;
@@ -155,7 +158,7 @@ SurfacePlace TextureLayout::place_at(std::uint32_t triangle, std::int64_t column
             if (!holds(drawn, point, inside)) continue;
             const double sum = inside[0] + inside[1] + inside[2];
             if (!(sum > 0)) continue;
-            // The weight of a corner is the distance from the opposite edge.
+            // The weight of a corner is proportional to the distance from the opposite edge.
             place.weights = {inside[1] / sum, inside[2] / sum, inside[0] / sum};
             return place;
         }

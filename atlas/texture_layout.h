@@ -1,4 +1,4 @@
-// The mapping from a texture to surface positions: triangles rasterised in texture coordinates.
+// Maps a texture to positions on a surface, by rasterising triangles in texture coordinates.
 #pragma once
 
 #include "mesh/flat.h"
@@ -20,23 +20,27 @@ public:
 
     /// Triangles that cannot be drawn.
     struct Skipped {
-        std::size_t without_area = 0;   ///< In the texture.
-        std::size_t without_place = 0;  ///< Not finite, or beyond ±largest_place.
+        std::size_t without_area = 0;  ///< Number of triangles without area in the texture.
+        /// Number of triangles whose coordinates are not finite, or are beyond ±largest_place.
+        std::size_t without_place = 0;
     };
     const Skipped& skipped() const { return skipped_; }
-    /// The total area of all triangles, in areas of the texture. Above 1 they must overlap.
+    /// The total area of all triangles, as a multiple of the texture's area. If it is above 1,
+    /// triangles must overlap.
     double covered_area() const { return covered_area_; }
-    /// The part of that area in triangles whose picture is mirrored.
+    /// The fraction of that area in triangles whose image is mirrored.
     double mirrored_part() const { return covered_area_ > 0 ? mirrored_area_ / covered_area_ : 0; }
     /// Whether a triangle has samples beyond 0 … 1, where the texture repeats.
     bool repeats() const { return repeats_; }
     static constexpr float largest_place = 256;
 
-    /// Finds the triangles at the centres of samples in rows first … last − 1, row by row: the
-    /// first triangle if there are several, `nothing` if there is none. A sample on the edge
-    /// between two triangles is in one of them. `owners` has (last − first) · width() elements.
+    /// Finds, row by row, the triangle at the centre of each sample in rows first … last − 1. If
+    /// there are several triangles, this is the first of them. If there is none, it is `nothing`. A
+    /// sample on the edge between two triangles is in one of them. `owners` has (last − first) ·
+    /// width() elements.
     struct Overlap {
-        std::int64_t again = 0;   ///< The number of further triangles, over all samples.
+        std::int64_t again = 0;   ///< The number of triangles at a sample in addition to the first,
+                                  ///< summed over all samples.
         std::int64_t shared = 0;  ///< The number of samples in several triangles.
     };
     Overlap find_owners(std::int64_t first, std::int64_t last,
@@ -50,13 +54,14 @@ private:
     /// A triangle in units of samples, with y down.
     struct Drawn {
         FlatTriangle corners;
-        double sign = 0;                   ///< The sign of its area. 0 if it is not drawn.
+        double sign =
+            0;  ///< 1 or −1: the sign of the triangle's area. 0 if the triangle is not drawn.
         std::int64_t first = 0, last = 0;  ///< Its rows, without wrapping.
-        /// The repetitions of the texture that it touches.
+        /// The repetitions of the texture that the triangle touches.
         std::int64_t top = 0, bottom = 0, left = 0, right = 0;
     };
-    /// Whether a point is in the triangle, and its distances from the edges. Of two triangles with
-    /// a common edge exactly one contains the points on it.
+    /// Whether a point is in the triangle. Also sets `inside` to the point's distances from the
+    /// edges. If two triangles have a common edge, exactly one of them contains the points on it.
     static bool holds(const Drawn& triangle, Vector2d point, std::array<double, 3>& inside);
     template <typename Visit>
     static void visit_columns(const Drawn& triangle, std::int64_t row, const Visit& visit);

@@ -1,4 +1,4 @@
-// Charts are made of a copy whose area is 1.
+// Works on a copy of the surface whose area is 1.
 #include "atlas/unwrap.h"
 
 #include "atlas/chart.h"
@@ -21,7 +21,7 @@ namespace cascade {
 
 namespace {
 
-// From a surface to flat charts.
+// Cuts a surface into flat charts.
 
 constexpr int first_rounds = 12, last_rounds = 30;
 
@@ -36,7 +36,8 @@ Seams seams_between(const SurfaceMesh& mesh, std::span<const std::uint32_t> patc
     return seams;
 }
 
-/// Cuts between triangles of two parts, which are numbered 0 and 1 here.
+/// Makes seams between the triangles of two parts. `numbers` is overwritten with 0 or 1 for these
+/// triangles.
 void cut_between(const SurfaceMesh& mesh, std::span<const std::vector<std::uint32_t>, 2> parts,
                  std::span<std::uint32_t> numbers, Seams& seams) {
     for (std::uint32_t side = 0; side < 2; ++side) {
@@ -86,10 +87,11 @@ std::vector<Chart> flat_parts(const SurfaceMesh& mesh, std::vector<std::uint32_t
 }
 
 /// Divides a surface of area 1 into flat charts without overlaps (is_injective). In a chart of more
-/// than 1/512 of the area the mean distortion is at most 1.1, and above 1.5 in at most 1 % of its
-/// area. Patches that bend little (bend_patches) are halved until they meet this, and then joined
-/// again along common edges, the longest first, as long as they still do. Incomplete if `cancel`
-/// became true. The same on any number of threads.
+/// than 1/512 of the area the mean distortion is at most 1.1, and it exceeds 1.5 in at most 1 % of
+/// the chart's area. Patches that bend little (bend_patches) are halved until they fulfil these
+/// conditions. Charts are then joined again along common edges, the longest first, as long as the
+/// joined charts still fulfil the conditions. The result is the same with any number of threads. It
+/// is incomplete if `cancel` became true.
 std::vector<Chart> make_charts(const SurfaceMesh& mesh, Team& team,
                                const std::atomic<bool>& cancel) {
     std::vector<std::vector<std::uint32_t>> patches;
@@ -122,7 +124,8 @@ std::vector<Chart> make_charts(const SurfaceMesh& mesh, Team& team,
     return charts;
 }
 
-/// The triangles alone, moved to the origin and scaled.
+/// The surface without texture coordinates and attributes, moved to the origin and scaled to a
+/// total area of 1.
 SurfaceMesh of_unit_area(const SurfaceMesh& mesh) {
     SurfaceMesh copy;
     copy.triangles = mesh.triangles;

@@ -1,4 +1,4 @@
-// Texture coordinates for surfaces that have none.
+// Makes texture coordinates for surfaces that have none.
 #pragma once
 
 #include "core/parallel.h"
@@ -14,14 +14,15 @@ namespace cascade {
 /// The default number of texels along a side.
 inline constexpr std::int64_t usual_texels = 2048;
 
-/// By corner of each triangle.
+/// For each triangle, the coordinates of its corners.
 using MeshTexture = std::vector<std::array<TexturePlace, 3>>;
 
 /// Coordinates for each triangle's corners, in 0 … 1, without overlaps, for a square texture with
-/// `texels` along a side, 1 … 8192. The surface is cut into charts whose triangles nearly keep
-/// their shapes and relative sizes. Charts are 1/512 of the side apart, but at least two texels, or
-/// one if there are very many charts. Fails if even then they do not fit. Throws std::bad_alloc.
-/// Meaningless if `cancel` became true. The same bits on any number of threads.
+/// `texels` texels along a side, 1 … 8192. The surface is cut into charts whose triangles nearly
+/// keep their shapes and relative sizes. The distance between charts is 1/512 of the side, but at
+/// least two texels. If there are very many charts, it is one texel. Fails if the charts do not fit
+/// even then. Throws std::bad_alloc. The result has the same bits with any number of threads. It is
+/// meaningless if `cancel` became true.
 Result<MeshTexture> unwrap(const SurfaceMesh& mesh, std::int64_t texels, Team& team,
                            const std::atomic<bool>& cancel);
 

@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
-# What two commits ask of somebody who waits for them: processor time, without a compiler cache.
+# Compares the processor time that users of two commits wait for, without a compiler cache.
 #
 #   bench/builds.sh BEFORE AFTER [WHAT…]
 #
-# clones both commits and prints the seconds of the processor of each, and AFTER / BEFORE, for each WHAT, by turns:
+# clones both commits and, for each WHAT in turn, prints the processor seconds of both and the ratio AFTER / BEFORE:
 #   picture      ./cascade run examples/leopard.cascade in a fresh clone
-#   everything   all that can be built after that: pages' engine, libraries, modules
-#   tests        ./tests/run in a fresh clone, its build included
-# Without WHAT: picture and everything. Packages that are missing are installed first and not counted. The clones are
-# kept in $FOLDER if it is set.
+#   everything   all that can be built after picture: pages' engine, libraries, modules
+#   tests        ./tests/run in a fresh clone, including its build
+# By default: picture and everything. Missing packages are installed first, without being measured. If $FOLDER is set,
+# the clones are kept there.
 set -eu -o pipefail
 [ $# -ge 2 ] || { sed -n '2,12s/^# \{0,1\}//p' "$0"; exit 64; }
 source=$(cd "$(dirname "$0")/.." && pwd)
@@ -19,7 +19,7 @@ folder=${FOLDER:-$(mktemp -d)}
 [ -n "${FOLDER:-}" ] || trap 'rm -rf "$folder"' EXIT
 export CCACHE_DISABLE=1
 
-# clone COMMIT NAME: a fresh clone, with the packages that it needs.
+# clone COMMIT NAME: makes a fresh clone and installs the packages that it needs.
 clone() {
     rm -rf "${folder:?}/$2"
     git clone -q "$source" "$folder/$2"
@@ -31,7 +31,7 @@ do_picture() { ./cascade run examples/leopard.cascade -o picture.png; }
 do_everything() { cmake --build build/release --target all cascade_engine; }
 do_tests() { ./tests/run; }
 
-# seconds NAME WHAT: the seconds of the processor that WHAT takes in a clone.
+# seconds NAME WHAT: prints the processor seconds that WHAT takes in a clone.
 seconds() {
     local TIMEFORMAT='%U %S'
     cd "$folder/$1"

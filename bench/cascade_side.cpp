@@ -1,4 +1,4 @@
-// Our side of the benchmarks.
+// Cascade's side of the benchmarks.
 #include "bench/cascade_side.h"
 
 #include "run/stage/bound_kernel.h"
@@ -118,7 +118,7 @@ CascadeSide::CascadeSide(const std::string& text, Backend& backend, Rounding rou
     : script_(load_script("bench", text, ".", overrides_for(rounding))) {
     if (!script_.program) give_up(script_.messages(false));
     SimulationOptions options;
-    options.backend = "interp";  // For the starting values alone.
+    options.backend = "interp";  // Only for the starting values.
     options.threads = 1;
     simulation_ = must(Simulation::create(script_, options));
     if (auto started = simulation_->start_stage(0); !started) give_up(started.error().message);
@@ -135,7 +135,7 @@ CascadeSide::CascadeSide(const std::string& text, Backend& backend, Rounding rou
 
 std::vector<Field> CascadeSide::start_species() const {
     std::vector<Field> species;
-    for (const Field& field : start().species) species.push_back(field.clone());
+    for (const Field& field : start().species()) species.push_back(field.clone());
     return species;
 }
 

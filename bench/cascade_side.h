@@ -1,4 +1,5 @@
-// Our side of the benchmarks: a Cascade text, parsed, checked, lowered, compiled and stepped.
+// Cascade's side of the benchmarks: a script that is parsed, checked, lowered, compiled and
+// stepped.
 #pragma once
 
 #include "core/grid.h"
@@ -18,37 +19,38 @@
 
 namespace cascade::bench {
 
-/// The texts that are measured, for a grid of squares or cubes.
-std::string turing_text(const GridSize& grid);  ///< beta and frozen vary over the cells.
+/// The scripts that are measured, on a grid of squares or cubes.
+std::string turing_text(const GridSize& grid);  ///< beta and frozen vary by cell.
 std::string gray_scott_text(const GridSize& grid);
-std::string stripes_text(const GridSize& grid);        ///< ai varies.
-std::string cahn_hilliard_text(const GridSize& grid);  ///< Two passes a step.
+std::string stripes_text(const GridSize& grid);        ///< ai varies by cell.
+std::string cahn_hilliard_text(const GridSize& grid);  ///< Two passes per step.
 std::string chemotaxis_text(const GridSize& grid);     ///< Fluxes at faces.
 std::string tensor_text(const GridSize& grid);         ///< Diffusion with a direction, flux form.
-std::string allen_cahn_text(const GridSize& grid);  ///< One species: what least can be done a cell.
+std::string allen_cahn_text(const GridSize& grid);     ///< One species: the least work per cell.
 std::string rock_scissors_paper_text(const GridSize& grid);  ///< Three species.
 std::string perona_malik_text(
-    const GridSize& grid);  ///< An exponential a cell, fluxes, two passes.
+    const GridSize& grid);  ///< An exponential per cell, fluxes, two passes.
 
-/// Every operation by itself, or as with `--fast`.
+/// Whether every operation is rounded by itself, or some are fused as with `--fast`.
 enum class Rounding { strict, fast };
 
-/// The first stage of a text, ready to step on one thread with kernels of `backend`. Ends the
-/// program with a message where something fails: a benchmark has no user to talk to.
+/// The first stage of a script, ready to step on one thread with kernels of `backend`. If something
+/// fails, ends the program with a message, because a benchmark has no user who could correct it.
 class CascadeSide {
 public:
     CascadeSide(const std::string& text, Backend& backend, Rounding rounding = Rounding::strict);
 
-    /// Takes steps and looks at them as a run does: once for all `count` (64 in a run).
+    /// Takes `count` steps and checks their values once at the end, as a run does after every 64
+    /// steps.
     void advance(std::int64_t count);
 
-    /// Another stepper at the starting values. Needs this object alive.
+    /// Another stepper, at the starting values. This object must outlive it.
     Stepper fresh_stepper() const;
 
     std::span<const Field> species() { return stepper_->species(); }
     const StageState& start() const { return simulation_->state(0); }
     const Grid& grid() const { return simulation_->domain().grid; }
-    /// A parameter that varies, by name.
+    /// A parameter that varies by cell, by its name.
     const Field& parameter(const std::string& name) const;
 
 private:
@@ -64,11 +66,12 @@ private:
 
 std::int64_t cell_count(const GridSize& grid);
 
-/// As a run takes them: 64, but fewer where they would take more than half a second, and then as
-/// many as a tile has.
+/// The number of steps between two checks in a run: 64 or, on grids so large that 64 would take
+/// more than half a second, as many as a tile has.
 std::int64_t steps_between_looks(const GridSize& grid);
 
-/// Between cells of two states of a grid, over all species; infinite where one is not a number.
+/// The largest difference between the cells of two states of a grid, over all species. Infinite if
+/// a value is NaN.
 double largest_difference(std::span<const Field> a, std::span<const Field> b);
 
 }  // namespace cascade::bench

@@ -1,4 +1,4 @@
-// Throughput of native code against straight C++.
+// Compares the throughput of native code with straight C++.
 #include "bench/comparison.h"
 
 #include "bench/cascade_side.h"
@@ -58,7 +58,7 @@ struct Contest {
     StraightSide theirs;
 };
 
-/// A contest between different computations would be worth nothing.
+/// A comparison of different computations would be worthless.
 void check_agreement(Backend& backend) {
     for (const System& system : systems()) {
         for (const StraightSteps& steps :
@@ -82,8 +82,8 @@ std::string title(const System& system, std::int64_t side, const std::string& wh
     return fmt::format("{}/{}/{}", system.name, side, who);
 }
 
-/// Both sides take turns. They are made when first needed and freed after it: the large ones take
-/// memory.
+/// The sides take turns. Each is made when first needed and freed after the comparison, because
+/// large ones take much memory.
 void run_contest(Backend& backend, const System& system, std::int64_t side, Medians& times) {
     std::unique_ptr<Contest> contest;
     const auto add = [&](const std::string& who, auto advance) {

@@ -1,13 +1,13 @@
-// Throughput of native code against straight C++, through Google Benchmark.
+// Compares the throughput of native code with straight C++, by Google Benchmark.
 #pragma once
 
 #include "ir/backend.h"
 
 namespace cascade::bench {
 
-/// Checks that both sides compute the same, to rounding; then measures every system at every size,
-/// one size after the other, both sides in this process and interleaved at random, and prints
-/// medians and ratios.
+/// Checks that both sides compute the same values, up to rounding. Then measures every system at
+/// every size and prints medians and ratios. Sizes follow one another. Both sides run in this
+/// process and alternate at random.
 void compare_throughput(Backend& backend);
 
 }  // namespace cascade::bench

@@ -1,8 +1,9 @@
-// cascade_convolution_bench: a weighted sum over the cells around each cell of a periodic plane,
-// one core: ours, which chooses between sums and transforms, against straight C++ loops and against
-// FFTW as its manual has it, with plans that are estimated.
+// cascade_convolution_bench: a weighted sum over the cells around each cell of a periodic plane, on
+// one core. Compares Cascade, which chooses between sums and transforms, with straight C++ loops
+// and with FFTW as its manual describes it, with estimated plans.
 //
-// All flags of Google Benchmark work. Arguments are the side of the plane and the reach in cells.
+// All flags of Google Benchmark work. Arguments of cases are the side of the plane and the reach,
+// in cells.
 #include "core/parallel.h"
 #include "solvers/convolution.h"
 
@@ -61,8 +62,8 @@ void ours(benchmark::State& state) {
     count(state, problem);
 }
 
-/// A copy with as many cells around it as the weights reach, so that rows of sums are loops over
-/// neighbouring numbers.
+/// Loops over a copy that has as many more cells on each side as the weights reach, so that sums of
+/// a row are loops over adjacent numbers.
 void straight_loops(benchmark::State& state) {
     Problem problem(state);
     const std::int64_t reach = state.range(1), side = problem.side, width = side + 2 * reach;

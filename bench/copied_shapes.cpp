@@ -1,9 +1,9 @@
 // cascade_copies_bench: a picture and files of many copies of a small mesh on a sphere.
 //
-// usage: cascade_copies_bench [SHAPE [COPIES [SIDE [FILE.png]]]]   a thorn, 100,000 and 1024 pixels
-// without
+// usage: cascade_copies_bench [SHAPE [COPIES [SIDE [FILE.png]]]]   by default a thorn, 100,000 and
+// 1024 pixels
 //
-// Of each phase the time of the processor, in seconds.
+// Prints the processor time of each phase, in seconds.
 #include "export/instanced_model.h"
 #include "mesh/shapes.h"
 #include "picture/image.h"
@@ -26,7 +26,7 @@
 namespace cascade::bench {
 namespace {
 
-/// Says how long something took on all threads together, and returns its result.
+/// Calls `work` and returns its result. Prints the time that it took on all threads together.
 template <typename Work>
 auto timed(const char* what, const Work& work) {
     const std::clock_t before = std::clock();
@@ -48,7 +48,8 @@ TriangleMesh sphere() {
     return drawn;
 }
 
-/// Copies at evenly spread places (a Fibonacci lattice), combed downwards, of a size that covers.
+/// Copies at evenly spread positions (a Fibonacci lattice), combed downwards, so large that they
+/// cover the sphere.
 std::vector<Placement> placements(int count, std::string_view shape) {
     const bool is_flat = shape == "plate" || shape == "feather";
     const double radius = 2.1 / std::sqrt(count);

@@ -1,4 +1,4 @@
-// Orders cells by their boxes' numbers along a Hilbert curve.
+// Orders cells by the numbers of their boxes along a Hilbert curve.
 #include "bench/curve_order.h"
 
 #include <algorithm>
@@ -10,11 +10,11 @@
 namespace cascade::bench {
 namespace {
 
-constexpr int bits = 21;  // Per axis; three fit into a key.
+constexpr int bits = 21;  // Bits per axis. Three axes fit into a key.
 
 /// The position of a box along the curve.
 std::uint64_t curve_key(std::array<std::uint32_t, 3> box) {
-    // Undoes the rotations and reflections of each level, from the coarsest on.
+    // Undoes the rotations and reflections of each level, beginning with the coarsest.
     for (std::uint32_t bit = 1U << (bits - 1); bit > 1; bit >>= 1) {
         const std::uint32_t below = bit - 1;
         for (std::uint32_t& axis : box) {
@@ -27,7 +27,7 @@ std::uint64_t curve_key(std::array<std::uint32_t, 3> box) {
             }
         }
     }
-    // Octants are numbered by the Gray code.
+    // Octants are numbered by Gray code.
     box[1] ^= box[0];
     box[2] ^= box[1];
     std::uint32_t inverted = 0;
@@ -64,7 +64,7 @@ private:
 
     std::uint32_t part(double value, double low) const {
         const double place = (value - low) * scale_ * last;
-        // NaN, from cells without a position and cubes without extent, becomes 0.
+        // NaN becomes 0. It comes from cells without a position and cubes without extent.
         return place > 0 ? static_cast<std::uint32_t>(std::fmin(place, last)) : 0;
     }
 

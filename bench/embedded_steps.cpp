@@ -1,8 +1,9 @@
-// cascade_embedding_bench: what a program that embeds Cascade pays for taking steps one at a time.
+// cascade_embedding_bench: how much longer steps take in a program that embeds Cascade and takes
+// them one at a time.
 //
-// Pattern::step(1) in a loop against Pattern::step(n) in the same process, on one thread: medians
-// of the processor time of a step. The work of a step is the same, so the difference is the price
-// of a call. All flags of Google Benchmark work (--benchmark_filter=/256/).
+// Compares Pattern::step(1) in a loop with Pattern::step(n), in one process on one thread. Prints
+// medians of the processor time of a step. The work of a step is the same, so the difference is the
+// cost of a call. All flags of Google Benchmark work (--benchmark_filter=/256/).
 #include "bench/medians.h"
 #include "cascade/cascade.h"
 
@@ -20,14 +21,14 @@ constexpr std::int64_t warm_up = 256;
 
 struct Kind {
     const char* name;
-    const char* stage;  ///< Without its end, which is far away.
+    const char* stage;  ///< The stage without its end, which is far away.
 };
 constexpr Kind kinds[] = {
     {"spots", "stage only: turing_spots { iterations: 100000000; ka: 1/80"},
     {"chosen", "stage only: turing_spots { duration: 100000000; ka: 1/80; speed: auto"},
 };
 
-/// Takes `state.range(1)` steps an iteration, `each` at a time; all of them where `each` is 0.
+/// Takes `state.range(1)` steps per iteration, `each` at a time, or all at once if `each` is 0.
 void take_steps(benchmark::State& state, const Kind& kind, std::int64_t each) {
     const std::int64_t side = state.range(0), steps = state.range(1);
     PatternOptions options;
@@ -44,7 +45,7 @@ void take_steps(benchmark::State& state, const Kind& kind, std::int64_t each) {
     }
 }
 
-/// The steps of an iteration: some milliseconds.
+/// The number of steps in an iteration, which take some milliseconds.
 std::int64_t steps_on(std::int64_t side) { return side <= 64 ? 4096 : 256; }
 
 }  // namespace

@@ -1,11 +1,11 @@
 #!/bin/bash
-# Whole runs of all examples, by two programs in turns: from command to picture.
+# Compares two programs by whole runs of all examples, from command to picture.
 #
 #   bench/example_runs.sh BEFORE AFTER [TIMES]
 #
-# prints a row for each script below examples/: the least seconds of TIMES runs (5) of the program BEFORE and
-# of AFTER, and how many times as fast the second is. Each program keeps its kernels in a folder of its own,
-# so all runs but the first find them. Worth little on a busy machine.
+# prints a row for each script below examples/: the least seconds of TIMES runs (default 5) of the program BEFORE
+# and of AFTER, and how many times as fast AFTER is. Runs alternate. Each program has its own cache of compiled
+# kernels, so only its first run compiles. On a busy machine, results are unreliable.
 set -eu -o pipefail
 [ $# -ge 2 ] || { sed -n '2,8s/^# \{0,1\}//p' "$0"; exit 64; }
 before=$(realpath "$1") after=$(realpath "$2") times=${3:-5}

@@ -1,11 +1,11 @@
 #!/bin/bash
-# Speeds of all examples, to be kept before and after a change.
+# Measures the speeds of all examples, before and after a change.
 #
 #   bench/examples.sh PROGRAM AFTER.csv [BEFORE.csv]
 #
-# writes AFTER.csv with a row for each stage of each script below examples/ (`cascade bench --csv`), and with
-# BEFORE.csv prints the ratio of speeds, the worst first. Results are worth little on a busy machine.
-# SECONDS_EACH=0.3 measures each stage for so long.
+# writes AFTER.csv with a row for each stage of each script below examples/ (`cascade bench --csv`). With
+# BEFORE.csv, prints the ratios of speeds, the worst first. On a busy machine, results are unreliable.
+# $SECONDS_EACH is the number of seconds for which each stage is measured (default 0.3).
 set -eu
 [ $# -ge 2 ] || { sed -n '2,8s/^# \{0,1\}//p' "$0"; exit 64; }
 program=$(realpath "$1")

@@ -1,9 +1,9 @@
-// cascade_front_end_bench: how many scripts a second the front end reads on one core: parsed,
-// checked, lowered, formatted, and refused with a message.
+// cascade_front_end_bench: how many scripts per second the front end processes on one core. Cases
+// are parsing, checking, lowering, formatting, and refusing with a message.
 //
 // All flags of Google Benchmark work. `small` is a stage of a system of the library, `system` a
-// script with equations of its own; `examples` are all scripts of examples/, one after another;
-// `wrong` are the same with a part left out.
+// script with its own equations. `examples` are all scripts of examples/, one after another.
+// `wrong` are the same scripts, each with a part left out.
 #include "core/check.h"
 #include "core/file.h"
 #include "lang/check/check.h"

@@ -1,4 +1,4 @@
-// How long a user waits.
+// Measures how long a user waits.
 #include "bench/latency.h"
 
 #include "bench/cascade_side.h"
@@ -26,7 +26,7 @@ double milliseconds_of(const std::function<void()>& work) {
     return took.count();
 }
 
-/// Median of several; `work` gets the number of the repetition.
+/// The median time of several repetitions. `work` gets the number of the repetition.
 double median_of(const std::function<void(int)>& work) {
     std::vector<double> times;
     for (int n = 0; n < repetitions; ++n) times.push_back(milliseconds_of([&] { work(n); }));
@@ -38,7 +38,7 @@ void print(const std::string& what, double milliseconds, double wanted) {
     fmt::print("{:<58}{:>9.2f} ms   (wanted: at most {} ms)\n", what, milliseconds, wanted);
 }
 
-/// A Gray-Scott whose equation holds another number in each repetition: a kernel not seen before.
+/// Gray-Scott with another number in its equation for each repetition, so that its kernel is new.
 std::string changed_equation(int repetition) {
     std::string text = gray_scott_text({64, 64});
     const std::string old = "feed * (1 - u)";

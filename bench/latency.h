@@ -1,4 +1,5 @@
-// How long a user waits: from text to first step, for a changed parameter, for Turk's own grid.
+// Measures how long a user waits: from text to first step, after a change of a parameter, and for
+// Turk's own grid.
 #pragma once
 
 #include "ir/backend.h"
@@ -7,11 +8,11 @@
 
 namespace cascade::bench {
 
-/// Measures and prints the first use of the compiler in this process, so it must be the first thing
-/// that is done; returns the backend that was made.
+/// Measures and prints the first use of the compiler in this process, so it must be called before
+/// all else. Returns the backend that was made.
 std::unique_ptr<Backend> first_use(int lanes);
 
-/// Measures and prints later compiles, changes that need none, and 64 × 64 × 2000 steps.
+/// Measures and prints later compilations, changes that need none, and 2000 steps of 64 × 64 cells.
 void later_use(Backend& backend);
 
 }  // namespace cascade::bench

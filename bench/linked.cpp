@@ -1,10 +1,10 @@
-// cascade_linked_bench: Turing's step over linked cells, one core: native code through the solver's
-// stepper against straight C++ over the same slices, and over compressed rows in the cells' own
-// order.
+// cascade_linked_bench: Turing's step over linked cells, on one core. Compares native code, run by
+// the solver's stepper, with straight C++ over the same slices, and over compressed rows in the
+// cells' own order.
 //
-// --order=steps|curve|levels|own, --window=CELLS (0 groups nothing), --width=CELLS of a row,
-// --lanes=4|8|16 and --levels=STEPS for each pass through memory (0: as fits) come first; then
-// flags of Google Benchmark.
+// These options come first: --order=steps|curve|levels|own, --window=CELLS (0 groups nothing),
+// --width=CELLS of a row, --lanes=4|8|16, and --levels=STEPS for each pass through memory (0: as
+// many as fit). Flags of Google Benchmark follow.
 #include "bench/linked_cells.h"
 #include "bench/medians.h"
 #include "bench/straight_links.h"
@@ -34,7 +34,7 @@ namespace cascade::bench {
 namespace {
 
 constexpr LinkedTuring parameters{1.0f, 0.05f / 16, 0.125f, 0.03125f};
-constexpr std::int64_t steps = 16;  // Of one iteration of a benchmark.
+constexpr std::int64_t steps = 16;  // Steps per iteration of a benchmark.
 
 struct Choices {
     std::string order = "steps";
@@ -67,7 +67,7 @@ CellKernel turing_kernel() {
     return std::move(b).finish();
 }
 
-/// Cells in rows, on our side and on that of the slices.
+/// Cells in rows, for native code and for straight C++ over slices.
 class Sliced {
 public:
     Sliced(const LinkedCells& cells, const Choices& choices, Backend& backend)
@@ -131,7 +131,7 @@ public:
         return (stepper_->species()[0].plane<float>().origin())[place(cell)];
     }
     double theirs(std::size_t cell) const { return theirs_[0].origin()[place(cell)]; }
-    /// Entries of all slices over links: how much is filled up.
+    /// The number of entries of all slices, with padding, over the number of links.
     double filling(const LinkedCells& cells) const {
         const auto slices = static_cast<std::size_t>(grid_.cell_count() / 16);
         return 16.0 * links_.table<float>().starts[slices] /
@@ -161,7 +161,7 @@ private:
     Grid grid_;
     PlaneLayout layout_;
     Links links_;
-    AlignedArray<std::int32_t> targets_;  ///< For the others, in 32 bits.
+    AlignedArray<std::int32_t> targets_;  ///< Neighbours as 32-bit numbers, for straight C++.
     Field beta_;
     std::vector<Plane<float>> theirs_, theirs_next_;
     std::vector<Field> ours_;
@@ -170,7 +170,7 @@ private:
     std::int64_t taken_ = 0;
 };
 
-/// Compressed rows.
+/// Cells as compressed rows, for straight C++.
 class Rows {
 public:
     explicit Rows(const LinkedCells& cells)
@@ -250,7 +250,7 @@ const std::vector<std::pair<std::string, Advance>> contestants{
 #endif
 };
 
-/// A contest between different computations would be worth nothing.
+/// A comparison of different computations would be worthless.
 void check_agreement(const Choices& choices, Backend& backend) {
     Contest contest(64, choices, backend);
     contest.sliced.advance(100);

@@ -14,7 +14,7 @@
 namespace cascade::bench {
 namespace {
 
-/// In [0, 1), a function of two numbers.
+/// A number in [0, 1) that depends only on a and b.
 double scatter(std::uint32_t a, std::uint32_t b) { return pcg4d({a, b, 1, 2})[0] * 0x1p-32; }
 
 std::vector<std::uint32_t> shuffled(std::size_t count) {
@@ -59,7 +59,7 @@ LinkedCells cells_of_torus(std::size_t side) {
             const std::size_t c = above * side + i, d = above * side + right;
             link(a, b);
             link(a, c);
-            // Either diagonal of the square.
+            // Chooses one of the two diagonals of the square.
             if (scatter(static_cast<std::uint32_t>(a), 3) < 0.5) {
                 link(a, d);
             } else {

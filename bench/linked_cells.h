@@ -1,5 +1,5 @@
-// Cells like those of a surface, for benchmarks: the points of a jittered grid on a torus, linked
-// by triangles, six neighbours each on average and four to eight each.
+// Cells like cells of a surface, for benchmarks: the points of a jittered grid on a torus, linked
+// by triangles. Each has four to eight neighbours, six on average.
 #pragma once
 
 #include "core/links.h"
@@ -16,12 +16,12 @@ struct LinkedCells {
     LinkList links;
 };
 
-/// side² cells in random order, as a model's own order may be.
+/// side² cells in random order, because a model may have any order.
 LinkedCells cells_of_torus(std::size_t side);
 
-/// The same cells as steps are fastest ("steps"), along a curve ("curve"), by levels ("levels") or
-/// as they are ("own"), then grouped by their number of links in windows of that number of cells,
-/// if it is not 0.
+/// The cells in another order: the fastest for steps ("steps"), along a curve ("curve"), by levels
+/// ("levels") or unchanged ("own"). If `window` is not 0, they are then grouped by their number of
+/// links in windows of that number of cells.
 LinkedCells in_order(const LinkedCells& cells, const std::string& order, std::size_t window);
 
 }  // namespace cascade::bench

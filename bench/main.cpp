@@ -1,6 +1,7 @@
-// cascade_bench: speed of Cascade's native code, one core, against straight C++ in this process.
+// cascade_bench: speed of Cascade's native code on one core, compared with straight C++ in this
+// process.
 //
-// --lanes=8 takes vectors of 8 cells (4, 8 or 16; without it the widest the processor has).
+// --lanes=8 selects vectors of 8 cells (4, 8 or 16; by default the widest that the processor has).
 // All flags of Google Benchmark work (--benchmark_filter=turing/512, --benchmark_repetitions=21).
 #include "bench/comparison.h"
 #include "bench/latency.h"
@@ -11,7 +12,7 @@
 #include <string_view>
 
 int main(int argc, char** argv) {
-    // Both sides work in the one environment of the spec's numerics.
+    // Both sides run in the floating-point environment that the spec prescribes.
     const cascade::FlushDenormals environment;
     int lanes = 0;
     if (argc > 1 && std::string_view(argv[1]).starts_with("--lanes=")) {

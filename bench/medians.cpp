@@ -6,7 +6,7 @@
 namespace cascade::bench {
 
 bool initialize_benchmarks(int argc, char** argv) {
-    // Defaults come first, so that the command line wins.
+    // Defaults come first, so that options of the command line override them.
     std::vector<std::string> words = {argv[0], "--benchmark_repetitions=9",
                                       "--benchmark_min_time=0.05",
                                       "--benchmark_enable_random_interleaving=true"};

@@ -1,4 +1,4 @@
-// What Google Benchmark measures, as medians.
+// Collects the measurements of Google Benchmark as medians.
 #pragma once
 
 #include <benchmark/benchmark.h>
@@ -10,22 +10,23 @@
 
 namespace cascade::bench {
 
-/// Reads the flags of Google Benchmark after defaults of ours: nine repetitions, which take turns
-/// at random. False, with a message, where a flag is unknown.
+/// Reads the flags of Google Benchmark. By default, there are nine repetitions, which alternate at
+/// random. Returns false, with a message, if a flag is unknown.
 bool initialize_benchmarks(int argc, char** argv);
 
-/// Keeps every repetition's time and prints nothing. Serves any number of runs.
+/// Stores every repetition's time and prints nothing. May be used for any number of runs.
 class Medians : public benchmark::BenchmarkReporter {
 public:
-    /// A filter leaves most contests nothing to run, which is no mistake.
+    /// Hides the error that no benchmark matches, because a filter leaves most comparisons without
+    /// any.
     Medians() { SetErrorStream(&nowhere_); }
 
     bool ReportContext(const Context&) override { return true; }
     void ReportRuns(const std::vector<Run>& runs) override;
 
-    /// Median of the seconds that an iteration took; 0 where the benchmark was filtered out.
+    /// Median of the seconds per iteration; 0 if the benchmark was filtered out.
     double median(const std::string& name);
-    /// The least of them; 0 where the benchmark was filtered out.
+    /// The least seconds per iteration; 0 if the benchmark was filtered out.
     double least(const std::string& name);
 
 private:

@@ -1,14 +1,16 @@
-// cascade_model_times: from the file of a model to the first step on its cells, phase by phase.
+// cascade_model_times: the time from the file of a model to the first step on its cells, phase by
+// phase.
 //
-// usage: cascade_model_times [--model=FILE] [--threads=N] [CELLS…]   64,000 without a number, on a
+// usage: cascade_model_times [--model=FILE] [--threads=N] [CELLS…]   by default 64,000 cells on a
 // torus
 //
-// Of each phase the time on the wall and that of the processors, in seconds: on a machine that
-// others use, the second over the number of cores is what an idle one would take. Phases are called
-// one by one, as a run does within `Simulation::create`; the last two rows are such a run as a
-// whole, its kernels compiled within it.
+// Prints the wall time and the processor time of each phase, in seconds. On a machine that others
+// use, the latter divided by the number of cores is about the wall time on an idle machine. Phases
+// are called one by one, as `Simulation::create` does in a run. The last two rows are such a run as
+// a whole, including the compilation of its kernels.
 #include "core/floating_point.h"
 #include "core/parallel.h"
+#include "core/processor_time.h"
 #include "core/quantities.h"
 #include "mesh/make_mesh.h"
 #include "mesh/model_file.h"
@@ -37,16 +39,17 @@
 namespace cascade::bench {
 namespace {
 
-/// Turk's spots: two species and a parameter that is random in each cell.
+/// Turk's spots: two species, and a parameter that is random in each cell.
 constexpr const char* script_text = "stage s: turing_spots { iterations: 2000; ka: 0.05/16 }\n";
 
 class Stopwatch {
 public:
     void row(const std::string& phase) {
-        fmt::print("{:<24}{:>9.3f}{:>9.3f}\n", phase, wall() - wall_, processors() - processors_);
+        fmt::print("{:<24}{:>9.3f}{:>9.3f}\n", phase, wall() - wall_,
+                   processor_seconds() - processors_);
         std::fflush(stdout);
         wall_ = wall();
-        processors_ = processors();
+        processors_ = processor_seconds();
     }
 
 private:
@@ -54,12 +57,7 @@ private:
         const auto now = std::chrono::steady_clock::now().time_since_epoch();
         return std::chrono::duration<double>(now).count();
     }
-    static double processors() {
-        timespec now{};
-        clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-        return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-    }
-    double wall_ = wall(), processors_ = processors();
+    double wall_ = wall(), processors_ = processor_seconds();
 };
 
 [[noreturn]] void refuse(const std::string& why) {
@@ -67,7 +65,7 @@ private:
     std::exit(1);
 }
 
-/// `path` is empty for a torus.
+/// Reads a model, or makes a torus if `path` is empty.
 SurfaceMesh read(const std::string& path, Stopwatch& watch) {
     if (path.empty()) {
         Result<SurfaceMesh> torus = torus_mesh(1, 0.4, 0.02);
@@ -136,14 +134,14 @@ void whole(const std::string& path, std::size_t count, int threads) {
     step(1);
     watch.row("= a run to its first step");
     step(1001);
-    // A step is split where cells are so small that it would not be stable.
+    // A step is divided if cells are so small that the whole step would not be stable.
     const std::uint32_t parts = std::max(1U, (*simulation)->state(0).time.stages);
     watch.row(fmt::format("1,000 steps of {} parts", parts));
 }
 
 void measure(const std::string& path, std::size_t count, int threads) {
     fmt::print("\n{} cells, {} threads\n{:<24}{:>9}{:>9}\n", count, threads, "", "wall", "cores");
-    // First, so that the peak of memory is its own.
+    // Called first, so that its peak of memory is measured.
     whole(path, count, threads);
     rusage used{};
     getrusage(RUSAGE_SELF, &used);

@@ -1,7 +1,7 @@
-// cascade_png_times: what a picture costs from its values to the bytes of its file, against libpng
-// with zlib, as a frame (fast) and as a picture that is kept (small).
+// cascade_png_times: the time from the values of a picture to the bytes of its file, compared with
+// libpng and zlib. Files are written as frames (fast) and as pictures that are kept (small).
 //
-// All flags of Google Benchmark work. The counter `size` is that of the file.
+// All flags of Google Benchmark work. The counter `size` is the size of the file.
 #include "picture/image.h"
 
 #include <benchmark/benchmark.h>
@@ -15,7 +15,7 @@
 namespace cascade::bench {
 namespace {
 
-/// Stripes that bend, as a pattern has them.
+/// A field of bent stripes, like a pattern.
 Field pattern(std::int64_t size) {
     Field field{PlaneLayout(Grid{size, size})};
     for (std::int64_t j = 0; j < size; ++j) {
@@ -60,7 +60,7 @@ void append(png_structp png, png_bytep data, png_size_t size) {
     static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<char*>(data), size);
 }
 
-/// libpng on samples of 8 bits; a fast file has no filters and zlib's level 1.
+/// libpng with samples of 8 bits. A fast file has no filters and zlib's level 1.
 std::size_t write_by_libpng(const std::vector<png_byte>& samples, png_uint_32 size, int channels,
                             PngEffort effort) {
     std::string file;
@@ -82,7 +82,7 @@ std::size_t write_by_libpng(const std::vector<png_byte>& samples, png_uint_32 si
     return file.size();
 }
 
-/// The opponent, which is given samples.
+/// The case of libpng, which gets samples.
 void libpng(benchmark::State& state, const char* palette, PngEffort effort) {
     const int channels = palette == std::string("grey") ? 1 : 3;
     std::vector<png_byte> samples;

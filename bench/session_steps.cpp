@@ -1,8 +1,8 @@
-// cascade_session_bench: what a session costs beside the steps that it takes.
+// cascade_session_bench: how much longer steps take in a session.
 //
-// The same steps by LiveRun::advance() and by a Session whose reader asks for a snapshot 30 times a
-// second, in the same process on one thread: medians of the processor time of a step. All flags of
-// Google Benchmark work (--benchmark_filter=/512/).
+// Compares LiveRun::advance() with a Session whose reader asks for a snapshot 30 times a second,
+// for the same steps, in one process on one thread. Prints medians of the processor time of a step.
+// All flags of Google Benchmark work (--benchmark_filter=/512/).
 #include "bench/medians.h"
 #include "run/session/session.h"
 
@@ -46,7 +46,7 @@ void advance(benchmark::State& state) {
     for (auto _ : state) (void)run->advance(state.range(1), control);
 }
 
-/// Reads snapshots 30 times a second until steps are no longer taken.
+/// Reads snapshots 30 times a second until all steps are taken.
 void wait_for_end(Session& session, std::int64_t last) {
     while (session.newest()->place.steps < last) std::this_thread::sleep_for(33ms);
 }

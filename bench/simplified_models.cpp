@@ -1,9 +1,9 @@
 // cascade_simplify_bench: a sphere with bands of two colours is simplified to a twentieth of its
-// triangles, one core: ours, which keeps the shape, or the shape and the colours, against
-// OpenMesh's own quadrics with its test for triangles that turn over.
+// triangles, on one core. Compares Cascade, which preserves the shape, or the shape and the
+// colours, with OpenMesh's own quadrics and its test for triangles that turn over.
 //
-// All flags of Google Benchmark work. The argument is the number of triangles. `off` is how far the
-// middles of triangles are inside the unit sphere, in the mean.
+// All flags of Google Benchmark work. The argument of cases is the number of triangles. The counter
+// `off` is the mean depth of triangles' middles inside the unit sphere.
 #include "mesh/half_edges.h"
 #include "mesh/shapes.h"
 #include "mesh/simplify.h"

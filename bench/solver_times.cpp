@@ -1,16 +1,17 @@
-// cascade_solver_times: how long each solver takes to an equally good pattern, and how good it is.
+// cascade_solver_times: how long each solver takes to an equally good pattern, and how good the
+// pattern is.
 //
 // usage: cascade_solver_times [--threads=N] [--solver=NAME…] [--pattern=NAME…] [--tolerance=E]
 //                             [SIDE…]
-//        all solvers, large and small spots, 256 and 1024 without them
+//        by default all solvers, large and small spots, 256 and 1024
 //
 // Every solver of the language grows the same pattern from the same noise for the same time, as
 // `cascade run --solver NAME` does. Each pattern is compared with Euler's by correlation,
-// wavelength and number of spots, so that a fast solver with another pattern is noticed. For quiet
-// machines only; times are wall times and include compiling.
+// wavelength and number of spots, so that a fast solver with another pattern is noticed. Needs an
+// idle machine. Times are wall times and include compiling.
 //
-// The opponent is Euler's method in straight C++ (straight_cpp.h) on one thread. Its steps all take
-// the same time, so only some are taken and their time is multiplied.
+// For comparison, straight C++ (straight_cpp.h) takes Euler's steps on one thread. All its steps
+// take the same time, so only some are taken and their time is multiplied.
 #include "bench/cascade_side.h"
 #include "bench/straight_side.h"
 #include "core/floating_point.h"
@@ -42,12 +43,12 @@ namespace {
 struct Pattern {
     const char* name;
     const char* text;
-    StraightStep StraightSteps::*straight;  ///< The opponent's step.
-    const char* varying;                    ///< The parameter that varies, or empty.
+    StraightStep StraightSteps::*straight;  ///< The step in straight C++.
+    const char* varying;                    ///< The parameter that varies by cell, or empty.
 };
 
-/// Turk's spots with the two sizes of his leopard, and larger ones: the larger, the less does
-/// reaction limit the step. Then two systems with lap of lap.
+/// Turk's spots in the two sizes of his leopard, and larger ones. The larger the spots, the less
+/// does the reaction limit the step. Then two systems with lap of lap.
 constexpr Pattern known_patterns[] = {
     {"large", "stage s: turing_spots { iterations: 28000; ka: 0.05/16 }\n",
      &StraightSteps::turing_without_mask, "beta"},
@@ -68,7 +69,7 @@ struct Choice {
     std::vector<std::string> patterns = {"large", "small"};
     std::vector<std::int64_t> sides = {256, 1024};
     int threads = 1;
-    std::string tolerance;  ///< A setting of all stages but Euler's; empty: its default.
+    std::string tolerance;  ///< A setting of all stages but Euler's; if empty, the default.
 };
 
 struct Outcome {
@@ -83,7 +84,7 @@ std::string text_of(const Pattern& pattern, std::int64_t side) {
     return fmt::format("domain {{ grid: {}, {} }}\n{}", side, side, pattern.text);
 }
 
-/// The text with one more setting for the stage.
+/// The text with one more setting in its stage.
 std::string with_setting(std::string text, const std::string& setting) {
     if (!setting.empty()) text.insert(text.rfind('}'), "; " + setting + " ");
     return text;
@@ -93,7 +94,7 @@ double seconds_since(std::chrono::steady_clock::time_point before) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
 }
 
-/// Empty, with a line on stderr, where the solver does not take this pattern.
+/// Grows a pattern. Empty, with a line on stderr, if the solver does not support it.
 std::optional<Outcome> grow(const Pattern& pattern, const std::string& solver, std::int64_t side,
                             const Choice& choice) {
     Overrides changes;
@@ -126,13 +127,13 @@ std::optional<Outcome> grow(const Pattern& pattern, const std::string& solver, s
     outcome.seconds = took;
     outcome.steps = state.steps;
     outcome.t = state.t;
-    outcome.field = state.species.back().clone();
+    outcome.field = state.species().back().clone();
     outcome.features =
         measure::measure(measure::to_samples(outcome.field, (*simulation)->domain().grid));
     return outcome;
 }
 
-/// Of two fields over their cells: 1 for the same pattern, 0 for two that have nothing in common.
+/// The correlation of two fields over their cells: 1 for the same pattern, 0 for unrelated ones.
 double correlation(const Field& a, const Field& b) {
     const FieldMoments of_a = moments(a), of_b = moments(b);
     const FieldMoments apart = moments_of_difference(a, b);
@@ -143,19 +144,19 @@ double correlation(const Field& a, const Field& b) {
     return covariance / (of_a.deviation * of_b.deviation);
 }
 
-/// Euler's steps in straight C++, by the compilation that is the fastest.
+/// Euler's steps in straight C++, with the compiler flags that are the fastest.
 class StraightEuler {
 public:
     StraightEuler(const Pattern& pattern, std::int64_t side, Backend& backend)
         : side_(CascadeSide(text_of(pattern, side), backend), pattern.varying),
           step_(pattern.straight) {
-        // So many steps take a tenth of a second.
+        // This number of steps takes a tenth of a second.
         side_.advance(straight_wide().*step_, 4);
         const double four = time(straight_wide(), 4);
         steps_ = std::max<std::int64_t>(4, static_cast<std::int64_t>(0.4 / four));
     }
 
-    /// Three looks at each compilation; the fastest of all that there were counts.
+    /// Measures each set of flags three times. The fastest of all measurements counts.
     void look() {
         for (int repetition = 0; repetition < 3; ++repetition) {
             for (const StraightSteps& steps :
@@ -202,7 +203,7 @@ void compare(const Pattern& pattern, std::int64_t side, const Choice& choice, Ba
     fmt::print("{:<14}{:>8}{:>9.0f}{:>10.2f}{:>9.2f}{:>8.2f}\n", "straight C++", euler.steps,
                euler.t, of_straight, of_straight / euler.seconds, 1.0);
     for (const auto& [solver, it] : all) {
-        // Spots of b are where it is low.
+        // Spots of b are where b is low.
         fmt::print("{:<14}{:>8}{:>9.0f}{:>10.2f}{:>9.2f}{:>8.3f}{:>13.4f}{:>12.2f}{:>8.0f}\n",
                    solver, it.steps, it.t, it.seconds, it.seconds / euler.seconds,
                    it.seconds / of_straight, correlation(it.field, euler.field),
@@ -211,7 +212,7 @@ void compare(const Pattern& pattern, std::int64_t side, const Choice& choice, Ba
     std::fflush(stdout);
 }
 
-/// Empty where a word is none of the usage.
+/// Empty if a word is not in the usage.
 std::optional<Choice> read_choice(int argc, char** argv) {
     Choice choice;
     std::vector<std::string> solvers, patterns;

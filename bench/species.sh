@@ -1,11 +1,11 @@
 #!/bin/bash
-# What a step costs for each cell and species, by the number of species.
+# Measures the time of a step per cell and species, for different numbers of species.
 #
 #   bench/species.sh PROGRAM [SIDE]
 #
-# measures families of 1 to 100 species on SIDE × SIDE cells (256), one thread: each species alone, in a
-# ring (u[i+1]), and all with all (a sum over all). Prints nanoseconds for each cell and species.
-# SECONDS_EACH=0.5 measures each family for so long. Results are worth little on a busy machine.
+# measures families of 1 to 100 species on SIDE × SIDE cells (default 256), on one thread. Species react with
+# themselves alone, with the next in a ring (u[i+1]), or with all (a sum). Prints nanoseconds per cell and species.
+# $SECONDS_EACH is the number of seconds per family (default 0.5). On a busy machine, results are unreliable.
 set -eu -o pipefail
 [ $# -ge 1 ] || { sed -n '2,8s/^# \{0,1\}//p' "$0"; exit 64; }
 program=$(realpath "$1") side=${2:-256}

@@ -1,12 +1,14 @@
-// The code of the opponent. Included by one file for each set of flags, which names the function
-// STRAIGHT_CPP_FLAVOUR; everything else is local to that file, so that each has code of its own.
+// The straight C++ code. One file for each set of flags includes it and defines
+// STRAIGHT_CPP_FLAVOUR, the name of its function. Everything else is local to that file, so that
+// each set has its own code.
 #include "bench/straight_cpp.h"
 
 #include <cstring>
 #include <initializer_list>
 
-/// With this promise g++ takes the vector functions of glibc's libmvec, which it otherwise does
-/// under -ffast-math alone. An opponent that calls expf cell by cell would be a straw man.
+/// Because of this declaration, g++ uses the vector functions of glibc's libmvec, which it
+/// otherwise does only with -ffast-math. A comparison with code that calls expf cell by cell would
+/// not be fair.
 extern "C" [[gnu::simd("notinbranch")]] float expf(float);
 
 namespace cascade::bench {
@@ -16,7 +18,7 @@ inline float laplacian(const float* __restrict c, std::int64_t i, std::int64_t s
     return c[i - stride] + c[i + stride] + c[i + 1] + c[i - 1] - 4.0F * c[i];
 }
 
-/// From a row to the next, and from a slice to the next.
+/// The number of elements from a row to the next, and from a slice to the next.
 struct SpaceStride {
     std::int64_t row, slice;
 };
@@ -32,7 +34,7 @@ void fill_halo(float* cells, const StraightFields& f) {
         row[-1] = row[f.width - 1];
         row[f.width] = row[0];
     }
-    // With the columns of the halo: the corners are read by tensors.
+    // Includes the columns of the halo, because tensors read the corners.
     const auto bytes = static_cast<std::size_t>(f.width + 2) * sizeof(float);
     std::memcpy(cells - f.stride - 1, cells + (f.height - 1) * f.stride - 1, bytes);
     std::memcpy(cells + f.height * f.stride - 1, cells - 1, bytes);
@@ -48,8 +50,9 @@ void fill_halo_in_space(float* cells, const StraightFields& f) {
     std::memcpy(first + f.depth * f.slice_stride, first, bytes);
 }
 
-// g++ honours __restrict on parameters, and only of functions that it does not inline: with either
-// undone it proves nothing about overlaps and leaves these loops scalar. Hence a function a row.
+// g++ uses __restrict only on parameters of functions that it does not inline. Otherwise it cannot
+// prove that planes do not overlap, and does not vectorise these loops. So each row is a call of a
+// function.
 
 template <bool has_mask = true, typename Stride>
 [[gnu::noinline]] void turing_row(const float* __restrict a, const float* __restrict b,
@@ -58,7 +61,8 @@ template <bool has_mask = true, typename Stride>
                                   float* __restrict new_b, std::int64_t width, Stride stride,
                                   StraightConstants k) {
     for (std::int64_t i = 0; i < width; ++i) {
-        // A weight and not a choice of results: g++ 12 vectorises this form of the mask.
+        // A weight instead of a choice between results, because g++ 12 vectorises this form of the
+        // mask.
         const float weight = has_mask && frozen[i] ? 0.0F : k.speed;
         const float ab = a[i] * b[i];
         const float rate_a = k.ka * (16.0F - ab) + k.diff_a * laplacian(a, i, stride);
@@ -134,7 +138,7 @@ template <typename Stride>
     }
 }
 
-/// What flows through the face between cell i and the one at i + to, in units of chi.
+/// The flux through the face between cell i and the cell at i + to, in units of chi.
 inline float swarm_flux(const float* __restrict cells, const float* __restrict bait, std::int64_t i,
                         std::int64_t to) {
     return 0.5F * (cells[i] + cells[i + to]) * (bait[i + to] - bait[i]);
@@ -154,8 +158,8 @@ inline float swarm_flux(const float* __restrict cells, const float* __restrict b
     }
 }
 
-/// What a tensor sends through the face between cell i and the one at i + to; `beside` is the way
-/// along the face.
+/// The flux by a tensor through the face between cell i and the cell at i + to. `beside` is the
+/// offset along the face.
 inline float tensor_flux(const float* __restrict c, std::int64_t i, std::int64_t to,
                          std::int64_t beside, float across, float turned) {
     const float along = (c[i + beside] - c[i - beside]) + (c[i + to + beside] - c[i + to - beside]);
@@ -207,7 +211,7 @@ inline float tensor_flux(const float* __restrict c, std::int64_t i, std::int64_t
     }
 }
 
-/// What flows through the face between cell i and the one at i + to.
+/// The flux through the face between cell i and the cell at i + to.
 inline float heat_flux(const float* __restrict c, const float* __restrict conductivity,
                        std::int64_t i, std::int64_t to) {
     return 0.5F * (conductivity[i] + conductivity[i + to]) * (c[i + to] - c[i]);
@@ -248,7 +252,7 @@ void gray_scott_step(const StraightFields& f, const StraightConstants& k) {
     for (int s = 0; s < 2; ++s) fill_halo(f.next[s], f);
 }
 
-/// Calls `row` with the place of each row's first cell, slice after slice.
+/// Calls `row` with the offset of each row's first cell, slice after slice.
 template <typename Row>
 void for_rows_in_space(const StraightFields& f, Row row) {
     for (std::int64_t k = 0; k < f.depth; ++k) {
@@ -280,7 +284,7 @@ void stripes_step(const StraightFields& f, const StraightConstants& k) {
                     f.varying + at, f.next[0] + at, f.next[1] + at, f.next[2] + at, f.next[3] + at,
                     f.next[4] + at, f.width, f.stride, k);
     }
-    // Nobody reads the neighbours of c.
+    // Nothing reads c at neighbours, so its halo is not filled.
     for (const int s : {0, 1, 3, 4}) fill_halo(f.next[s], f);
 }
 

@@ -1,4 +1,4 @@
-// Turing's step over linked cells by Eigen's product of a sparse matrix with two vectors.
+// Turing's step over linked cells, with Eigen's product of a sparse matrix and two vectors.
 #pragma once
 
 #include "bench/straight_links.h"

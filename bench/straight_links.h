@@ -1,4 +1,4 @@
-// Turing's step over linked cells as a good programmer would write it: the opponent.
+// For comparison: Turing's step over linked cells as a good programmer would write it.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct LinkedPlanes {
     const float* beta;
 };
 
-/// Slices of sixteen cells as core/links.h has them, for rows of `width` cells, a multiple of 16.
+/// Slices of sixteen cells, stored as in core/links.h, for rows of `width` cells, a multiple of 16.
 struct SlicedLinks {
     const std::uint32_t* starts;
     const std::int32_t* targets;
@@ -26,7 +26,7 @@ struct SlicedLinks {
     std::int64_t width, height, stride;
 };
 
-/// Links of cell i are those before ends[i]: compressed sparse rows.
+/// Compressed sparse rows. The links of cell i end before ends[i].
 struct RowLinks {
     const std::uint32_t* ends;
     const std::int32_t* targets;
@@ -34,9 +34,9 @@ struct RowLinks {
     std::int64_t cells;
 };
 
-/// With the processor's gathers, where it has AVX-512.
+/// Uses the processor's gather instructions if it has AVX-512.
 void sliced_by_gathers(const LinkedTuring&, const SlicedLinks&, const LinkedPlanes&);
-/// A loop over sixteen cells that loads one after the other.
+/// Loops over sixteen cells and loads their neighbours one by one.
 void sliced_by_loads(const LinkedTuring&, const SlicedLinks&, const LinkedPlanes&);
 void by_rows(const LinkedTuring&, const RowLinks&, const LinkedPlanes&);
 

@@ -1,19 +1,19 @@
-// The opponent's fields.
+// The fields of straight C++.
 #include "bench/straight_side.h"
 
 namespace cascade::bench {
 
 StraightSide::StraightSide(const CascadeSide& like, const std::string& varying)
     : grid_(like.grid()), layout_(grid_) {
-    for (const Field& field : like.start().species) {
+    for (const Field& field : like.start().species()) {
         now_.emplace_back(field.plane());
         next_.emplace_back(field.plane());
         fill_halo(now_.back().origin(), layout_, grid_.boundary);
     }
-    scratch_ = StraightPlane<float>(like.start().species[0].plane());
+    scratch_ = StraightPlane<float>(like.start().species()[0].plane());
     if (!varying.empty()) varying_ = StraightPlane<float>(like.parameter(varying).plane());
-    if (!like.start().frozen.empty()) {
-        frozen_ = StraightPlane<std::uint8_t>(like.start().frozen);
+    if (!like.start().frozen().empty()) {
+        frozen_ = StraightPlane<std::uint8_t>(like.start().frozen());
     }
 }
 

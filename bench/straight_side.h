@@ -1,4 +1,5 @@
-// The opponent's fields: starts from the values of our side, steps by a function of straight_cpp.h.
+// The fields of straight C++. They start with the values of Cascade's side, and a function of
+// straight_cpp.h takes the steps.
 #pragma once
 
 #include "bench/cascade_side.h"
@@ -14,13 +15,13 @@
 
 namespace cascade::bench {
 
-/// A plane as straight C++ would allocate it: aligned rows from the standard allocator. (Ours ask
-/// the system for huge pages as well; that is a part of what is compared.)
+/// A plane as straight C++ would allocate it: aligned rows from the standard allocator. (Cascade
+/// also asks the system for huge pages, which is a part of the comparison.)
 template <typename T>
 class StraightPlane {
 public:
     StraightPlane() = default;
-    /// Takes over the values of a plane of ours.
+    /// Copies the values of a plane of Cascade.
     explicit StraightPlane(const Plane<T>& like)
         : offset_(like.layout().offset(0, 0)),
           data_(static_cast<T*>(std::aligned_alloc(64, rounded_bytes(like.layout())))) {
@@ -45,7 +46,7 @@ private:
 
 class StraightSide {
 public:
-    /// `varying` names the parameter that varies, or is empty.
+    /// `varying` is the name of the parameter that varies by cell, or empty.
     StraightSide(const CascadeSide& like, const std::string& varying);
 
     void advance(StraightStep step, std::int64_t count);

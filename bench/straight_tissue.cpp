@@ -1,4 +1,4 @@
-// Compiled for this machine, with its own flags.
+// Compiled for this machine, with separate flags.
 #include "bench/straight_tissue.h"
 
 #include <cmath>

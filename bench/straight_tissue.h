@@ -1,4 +1,4 @@
-// The opponent: a loop over cells and their neighbours as one would write it by hand.
+// For comparison: a loop over cells and their neighbours as one would write it by hand.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,8 @@
 
 namespace cascade::bench {
 
-/// Planes of one number a cell: place, radius and an axis; and the rates of place and of turning.
+/// Planes with one number per cell: position, radius and an axis, and the rates of the position and
+/// of the axis.
 struct StraightTissue {
     std::span<const std::size_t> ends;
     std::span<const std::uint32_t> neighbours;
@@ -17,8 +18,8 @@ struct StraightTissue {
 
 inline constexpr float bench_push = 0.5F, bench_stick = 0.05F, bench_reach = 1.2F;
 
-/// Collision, adhesion and combing: cells push where they overlap, hold together up to the reach,
-/// and turn their axes towards those of the cells that they touch.
+/// Collision, adhesion and combing. Cells push each other where they overlap, attract each other up
+/// to the reach, and turn their axes towards those of the cells that they touch.
 void straight_rates(const StraightTissue& tissue);
 
 }  // namespace cascade::bench

@@ -1,7 +1,7 @@
-// cascade_picture_times: what pictures of surface cells cost.
+// cascade_picture_times: how long pictures of surface cells take.
 //
-// --model=FILE takes a model instead of a torus of 97,000 triangles; all flags of Google Benchmark
-// work. 64,000 cells, as many threads as the machine has.
+// --model=FILE selects a model instead of a torus of 97,000 triangles. All flags of Google
+// Benchmark work. There are 64,000 cells, and as many threads as the machine has.
 #include "mesh/make_mesh.h"
 #include "mesh/model_file.h"
 #include "run/pictures/cell_picture.h"
@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::size_t cell_count = 64'000;
 
-/// A torus whose tube is thicker and thinner on the way around.
+/// A torus whose tube varies in thickness on the way around.
 PolygonSoup torus() {
     constexpr std::uint32_t sides = 220;
     PolygonSoup soup;
@@ -47,7 +47,7 @@ PolygonSoup torus() {
     return soup;
 }
 
-/// What is drawn, made once.
+/// The model and the cells to draw, made once.
 struct Subject {
     Team team{hardware_threads()};
     SurfaceMesh mesh;
@@ -83,7 +83,7 @@ void make_scene(benchmark::State& state, Subject& subject) {
     }
 }
 
-/// Side of the picture and its quality.
+/// Arguments are the side of the picture and its quality.
 void draw_picture(benchmark::State& state, Subject& subject) {
     CellScene scene(subject.mesh, subject.cells, subject.team);
     const PaintedCells look = subject.look();
@@ -94,7 +94,7 @@ void draw_picture(benchmark::State& state, Subject& subject) {
     for (auto _ : state) benchmark::DoNotOptimize(scene.draw(look, options, subject.team));
 }
 
-/// A run's picture as a file, from its cells: with all that is prepared for it.
+/// The picture of a run as a file, including all preparation from its cells.
 void whole_picture(benchmark::State& state, Subject& subject) {
     const PaintedCells look = subject.look();
     DrawOptions options;

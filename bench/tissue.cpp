@@ -1,6 +1,6 @@
-// cascade_tissue_bench: 100,000 cells on a torus, one core. Their neighbours, their order in
-// memory, what they sense, and their rates (collision, adhesion, combing) by native code and by a
-// scalar loop in C++; and a tissue that grows (tissue_growth.cpp).
+// cascade_tissue_bench: 100,000 cells on a torus, on one core. Measures their neighbours, their
+// order in memory, what they sense, and their rates (collision, adhesion, combing) by native code
+// and by a scalar loop in C++. Also measures a tissue that grows (tissue_growth.cpp).
 #include "bench/straight_tissue.h"
 #include "core/floating_point.h"
 #include "ir/expression.h"
@@ -26,8 +26,8 @@ namespace {
 
 constexpr std::size_t cells = 100'000, species = 7, results = 6;
 
-/// Cells of equal radii whose discs would cover the torus 1.8 times, so that random ones have about
-/// 14 neighbours.
+/// Cells of equal radii whose discs would cover the torus 1.8 times, so that randomly placed cells
+/// have about 14 neighbours.
 class Scene {
 public:
     Scene() : mesh(*torus_mesh(0.35, 0.15, 0.01)), around(around_surface(mesh)), team(1) {
@@ -173,7 +173,7 @@ void rates_of_kernel(Scene& s, const Kernel& kernel) {
                {{0, layout.height}});
 }
 
-/// One number a cell without gaps between rows.
+/// One number per cell, without gaps between rows.
 struct StraightCells {
     explicit StraightCells(const Scene& scene)
         : lists(scene.lists), to(results, std::vector<float>(cells)) {
@@ -202,7 +202,7 @@ KernelPointer native_rates() {
     return *kernel;
 }
 
-/// Both sides compute the same.
+/// Checks that both sides compute the same.
 void check_agreement() {
     Scene& s = scene();
     StraightCells straight(s);

@@ -1,5 +1,5 @@
-// The case `growth` of cascade_tissue_bench: cells on a torus divide from 6 founders until 3,200
-// of them cover it, with everything that a stage of cells does, on one core.
+// The case `growth` of cascade_tissue_bench: on a torus, 6 founders divide until 3,200 cells cover
+// it, on one core. Includes everything that a stage of cells does.
 #include "ir/expression.h"
 #include "jit/jit.h"
 #include "mesh/shapes.h"
@@ -19,13 +19,14 @@
 namespace cascade::bench {
 namespace {
 
-/// The place, the radius, and how ripe a cell is: it divides above 1.
+/// Species are the position, the radius, and the ripeness of a cell, which divides if ripeness is
+/// above 1.
 constexpr std::uint32_t species = 5, senses = 4, ripe = 4;
 constexpr double radius = 0.0136, reach = 1.2, stiffness = 10, hold = 4;
 
 using SpeciesPlane = StepProblem::SpeciesPlane;
 
-/// Cells push each other away, keep to the surface, and ripen where there is room.
+/// Cells push each other away, stay at the surface, and ripen where there is room.
 class GrowingCells : public TissueRules {
 public:
     GrowingCells(std::shared_ptr<const Surroundings> around,
@@ -95,7 +96,8 @@ public:
     }
 
 private:
-    /// A kernel in the making, whose fields are the species of each input and what is sensed.
+    /// A kernel under construction. Its fields are the species of each input and the values that
+    /// cells sense.
     struct Kit {
         explicit Kit(std::uint32_t inputs) {
             for (std::uint32_t k = 0; k < inputs * species + senses; ++k) {

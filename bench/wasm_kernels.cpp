@@ -1,10 +1,10 @@
-// cascade_wasm_bench: kernels of steps as WebAssembly modules in node, against native code for
-// vectors of the same 4 cells.
+// cascade_wasm_bench: kernels of steps as WebAssembly modules in node, compared with native code
+// for vectors of 4 cells, too.
 //
-//   cascade_wasm_bench [SYSTEM…]    of the library; gray_scott turing_spots stripes without any
+//   cascade_wasm_bench [SYSTEM…]    of the library; by default gray_scott turing_spots stripes
 //
-// One core, 256² cells. Both sides take turns; speeds are in millions of cells a second, the
-// medians of nine turns.
+// One core, 256² cells. Both sides take turns. Speeds are in millions of cells per second, medians
+// of nine turns.
 #include "core/floating_point.h"
 #include "core/plane.h"
 #include "jit/jit.h"
@@ -41,7 +41,8 @@ CellKernel step_of(const std::string& system) {
     return *plan_step(*script.program, 0, as_run).passes.front().bound.kernel;
 }
 
-/// Seconds of a call on planes of one value, at best of half a second.
+/// Measures the seconds of a call on planes with the same value in all cells, the best of half a
+/// second.
 class Native {
 public:
     explicit Native(const CellKernel& kernel)

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs and builds what `cascade` needs to run with the given arguments.
+# Installs and builds everything that `cascade` needs to run with the given arguments.
 set -u
 
 root=$(CDPATH='' cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd -P) || exit 1
@@ -13,7 +13,7 @@ if ! flock -n 9; then
     say "waiting for another build of this folder to end"
     flock 9
 fi
-# The process that held the lock may have built the same.
+# Another process, which held the lock, may have built the same meanwhile.
 is_ready "$@" && exit
 : >"$log"
 purposes=(build)

@@ -1,5 +1,5 @@
-# Writes OUTPUT from TEMPLATE, where @version@ becomes a hash of SOURCES (names in FOLDER, separated by
-# commas) and of EXTRA.
+# Writes OUTPUT from TEMPLATE. Replaces @version@ by a hash of the files SOURCES (names relative to
+# FOLDER, separated by commas) and of EXTRA.
 string(REPLACE "," ";" sources "${SOURCES}")
 set(all "${EXTRA}")
 foreach(source IN LISTS sources)

@@ -1,27 +1,32 @@
-# Shell functions that tell whether the program must be built. Every start of `cascade` runs them, so they are plain sh and start one
-# process. Source this file with `root` set to the top folder of the source tree.
+# Shell functions that tell whether the program must be built. Every start of `cascade` runs them,
+# so they are plain sh and start only one process. Source this file with `root` set to the top
+# folder of the source tree.
 
 build=$root/build/release
 
-# list_sources: prints what the program is built from, relative to `root`. A build notes it in build/release/built before it begins.
+# list_sources: prints the files and folders from which the program is built, relative to `root`. A
+# build writes this list to build/release/built before it begins.
 list_sources() {
     printf 'include page cmake CMakeLists.txt '
     sed -n 's/^\([a-z][a-z]*\).*/\1/p' "$root/cmake/rooms.txt" | sort -u | tr '\n' ' '
     echo
 }
 
-# is_fresh: true if no source has changed since the last build began. Folders count, too: they change when a file is added or removed. The
-# time of status change is compared, since a copy may keep an old time of modification.
+# is_fresh: true if no source has changed since the last build began. Folders count, too, because
+# they change when a file is added or removed. Compares the time of the last status change, because
+# a copied file may keep an old time of modification.
 is_fresh() {
     [ -x "$build/cascade" ] && [ -s "$build/built" ] || return 1
     read -r sources <"$build/built"
-    # A library that Cascade can do without, and has been installed since.
-    [ ! -e /usr/include/openvdb/openvdb.h ] || sources="$sources /usr/include/openvdb/openvdb.h"
+    # An optional library may have been installed since the last build.
+    for library in /usr/include/openvdb/openvdb.h /usr/lib/*/openmpi/include/mpi.h /usr/include/*/mpich/mpi.h; do
+        [ ! -e "$library" ] || sources="$sources $library"
+    done
     changed=$(CDPATH= cd -- "$root" && exec find $sources -cnewer build/release/built -print -quit 2>/dev/null) && [ -z "$changed" ]
 }
 
-# Pages that `cascade export` writes carry an engine, which takes other packages and another compiler. It is built when the first page is
-# written.
+# Pages written by `cascade export` carry an engine, whose build takes other packages and another
+# compiler. It is built when the first page is written.
 needs_engine() { [ "${1-}" = export ]; }
 is_engine_fresh() { [ "$build/engine.wasm" -nt "$build/built" ]; }
 

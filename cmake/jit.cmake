@@ -1,5 +1,6 @@
-# The room jit/ has two parts: the one that finds, stores and runs compiled kernels is linked into every
-# program; the one that needs LLVM is a module that is loaded to generate code (jit/generator.h).
+# The room jit/ has two parts. The part that finds, stores and runs compiled kernels is linked into
+# every program. The part that needs LLVM is a module, which is loaded to generate code
+# (jit/generator.h).
 
 set(jit_without_llvm code_cache code_image code_version generator jit kernel_key processor)
 list(TRANSFORM jit_without_llvm PREPEND ${PROJECT_SOURCE_DIR}/jit/)
@@ -7,7 +8,7 @@ list(TRANSFORM jit_without_llvm APPEND .cpp)
 file(GLOB jit_with_llvm CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/jit/*.cpp)
 list(REMOVE_ITEM jit_with_llvm ${jit_without_llvm} ${PROJECT_SOURCE_DIR}/jit/no_jit.cpp)
 
-# Kernels on disk are reused only by programs with the same code generator.
+# A program reuses kernels on disk only if the same code generator made them.
 file(GLOB code_sources RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/jit/*.cpp
   ${PROJECT_SOURCE_DIR}/jit/*.h ${PROJECT_SOURCE_DIR}/ir/*.cpp ${PROJECT_SOURCE_DIR}/ir/*.h
   ${PROJECT_SOURCE_DIR}/ir/*.def ${PROJECT_SOURCE_DIR}/core/grid.h
@@ -25,7 +26,8 @@ add_custom_command(
   VERBATIM)
 set(code_version_header ${code_version_folder}/jit/code_version.h)
 
-# Both parts have this file. It is an object by itself, so that a program that links both takes only one.
+# Both parts contain this file. It is compiled by itself, so that a program that links both parts
+# takes only one copy.
 set(code_version ${PROJECT_SOURCE_DIR}/jit/code_version.cpp)
 set_source_files_properties(${code_version} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 
@@ -38,7 +40,7 @@ target_compile_definitions(cascade_jit PRIVATE
   CASCADE_LLVM_MODULE="libcascade_llvm.so" CASCADE_LLVM_LIBRARY="${llvm_library}"
   CASCADE_LLVM_VERSION="${LLVM_PACKAGE_VERSION}")
 
-# The module's parts, which tests use directly instead of through its function table.
+# Tests call the parts of the module directly, without its table of functions.
 set(llvm_module ${PROJECT_SOURCE_DIR}/jit/llvm_module.cpp)
 list(REMOVE_ITEM jit_with_llvm ${llvm_module})
 add_library(cascade_llvm_parts STATIC ${code_version_header})

@@ -3,16 +3,15 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# The rooms are linked in but not exported: only the functions of the public headers can be called.
-# They are objects by themselves, which tests link, too.
-add_library(cascade_pattern OBJECT
-  run/commands/pattern.cpp run/commands/pattern_values.cpp
-  run/commands/c_calls.cpp run/commands/c_functions.cpp run/commands/c_values.cpp)
-target_link_libraries(cascade_pattern PRIVATE cascade_run)
+# The rooms are linked in but not exported: programs can call only the functions of the public
+# headers. These functions are an object library, which tests link, too.
+file(GLOB library_sources CONFIGURE_DEPENDS library/*.cpp)
+add_library(cascade_pattern OBJECT ${library_sources})
+target_link_libraries(cascade_pattern PUBLIC cascade_view)
 target_compile_options(cascade_pattern PRIVATE ${usual_options})
 add_library(cascade_library SHARED $<TARGET_OBJECTS:cascade_pattern>)
 set_target_properties(cascade_library PROPERTIES LINKER_LANGUAGE CXX)
-target_link_libraries(cascade_library PRIVATE cascade_run)
+target_link_libraries(cascade_library PRIVATE cascade_view)
 target_link_options(cascade_library PRIVATE LINKER:--exclude-libs,ALL)
 target_include_directories(cascade_library INTERFACE
   $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
@@ -23,15 +22,16 @@ set_target_properties(cascade_library PROPERTIES
   EXPORT_NAME cascade
   VERSION ${PROJECT_VERSION}
   SOVERSION ${PROJECT_VERSION_MAJOR}
-  INSTALL_RPATH "$ORIGIN")
+  INSTALL_RPATH "$ORIGIN/cascade;$ORIGIN")
 add_library(Cascade::cascade ALIAS cascade_library)
 
 file(RELATIVE_PATH libraries_from_programs
   ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
-# Both are linked with their final path: CMake ends a path that it will replace with an empty entry, which
-# means the current folder to the loader. In the build folder the module is beside them.
+# The program and the library are linked with their final search path from the start. Otherwise
+# CMake would end a path that it will replace with an empty entry, which the loader takes for the
+# current folder. In the build folder the module is beside both.
 set_target_properties(cascade_program PROPERTIES
-  INSTALL_RPATH "$ORIGIN/${libraries_from_programs};$ORIGIN")
+  INSTALL_RPATH "$ORIGIN/${libraries_from_programs}/cascade;$ORIGIN")
 set_target_properties(cascade_program cascade_library PROPERTIES BUILD_WITH_INSTALL_RPATH ON)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Cascade)
@@ -39,18 +39,18 @@ configure_package_config_file(cmake/CascadeConfig.cmake.in CascadeConfig.cmake
   INSTALL_DESTINATION ${package_folder})
 write_basic_package_version_file(CascadeConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 
-install(TARGETS cascade_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-if(CASCADE_JIT)
-  install(TARGETS cascade_llvm LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
-endif()
-if(TARGET cascade_openvdb)
-  install(TARGETS cascade_openvdb LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
-endif()
-install(TARGETS cascade_library EXPORT CascadeTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS cascade_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+foreach(module cascade_llvm cascade_openvdb cascade_mpi)
+  if(TARGET ${module})
+    cascade_install_module(${module})
+  endif()
+endforeach()
+install(TARGETS cascade_library EXPORT CascadeTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+  COMPONENT library NAMELINK_COMPONENT library)
 install(FILES include/cascade/cascade.h include/cascade/cascade_c.h
-  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cascade)
-install(EXPORT CascadeTargets NAMESPACE Cascade:: DESTINATION ${package_folder})
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cascade COMPONENT library)
+install(EXPORT CascadeTargets NAMESPACE Cascade:: DESTINATION ${package_folder} COMPONENT library)
 install(FILES
   ${PROJECT_BINARY_DIR}/CascadeConfig.cmake
   ${PROJECT_BINARY_DIR}/CascadeConfigVersion.cmake
-  DESTINATION ${package_folder})
+  DESTINATION ${package_folder} COMPONENT library)

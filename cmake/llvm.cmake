@@ -1,4 +1,5 @@
-# LLVM 19's shared library. Its version file compares major.minor, so "19" alone does not match.
+# Finds LLVM 19's shared library. Its version file compares major.minor, so "19" alone does not
+# match.
 find_package(LLVM 19.1 REQUIRED CONFIG)
 
 function(cascade_link_llvm target)

@@ -1,10 +1,10 @@
-# The program `cascade`: app/ on top of the rooms.
+# Builds the program `cascade`: app/ and the rooms below it.
 
 find_path(LIBEDIT_INCLUDE_DIR histedit.h REQUIRED)
 find_library(LIBEDIT_LIBRARY edit REQUIRED)
 
-# app/ without main() is a library, so that its parts can be tested.
-list(APPEND CASCADE_WITHOUT app/main)
+# app/ without its main functions is a library, so that its parts can be tested.
+list(APPEND CASCADE_WITHOUT app/main app/write_manual)
 cascade_room(app CLI11::CLI11 ${LIBEDIT_LIBRARY})
 target_include_directories(cascade_app SYSTEM PRIVATE ${LIBEDIT_INCLUDE_DIR})
 
@@ -13,3 +13,7 @@ target_link_libraries(cascade_program PRIVATE cascade_app)
 set_target_properties(cascade_program PROPERTIES
   OUTPUT_NAME cascade
   RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+
+# `cascade examples` finds the examples beside the program (core/shared_files.h).
+file(RELATIVE_PATH examples_from_build ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR}/examples)
+file(CREATE_LINK ${examples_from_build} ${PROJECT_BINARY_DIR}/examples SYMBOLIC)

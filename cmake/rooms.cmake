@@ -1,4 +1,4 @@
-# A room is a folder of the source tree; its .cpp files make the static library `cascade_NAME`.
+# A room is a folder of the source tree. Its .cpp files make the static library `cascade_NAME`.
 
 add_library(cascade_options INTERFACE)
 target_include_directories(cascade_options INTERFACE ${PROJECT_SOURCE_DIR})
@@ -6,10 +6,12 @@ target_compile_options(cascade_options INTERFACE
   -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wno-sign-conversion
   -ffp-contract=off)  # The spec fixes every rounding; a fused multiply-add would drop one.
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
-  # g++ 12 and 13 warn of an overlap in std::string's own operator+ (GCC bug 105651).
+  # g++ 12 and 13 warn of an overlap in std::string's own operator+, which does not exist (GCC bug
+  # 105651).
   target_compile_options(cascade_options INTERFACE -Wno-restrict)
   if(CASCADE_UNITS)
-    # False alarms: of anonymous namespaces in files that another one includes, and of std::optional without -O3.
+    # Two warnings are false alarms: those of anonymous namespaces in files that another file
+    # includes, and those of std::optional without -O3.
     target_compile_options(cascade_options INTERFACE -Wno-subobject-linkage -Wno-maybe-uninitialized)
   endif()
 endif()
@@ -24,12 +26,14 @@ endif()
 
 include(cmake/units.cmake)
 
-# The table of rooms and of what each may include. A changed table reconfigures the build.
+# The table of rooms, and of the rooms that each may include. CMake runs again when the table
+# changes.
 set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND
   PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/rooms.txt)
 file(STRINGS ${PROJECT_SOURCE_DIR}/cmake/rooms.txt room_table REGEX "^[a-z]")
 
-# The outer rooms that `name` and the rooms inside it may include, without itself.
+# Sets `result` to the outer rooms that `name` and the rooms inside it may include, except `name`
+# itself.
 function(cascade_rooms_below name result)
   set(lines ${room_table})
   list(FILTER lines INCLUDE REGEX "^${name}[:/]")
@@ -44,17 +48,9 @@ function(cascade_rooms_below name result)
   set(${result} ${rooms} PARENT_SCOPE)
 endfunction()
 
-# cascade_load_late(TARGET MACRO FILE): the target loads a shared library when it first needs it
-# (core/late_library.h), by the name that the macro holds, such as libembree3.so.3.
-function(cascade_load_late target macro file)
-  file(REAL_PATH ${file} real)
-  get_filename_component(name ${real} NAME)
-  string(REGEX REPLACE "(\\.so\\.[0-9]+).*" "\\1" name ${name})
-  target_compile_definitions(${target} PRIVATE ${macro}="${name}")
-endfunction()
-
-# cascade_room(NAME PACKAGES…): the library of the folder NAME and its subfolders. Files in the list
-# CASCADE_WITHOUT, regular expressions without their ending, are left out, as are rooms that are not built.
+# cascade_room(NAME PACKAGES…): makes a library of the folder NAME and its subfolders. Leaves out
+# files that match the list CASCADE_WITHOUT (regular expressions of paths without ending). Does not
+# link rooms that are not built.
 function(cascade_room name)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${name}/*.cpp)
   list(JOIN CASCADE_WITHOUT "|" without)

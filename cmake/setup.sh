@@ -1,11 +1,12 @@
-# Shell functions shared by `cascade` and `tests/run`: install missing packages, configure, build.
-# Source it with `root` set to the top folder of the source tree.
+# Shell functions that `cascade` and `tests/run` share: they install missing packages, configure and
+# build. Source this file with `root` set to the top folder of the source tree.
 
 say() {
     printf 'cascade: %s\n' "$*" >&2
 }
 
-# packages_for PURPOSE…: prints names from packages.txt.
+# packages_for PURPOSE…: prints the names of the packages in packages.txt that serve any of these
+# purposes.
 packages_for() {
     local name purpose command wanted
     while read -r name purpose command; do
@@ -17,7 +18,7 @@ packages_for() {
     return 0
 }
 
-# missing_packages NAME…: prints those that are not installed.
+# missing_packages NAME…: prints the names of packages that are not installed.
 missing_packages() {
     local installed name
     installed=$(dpkg-query -W -f='${db:Status-Status} ${binary:Package}\n' "$@" 2>/dev/null)
@@ -26,8 +27,8 @@ missing_packages() {
     done
 }
 
-# install_packages LOG PURPOSE…: installs missing packages. Does nothing on systems other than Debian;
-# there CMake reports what it does not find.
+# install_packages LOG PURPOSE…: installs missing packages. Does nothing on systems other than
+# Debian. There CMake reports what it does not find.
 install_packages() {
     local log=$1 list missing as_root=()
     shift
@@ -56,7 +57,8 @@ install_packages() {
     fi
 }
 
-# compilers: prints how many compilers may run at a time: one for each processor and each GiB of free memory.
+# compilers: prints how many compilers may run at a time: at most one for each processor and one for
+# each GiB of free memory.
 compilers() {
     local free
     free=$(awk '/^MemAvailable:/ { print int($2 / 1048576) }' /proc/meminfo 2>/dev/null)
@@ -68,7 +70,8 @@ compilers() {
     fi
 }
 
-# time_left SECONDS DONE ALL: prints "about 3 minutes left" once a twentieth is done.
+# time_left SECONDS DONE ALL: prints the remaining time, as "about 3 minutes left", once a twentieth
+# is done.
 time_left() {
     [ $(($2 * 20)) -ge "$3" ] || return 0
     local seconds=$(($1 * ($3 - $2) / $2))
@@ -79,7 +82,8 @@ time_left() {
     fi
 }
 
-# progress LOG SECONDS: prints the number of steps done, as ninja and make log it, and the time left.
+# progress LOG SECONDS: prints the number of steps that are done, as logged by ninja or make, and
+# the remaining time.
 progress() {
     local step
     step=$(tail -c 4000 "$1" | grep -oE '^\[ *[0-9]+(/[0-9]+|%)\]' | tail -n 1 | tr -d '[] ')
@@ -89,11 +93,12 @@ progress() {
     esac
 }
 
-# show_progress LOG: shows the progress until it is killed: in a terminal one line that changes, elsewhere a line
-# each half minute.
+# show_progress LOG: shows the progress until it is killed. In a terminal it changes one line.
+# Elsewhere it prints a line every half minute.
 show_progress() {
     local line begun=$SECONDS next=${CASCADE_PROGRESS_SECONDS:-30}
-    # The script may have been interrupted, which a process in the background is not.
+    # Ends if the script was interrupted, because an interruption does not reach a process in the
+    # background.
     while sleep 0.5 && kill -0 $$ 2>/dev/null; do
         if [ ! -t 2 ]; then
             [ $((SECONDS - begun)) -ge "$next" ] || continue
@@ -110,7 +115,8 @@ show_progress() {
     done
 }
 
-# explain_failure LOG: prints the end of the log of a failed build, and what is known of its cause.
+# explain_failure LOG: prints the end of the log of a failed build, and the cause if it is a known
+# one.
 explain_failure() {
     say "the build failed; the end of $1:"
     tail -n 40 "$1" >&2
@@ -125,7 +131,8 @@ explain_failure() {
 configure_and_build() {
     local log=$1 build=$2 target=$3 jobs
     shift 3
-    # A build folder holds absolute paths, so a moved or copied tree is configured anew.
+    # A build folder contains absolute paths, so it is configured anew if the source tree was moved
+    # or copied.
     local home
     home=$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "$build/CMakeCache.txt" 2>/dev/null)
     if [ -n "$home" ] && [ "$home" != "$root" ]; then
@@ -137,7 +144,7 @@ configure_and_build() {
     fi
     if command -v ccache >/dev/null; then
         options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-        export CCACHE_SLOPPINESS=pch_defines,time_macros  # It looks at precompiled headers only then.
+        export CCACHE_SLOPPINESS=pch_defines,time_macros  # ccache otherwise ignores precompiled headers.
     fi
     jobs=$(compilers)
     [ "$jobs" = "$(nproc)" ] || say "$jobs of $(nproc) processors compile, since a compiler takes up to 1 GiB of memory"

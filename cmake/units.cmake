@@ -1,23 +1,27 @@
-# How files are compiled: several at a time, most of them with little optimisation, after a precompiled header.
-# Of the text that a file compiles, 2 % is its own and 98 % is headers (docs/building.md). A unit is a number of files of
-# one target that are compiled as one, so that their headers are read, and their templates compiled, once. It is as large as a
-# compiler process of less than 1 GiB allows. Names in anonymous namespaces must therefore differ within a room.
+# Compiles several files at a time, most of them with little optimisation, and all of them with a
+# precompiled header. Of the text that the compiler reads for a file, 98 % is headers and 2 % is the
+# file's own (docs/building.md). So some files of a target are compiled together as one unit. Then
+# their headers are read once, and their templates are compiled once. A unit is as large as a
+# compiler process of less than 1 GiB allows. Names in anonymous namespaces must therefore differ
+# within a room.
 #
-# CASCADE_UNITS=OFF compiles each file by itself, without the precompiled header and with all optimisation, without which
-# g++ 12 warns of std::optional: so builds the preset `strict`, which finds missing includes.
+# CASCADE_UNITS=OFF compiles each file by itself, without the precompiled header. It optimises
+# fully, because g++ 12 otherwise warns of std::optional. The preset `strict` builds in this way and
+# so finds missing includes.
 
-# Bytes of source text in a unit.
+# The number of bytes of source text in a unit.
 set(unit_size 130000)
 
-# Files whose templates fill a compiler process by themselves.
+# Files whose templates alone take as much memory as one compiler process may use.
 set(units_of_one_file analysis/eigenvalues analysis/linear_algebra view/local_server)
 list(TRANSFORM units_of_one_file PREPEND ${PROJECT_SOURCE_DIR}/)
 list(TRANSFORM units_of_one_file APPEND .cpp)
 
-# Headers whose templates each unit that uses them compiles again: their users are put into the same units.
+# Headers whose templates are compiled again in each unit that uses them. The files that include
+# them are put into the same units.
 set(heavy_headers "nlohmann/json\\.hpp|json_fields\\.h|glb_file\\.h|mesh/gltf_")
 
-# The precompiled header for each level of optimisation, as g++ asks for.
+# The headers that are precompiled. g++ needs a precompiled header for each level of optimisation.
 set(common_headers <algorithm> <array> <atomic> <cmath> <cstdint> <filesystem> <functional> <limits> <map> <memory> <numbers>
   <numeric> <optional> <set> <span> <string> <string_view> <unordered_map> <utility> <variant> <vector>
   <fmt/format.h> <tl/expected.hpp>)
@@ -38,20 +42,23 @@ endforeach()
 list(JOIN optimised_table "|" optimised_table)
 list(JOIN not_optimised "|" not_optimised)
 
-# The options of code whose loops matter, and of the rest. Compilers vectorise loops with square roots and choices only
-# without errno and floating-point traps, neither of which changes a value.
+# The options of code with loops over many elements, and of all other code. Compilers vectorise
+# loops with square roots and selections only if errno and floating-point traps are turned off.
+# Neither changes a value.
 set(loop_options $<$<CONFIG:Release>:-O3> -fno-math-errno -fno-trapping-math)
 set(usual_options)
 if(CASCADE_UNITS)
   set(usual_options $<$<CONFIG:Release>:-O1>)
 endif()
 
-# g++ collects garbage from 128 MB on. It takes a tenth less time if it begins later, and still less than 1 GiB.
+# g++ collects garbage in its memory from 128 MB on. If it begins later, it takes a tenth less time
+# and still less than 1 GiB.
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   target_compile_options(cascade_options INTERFACE --param=ggc-min-heapsize=350000)
 endif()
 
-# cascade_headers(NAME OPTIONS…): the target whose precompiled header other targets with these options share.
+# cascade_headers(NAME OPTIONS…): makes a target whose precompiled header is shared by targets with
+# the same options.
 function(cascade_headers name)
   file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/${name}.cpp CONTENT "// Has the precompiled header compiled.\n")
   add_library(${name} OBJECT ${PROJECT_BINARY_DIR}/${name}.cpp)
@@ -69,8 +76,8 @@ if(CASCADE_UNITS)
   cascade_headers(cascade_loop_headers ${loop_options})
 endif()
 
-# cascade_units(TARGET HEADERS FILES…): compiles the files of a target in units after the precompiled header of the
-# target HEADERS.
+# cascade_units(TARGET HEADERS FILES…): compiles the files of a target in units, with the
+# precompiled header of the target HEADERS.
 function(cascade_units target headers)
   if(NOT CASCADE_UNITS)
     return()
@@ -104,7 +111,8 @@ function(cascade_units target headers)
   target_precompile_headers(${target} REUSE_FROM ${headers})
 endfunction()
 
-# cascade_compile(TARGET FILES…): adds files to a library of a room, with the optimisation that cmake/optimised.txt asks for.
+# cascade_compile(TARGET FILES…): adds files to the library of a room, optimised as
+# cmake/optimised.txt says.
 function(cascade_compile target)
   set(loops ${ARGN})
   list(FILTER loops INCLUDE REGEX "^${PROJECT_SOURCE_DIR}/(${optimised_table})[/.]")

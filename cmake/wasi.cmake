@@ -1,4 +1,4 @@
-# The toolchain for WebAssembly: clang 19 with the C and C++ libraries of WASI that Debian has.
+# The toolchain for WebAssembly: clang 19 with Debian's C and C++ libraries for WASI.
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR wasm32)
 set(CMAKE_CXX_COMPILER clang++-19)

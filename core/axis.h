@@ -55,8 +55,8 @@ struct Stance {
     bool operator==(const Stance&) const = default;
 };
 
-/// The usual facing direction. With z up it is −y, as in programs that model with z up and export
-/// glTF, which has y up.
+/// The usual facing direction of a model. If z is up, it is −y, as in programs that model with z up
+/// and export glTF, which has y up.
 constexpr Stance usual_stance(Axis up) {
     return {up, up == Axis::y ? Heading{Axis::z} : Heading{Axis::y, up == Axis::z}};
 }

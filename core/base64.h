@@ -1,4 +1,4 @@
-// Bytes as text, for protocols that carry text only.
+// Encodes bytes as text, for protocols that carry text only.
 #pragma once
 
 #include <optional>
@@ -7,10 +7,10 @@
 
 namespace cascade {
 
-/// RFC 4648, section 4, with padding.
+/// Base64 by RFC 4648, section 4, with padding.
 std::string base64(std::string_view bytes);
 
-/// The bytes of such a text; nothing if it is none.
+/// The bytes that a Base64 text encodes; nullopt if `text` is not Base64.
 std::optional<std::string> from_base64(std::string_view text);
 
 }  // namespace cascade

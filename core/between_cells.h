@@ -3,13 +3,14 @@
 // Each pair of cells is joined by a cubic Hermite curve. The slope at a cell is the mean of the
 // differences to both neighbours (E. Catmull and R. Rom, 1974), but at most three times the smaller
 // difference, so that the curve is monotone where the values are (F. Fritsch and R. Carlson,
-// "Monotone Piecewise Cubic Interpolation", SIAM J. Numer. Anal. 17, 1980). This would flatten
-// smooth extrema. So the slope may be as large as the smallest of the three bends (second
-// differences) in the cell and its neighbours if they have one sign, which they do not beside an
-// edge (P. Colella and M. Sekora, "A limiter for PPM that preserves accuracy at smooth extrema", J.
-// Comput. Phys. 227, 2008). If the cells hold only two values, no curve leaves their range.
-// Elsewhere a crest between cells may be higher than both. This suits pictures. When a run
-// continues from the values, and negative ones may be meaningless, slopes are limited further. The
+// "Monotone Piecewise Cubic Interpolation", SIAM J. Numer. Anal. 17, 1980). This limit alone would
+// flatten smooth extrema. So if the three bends (second differences) in the cell and its two
+// neighbours have one sign, the slope may be as large as the smallest bend. Beside an edge, the
+// bends differ in sign (P. Colella and M. Sekora, "A limiter for PPM that preserves accuracy at
+// smooth extrema", J. Comput. Phys. 227, 2008). If the cells hold only two values, no curve leaves
+// their range. Elsewhere a crest between two cells may be higher than both values. This suits
+// pictures. If a run continues from the interpolated values, a value out of range, such as a
+// negative concentration, may be meaningless. slope_in_range() therefore limits slopes further. The
 // functions are always inlined, so that compilers vectorise loops that call them.
 #pragma once
 
@@ -20,10 +21,11 @@
 
 namespace cascade {
 
-/// The number of cells that determine a value between the third and the fourth of them.
+/// The number of cells in a row that determine a value between the middle two, the third and the
+/// fourth.
 inline constexpr std::size_t cells_between = 6;
 
-/// The slope at the middle of five cells, per cell.
+/// The slope of the curve, per cell, at the third of five cells in a row.
 template <typename Number>
 [[gnu::always_inline]] inline Number slope_in(Number a, Number b, Number c, Number d, Number e) {
     const Number before = c - b, after = d - c;
@@ -46,7 +48,7 @@ template <typename Number>
 }
 
 /// The value at the fraction `part`, 0 … 1, of the way from the third of six cells to the fourth.
-/// NaN if one of the middle four is.
+/// NaN if one of the middle four cells is NaN.
 template <typename Number>
 [[gnu::always_inline]] inline Number value_between(const std::array<Number, cells_between>& v,
                                                    Number part) {
@@ -65,14 +67,15 @@ template <typename Number>
     return std::clamp(slope_in(a, b, c, d, e), 3 * least, 3 * largest);
 }
 
-/// value_between() with a curve that stays in the range of the middle four cells. Values at evenly
-/// spaced points have the mean of the cells, because slopes on both sides of a cell are equal.
+/// value_between() with a curve that stays in the range of the middle four cells. The mean of
+/// values at evenly spaced points is the mean of the cells, because slopes on both sides of a cell
+/// are equal.
 template <typename Number>
 [[gnu::always_inline]] inline Number value_in_range(const std::array<Number, cells_between>& v,
                                                     Number part) {
     const Number value = value_on_curve(v[2], v[3], slope_in_range(v[0], v[1], v[2], v[3], v[4]),
                                         slope_in_range(v[1], v[2], v[3], v[4], v[5]), part);
-    // Rounding may leave the range.
+    // Rounding may put `value` outside the range.
     return std::clamp(value, std::min(std::min(v[1], v[2]), std::min(v[3], v[4])),
                       std::max(std::max(v[1], v[2]), std::max(v[3], v[4])));
 }

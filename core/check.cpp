@@ -1,4 +1,4 @@
-// Failure of a CHECK.
+// Reports a failed CHECK.
 #include "core/check.h"
 
 #include <cstdio>

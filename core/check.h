@@ -1,4 +1,4 @@
-// CHECK states what holds unless Cascade itself has a bug. It is not for users' mistakes.
+// CHECK asserts a condition that only a bug in Cascade can violate. It is not for users' mistakes.
 #pragma once
 
 namespace cascade {

@@ -7,8 +7,8 @@
 
 namespace cascade {
 
-/// Calls `use` for each cell in order, with that cell's value in each plane. The planes have one
-/// layout.
+/// Calls `use` for each cell in order, with that cell's value in each plane. All planes must have
+/// the same layout.
 template <typename Use, typename First, typename... Others>
 void for_each_cell(const Use& use, First& first, Others&... others) {
     const PlaneLayout& layout = first.layout();
@@ -20,8 +20,8 @@ void for_each_cell(const Use& use, First& first, Others&... others) {
     }
 }
 
-/// Calls `use(row, i)` for all cells in order, or for those where the mask `counted`, if any, is
-/// not 0.
+/// Calls `use(row, i)` for each cell in order. If the mask `counted` is not null, leaves out cells
+/// where the mask is 0.
 template <typename Use>
 void for_each_counted(const PlaneLayout& layout, const Mask* counted, const Use& use) {
     for (std::int64_t row = 0; row < layout.row_count(); ++row) {

@@ -1,4 +1,4 @@
-// Quotes only the cells that need it; numbers that are not finite become empty cells.
+// Quotes only cells that need quotes. Writes numbers that are not finite as empty cells.
 #include "core/csv.h"
 
 #include "core/utf8.h"
@@ -73,7 +73,7 @@ private:
     void skip_blanks() {
         while (!at_end() && is_blank(text_[at_])) ++at_;
     }
-    /// Passes the end of a line, if it is one.
+    /// Skips a line end, if there is one.
     void end_line() {
         const bool has_return = take('\r');
         if (!take('\n') && !has_return) return;

@@ -20,15 +20,15 @@ std::from_chars_result from_decimal(const char* begin, const char* end, double& 
 
 namespace {
 
-/// The number of characters that from_chars() may read. Unlike strtod(), it accepts no blanks, plus
-/// sign or hexadecimal numbers.
+/// The number of characters that from_chars() may read. Unlike strtod(), from_chars() accepts no
+/// blanks, plus sign or hexadecimal numbers.
 std::size_t length_of(const char* begin, const char* end) {
     const char* at = begin;
     if (at != end && *at == '-') ++at;
     if (at == end || *at == '+' || *at == '-' || std::isspace(static_cast<unsigned char>(*at))) {
         return 0;
     }
-    // "0x10" reads as the number 0.
+    // from_chars() reads "0x10" as the number 0.
     const bool is_hexadecimal = end - at > 1 && at[0] == '0' && (at[1] == 'x' || at[1] == 'X');
     return static_cast<std::size_t>((is_hexadecimal ? at + 1 : end) - begin);
 }

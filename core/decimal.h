@@ -1,4 +1,4 @@
-// Reading decimal numbers, which some standard libraries do not offer yet.
+// Reads decimal numbers, because std::from_chars() of some standard libraries reads integers only.
 #pragma once
 
 #include <charconv>

@@ -29,7 +29,7 @@ int write_all(const Descriptor& file, std::string_view bytes) {
 
 std::vector<std::string> names_in(const Descriptor& folder) {
     std::vector<std::string> names;
-    // Reading a folder moves its descriptor's position, so this opens another one.
+    // Reading a folder moves its descriptor's position, so this opens a second descriptor.
     const int again = ::openat(folder.number(), ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (again < 0) return names;
     const std::unique_ptr<DIR, int (*)(DIR*)> entries(::fdopendir(again), &::closedir);

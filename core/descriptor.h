@@ -8,7 +8,7 @@
 
 namespace cascade {
 
-/// Closes a file descriptor in its destructor. A negative number means none.
+/// Closes a file descriptor in its destructor. A negative number means that there is no file.
 class Descriptor {
 public:
     explicit Descriptor(int number) : number_(number) {}
@@ -30,7 +30,7 @@ private:
 /// Writes all bytes, in several calls if need be. Returns 0 or the error number.
 int write_all(const Descriptor& file, std::string_view bytes);
 
-/// The names in an open folder, in any order; none if it cannot be read.
+/// The names in an open folder, in any order. Empty if the folder cannot be read.
 std::vector<std::string> names_in(const Descriptor& folder);
 
 }  // namespace cascade

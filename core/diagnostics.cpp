@@ -1,4 +1,4 @@
-// Collection of diagnostics.
+// Collects diagnostics.
 #include "core/diagnostics.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Diagnostics: errors and warnings about a user's text, as values.
+// Diagnostics: errors and warnings about a user's text, stored as objects.
 //
 // The stages of the front end add to a Diagnostics, continue and never print. Only
 // render_diagnostics.cpp knows the layout of a message.
@@ -50,7 +50,7 @@ public:
     std::size_t error_count() const { return error_count_; }
     std::size_t warning_count() const { return warning_count_; }
 
-    /// Sorted by source and position.
+    /// The diagnostics, sorted by source and position.
     std::vector<Diagnostic> sorted() const;
 
 private:
@@ -62,7 +62,7 @@ private:
 
 struct RenderStyle {
     bool colour = false;    ///< ANSI colours, for a terminal.
-    std::size_t most = 50;  ///< The most to draw. One last line counts the others.
+    std::size_t most = 50;  ///< The most diagnostics to draw. A last line counts the rest.
 };
 
 /// Draws one diagnostic:
@@ -72,10 +72,11 @@ struct RenderStyle {
 ///           |             ^~~~~ did you mean 'beta'?
 ///     note: bare names read the previous stage 'large' (turing_spots: a, b, beta)
 ///
-/// Long lines are cut around the span, control characters are replaced, tabs keep their width.
+/// A long line is cut to the part around the span. Control characters are replaced, and tabs keep
+/// their width.
 std::string render(const Diagnostic& diagnostic, const Sources& sources, const RenderStyle& style);
 
-/// Draws all of them, sorted. Each ends in a line end.
+/// Draws all diagnostics, sorted. Each ends with a line end.
 std::string render(const Diagnostics& diagnostics, const Sources& sources,
                    const RenderStyle& style);
 

@@ -1,5 +1,5 @@
-// Lack of memory as a failure. Allocations throw std::bad_alloc. Without exceptions, as in
-// WebAssembly, they end the program instead.
+// Turns a lack of memory into a Failure. An allocation throws std::bad_alloc, or ends the program
+// where there are no exceptions, as in WebAssembly.
 #pragma once
 
 #include "core/result.h"
@@ -10,7 +10,7 @@
 
 namespace cascade {
 
-/// Reports a lack of memory.
+/// Reports a lack of memory as allocations do: throws std::bad_alloc or ends the program.
 [[noreturn]] inline void lack_memory() {
 #ifdef __cpp_exceptions
     throw std::bad_alloc();
@@ -19,7 +19,7 @@ namespace cascade {
 #endif
 }
 
-/// The Result of an action, or a failure with this message if memory ran out.
+/// The Result of `action`, or a failure with this message if memory ran out.
 template <typename Action>
 auto enough_memory_for(const Action& action,
                        const std::string& message = "there is not enough memory")

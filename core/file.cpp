@@ -49,7 +49,7 @@ int write_all_waiting(const Descriptor& file, std::string_view bytes) {
 Result<void> write_in_place(const fs::path& path, std::string_view bytes) {
     Descriptor file(open_file(path, O_WRONLY | O_NONBLOCK));
     if (!file.is_open() && errno == ENXIO) {
-        return failure(fmt::format("cannot write '{}': nobody reads this pipe", path.string()),
+        return failure(fmt::format("cannot write '{}': no program reads this pipe", path.string()),
                        "begin reading it before the run ends, or name a file");
     }
     if (!file.is_open()) return cannot("write", path.string(), errno);
@@ -59,14 +59,15 @@ Result<void> write_in_place(const fs::path& path, std::string_view bytes) {
     return {};
 }
 
-/// Writes a new file, which replaces the one with status `replaced`, if any. Returns 0 or the
-/// error.
+/// Writes a new file at `target`. `replaced` is the status of the file that it replaces, or null.
+/// Returns 0 or the error number.
 int replace(const fs::path& target, std::string_view bytes, const struct stat* replaced) {
     const Descriptor folder(open_folder(folder_of(target)));
     if (!folder.is_open()) return errno;
     TemporaryFile temporary(folder);
     if (const int error = temporary.error()) return error;
-    // The new file gets the replaced one's permissions if possible. If not, its data still counts.
+    // The new file gets the permissions of the replaced one, if possible. If not, its data still
+    // counts.
     if (replaced) (void)::fchmod(temporary.file().number(), replaced->st_mode & 07777);
     if (const int error = temporary.write(bytes)) return error;
     return temporary.rename_to(target.filename().string());
@@ -104,7 +105,7 @@ Result<void> check_writable(const fs::path& path) {
                                    folder_of(target).string()),
                        "make the folder first");
     }
-    // Only trying is reliable: permissions, read-only disks and quotas all matter.
+    // Tries to write, because permissions, read-only disks and quotas all matter.
     const Descriptor folder(open_folder(folder_of(target)));
     if (!folder.is_open()) return cannot("write", path.string(), errno);
     const TemporaryFile temporary(folder, 0600);

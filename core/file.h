@@ -13,14 +13,14 @@
 namespace cascade {
 
 /// The content of a file. Fails for folders, for missing or unreadable files, and for files of more
-/// than `largest` bytes, which is checked before reading.
+/// than `largest` bytes. The size is checked before reading.
 Result<std::string> read_file(const std::filesystem::path& path, std::uint64_t largest);
 
 /// The number of bytes of a file, if it exists and its size is known.
 std::optional<std::uint64_t> size_of_file(const std::filesystem::path& path);
 
-/// The first bytes of a file, at most `count`. Empty if it cannot be opened, and for pipes and
-/// devices, whose bytes can only be read once.
+/// The first bytes of a file, at most `count`. Empty if the file cannot be opened, and for pipes
+/// and devices, whose bytes can only be read once.
 std::string first_bytes(const std::filesystem::path& path, std::size_t count);
 
 /// The content of a regular file. Refuses symbolic links, pipes and devices, without waiting.
@@ -31,14 +31,14 @@ Result<std::string> read_plain_file(const std::filesystem::path& path, std::uint
 Result<std::string> read_linked_file(const std::filesystem::path& path, std::uint64_t largest,
                                      std::string_view name = "");
 
-/// read_plain_file for a file below `folder`: `file` is relative, has no "..", and no part of it
-/// may be a symbolic link. Opens nothing outside the folder, even if names change meanwhile.
+/// read_plain_file for a file below `folder`. The path `file` is relative, has no "..", and no part
+/// of it may be a symbolic link. Opens nothing outside the folder, even if names change meanwhile.
 Result<std::string> read_file_below(const std::filesystem::path& folder,
                                     const std::filesystem::path& file, std::uint64_t largest,
                                     std::string_view name);
 
-/// Writes a temporary file in the same folder and renames it over the target, so that a
-/// half-written file is never seen. On failure, such as a full disk, the temporary file is removed.
+/// Writes a temporary file in the same folder and renames it over the target, so that no reader
+/// sees a half-written file. On failure, such as a full disk, the temporary file is removed.
 Result<void> write_file(const std::filesystem::path& path, std::string_view bytes);
 
 /// Creates a folder and its missing parents.

@@ -16,7 +16,7 @@ enum class FileFormat : std::uint8_t {
 #include "core/file_formats.def"
 };
 
-/// What a format holds. `run -o` writes the kinds up to `cells`.
+/// What a format stores. `run -o` writes every kind from the first one below to `cells`.
 enum class FormatKind : std::uint8_t {
     picture,
     figure,
@@ -36,8 +36,8 @@ enum class FormatTrait : std::uint16_t {
     numbers = 1 << 3,
     texture = 1 << 4,  ///< Points of models have texture coordinates.
     copies = 1 << 5,   ///< Holds copies of shapes placed on a model.
-    maps = 1 << 6,     ///< Textures.
-    growth = 1 << 7,   ///< How a model changed over time.
+    maps = 1 << 6,     ///< Has textures.
+    growth = 1 << 7,   ///< Holds how a model changed over time.
     levels = 1 << 8,   ///< All levels of detail of a model in one file.
     planes = 1 << 9,   ///< Volumes may be written as planes, too.
 };
@@ -80,11 +80,11 @@ inline bool is_film(const std::filesystem::path& path) {
 /// The kind of file that `run -o` writes under this name, if any.
 std::optional<FormatKind> output_kind(const std::filesystem::path& path);
 
-/// The endings of a kind, or of formats with a trait, in table order: ".svg or .pdf" with the joint
-/// "or", ".svg, .pdf" without.
+/// The file-name endings of all formats of a kind, or of all formats with a trait, in table order:
+/// ".svg or .pdf" with the joint "or", ".svg, .pdf" without a joint.
 std::string endings_of(FormatKind kind, std::string_view joint = "");
 std::string endings_of(FormatTrait trait, std::string_view joint = "");
-/// "-o NAME.svg or .pdf", for hints.
+/// The option that writes such a format, for hints: "-o NAME.svg or .pdf".
 template <typename Which>
 std::string output_of(Which which) {
     return "-o NAME" + endings_of(which, "or");

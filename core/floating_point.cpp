@@ -14,8 +14,9 @@ namespace {
 
 #if defined(__x86_64__)
 
-constexpr unsigned long long flushing = 1u << 6 | 1u << 15;  // Operands and results.
-constexpr unsigned long long rounding_bits = 3u << 13;       // 0 rounds to nearest even.
+// Flushes denormal operands and results.
+constexpr unsigned long long flushing = 1u << 6 | 1u << 15;
+constexpr unsigned long long rounding_bits = 3u << 13;  // 0 rounds to nearest even.
 
 unsigned long long read_control() { return _mm_getcsr(); }
 
@@ -28,7 +29,7 @@ void write_control(unsigned long long value) {
 
 #else
 
-constexpr unsigned long long flushing = 1ull << 24;       // Operands and results.
+constexpr unsigned long long flushing = 1ull << 24;       // Flushes denormal operands and results.
 constexpr unsigned long long rounding_bits = 3ull << 22;  // 0 rounds to nearest even.
 
 unsigned long long read_control() {

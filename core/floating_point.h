@@ -17,9 +17,9 @@ private:
     unsigned long long saved_;
 };
 
-/// Makes FlushDenormals set only the rounding from now on, in all threads, and the interpreter
-/// flush what it writes to planes. Tests then can compare results with WebAssembly, whose
-/// arithmetic has denormal numbers.
+/// For tests that compare results with WebAssembly, whose arithmetic has denormal numbers: from now
+/// on, FlushDenormals sets only the rounding, in all threads, and the interpreter flushes the
+/// values that it writes to planes.
 void keep_denormals();
 bool keeps_denormals();
 

@@ -1,5 +1,5 @@
 // Links are resolved before a path is compared with the granted folders. core/open_below then opens
-// the file below its folder, so that a name that changes meanwhile leads nowhere else.
+// the file below its folder, so a name that changes meanwhile cannot lead outside the folder.
 #include "core/granted_files.h"
 
 #include "core/file.h"

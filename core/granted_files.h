@@ -23,16 +23,17 @@ struct ReadAccess {
 /// so every file it opens has been checked.
 class GrantedFiles {
 public:
-    /// Names are relative to `folder`, and every file below it may be read. Messages name its
-    /// `owner`.
+    /// Names are relative to `folder`, and every file below it may be read. Messages call the
+    /// folder "the OWNER's folder".
     GrantedFiles(std::filesystem::path folder, ReadAccess access,
                  std::string_view owner = "script");
 
     /// Grants nothing.
     static GrantedFiles none();
 
-    /// The same grants for names relative to the folder of `file`, itself such a name: names in a
-    /// model are relative to the model.
+    /// The same grants, but names are relative to the folder of `file`. `file` itself is relative
+    /// to the folder of this object. Serves models, which name their files relative to their own
+    /// folder.
     GrantedFiles beside(const std::string& file) const;
 
     /// The content of a regular file. A relative name is searched in the folder, then in each

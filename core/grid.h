@@ -8,7 +8,8 @@
 
 namespace cascade {
 
-/// What a cell at a side of the grid sees beyond the side, unless a species says otherwise.
+/// What a cell at a side of the grid has as its neighbour beyond this side. A species may override
+/// this boundary.
 enum class Boundary {
     periodic,  ///< The cell at the opposite side.
     no_flux,   ///< The cell itself: nothing flows through the side.
@@ -31,12 +32,12 @@ struct Boundaries {
 
 /// Which neighbours a cell has. An axis of one cell has none, so a grid of W × 1 or 1 × H cells is
 /// one-dimensional. A Laplacian is summed as ((((N + S) + E) + W) + U) + D − 2·axes·c, without the
-/// absent pairs.
+/// missing pairs.
 struct Stencil {
     bool x = true;   ///< W and E, the columns before and after.
     bool y = true;   ///< N and S, the rows above and below.
     bool z = false;  ///< U and D, the slices before and after.
-    /// A list of links gives the neighbours instead of the axes (core/links.h).
+    /// Whether a list of links gives the neighbours instead of the axes (core/links.h).
     bool links = false;
 
     static const Stencil row, column, plane, volume, linked;
@@ -71,7 +72,8 @@ struct Grid {
     Boundaries boundary = {};
     std::int64_t depth = 1;
     double spacing = 1;  ///< In the user's unit of length; above 0.
-    /// The cells lie on a surface, row after row. Padding cells may fill the last row.
+    /// Whether the cells lie on a surface. They are stored row after row, and padding cells may
+    /// fill the last row.
     bool linked = false;
 
     std::int64_t cell_count() const { return width * height * depth; }
@@ -92,19 +94,24 @@ struct Grid {
 ///
 /// Rows are numbered through all slices: row r is row r % height of slice r / height.
 ///
-/// A plane may hold a part of the grid: some rows, or some slices of several. Its cells keep their
-/// numbers in the grid, so positions, random numbers and row sums mean the same in any part, and
-/// kernels need not know of parts. The halo then surrounds the part.
+/// A plane may hold only a part of the grid: some rows or, in a grid of several slices, some
+/// slices. Its cells keep their numbers in the grid, so positions, random numbers and row sums mean
+/// the same in any part, and kernels do not depend on the part. The halo then surrounds the part.
 struct PlaneLayout {
     static constexpr std::int64_t row_pad = 16;
 
-    std::int64_t width = 0;  ///< Of the whole grid, as height and depth.
+    std::int64_t width =
+        0;  ///< The width, height and depth of the whole grid, even if the plane holds a part.
     std::int64_t height = 0;
     std::int64_t depth = 0;
-    RowRange rows;                  ///< The rows in memory, halo excluded; whole slices of several.
-    std::int64_t stride = 0;        ///< Elements from a row to the next; a multiple of `row_pad`.
-    std::int64_t slice_stride = 0;  ///< Elements from a slice to the next; a multiple of `stride`.
-    std::int64_t elements_before = 0;  ///< Of a part: the grid's elements before its first row.
+    /// The rows in memory, without the halo. In a grid of several slices they form whole slices.
+    RowRange rows;
+    /// Number of elements from a row to the next; a multiple of `row_pad`.
+    std::int64_t stride = 0;
+    /// Number of elements from a slice to the next; a multiple of `stride`.
+    std::int64_t slice_stride = 0;
+    /// If the plane holds a part of the grid: the number of the grid's elements before the part.
+    std::int64_t elements_before = 0;
 
     PlaneLayout() = default;
     explicit PlaneLayout(const Grid& grid)
@@ -120,13 +127,14 @@ struct PlaneLayout {
 
     bool has_halo_slices() const { return depth > 1; }
     std::int64_t row_count() const { return height * depth; }
-    /// Rows of memory from one slice to the next.
+    /// The number of rows in memory from one slice to the next.
     std::int64_t slice_rows() const { return height + 2; }
-    /// Does memory hold the halo before the first row or slice of the grid, and after the last?
+    /// Whether memory holds the halo before the first row or slice of the grid, or after the last.
     bool has_first() const { return rows.begin <= 0; }
     bool has_last() const { return rows.end >= row_count(); }
 
-    /// Elements from cell (0, 0, 0) to the first cell of a row, numbered through all slices.
+    /// The number of elements from cell (0, 0, 0) to the first cell of a row. Rows are numbered
+    /// through all slices.
     std::int64_t row_start(std::int64_t row) const {
         if (depth <= 1) return row * stride;
         return row / height * slice_stride + row % height * stride;

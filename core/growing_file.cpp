@@ -29,7 +29,7 @@ Result<std::unique_ptr<GrowingFile>> GrowingFile::create(const std::filesystem::
     if (!file->folder_.is_open()) return cannot("write", path.string(), errno);
     file->file_.emplace(file->folder_);
     if (const int error = file->file_->error()) return cannot("write", path.string(), error);
-    // The new file gets the replaced one's permissions if possible.
+    // The new file gets the permissions of the replaced one, if possible.
     struct stat replaced {};
     if (::stat(file->target_.c_str(), &replaced) == 0) {
         (void)::fchmod(file->file_->file().number(), replaced.st_mode & 07777);

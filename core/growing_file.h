@@ -1,4 +1,4 @@
-// A file that is written piece by piece and takes its name when it is complete.
+// A file that is written piece by piece and gets its name when it is complete.
 #pragma once
 
 #include "core/result.h"
@@ -12,25 +12,28 @@
 
 namespace cascade {
 
-/// Grows under a temporary name in the folder of its target. If destroyed before complete() or
-/// appear(), it leaves no file, and a file that already has the name stays as it is.
+/// A file that grows under a temporary name in the folder of its target. If destroyed before
+/// complete() or appear(), it leaves no new file and does not change a file that has the target's
+/// name.
 class GrowingFile {
 public:
-    /// Begins an empty file. Fails as write_file does, and if `path` is a pipe or a device, whose
-    /// bytes cannot be overwritten later.
+    /// Begins an empty file. Fails where write_file would fail, and if `path` is a pipe or a
+    /// device, whose bytes cannot be overwritten later.
     static Result<std::unique_ptr<GrowingFile>> create(const std::filesystem::path& path);
 
-    /// Adds bytes at the end. If it fails, the file is as before.
+    /// Adds bytes at the end. If this fails, the file is unchanged.
     Result<void> append(std::string_view bytes);
-    /// Replaces everything from byte `place` on. If it fails, the file is as before.
+    /// Replaces everything from byte `place` on. If this fails, the file is unchanged.
     Result<void> replace_end(std::uint64_t place, std::string_view bytes);
-    /// Replaces bytes written before, from byte `place` on.
+    /// Replaces bytes written earlier, from byte `place` on.
     Result<void> overwrite(std::uint64_t place, std::string_view bytes);
-    /// Takes the final name already, for a file that can be read at any moment.
+    /// Gives the file its final name now, before complete(). Serves formats whose files can be read
+    /// at any moment while they grow.
     Result<void> appear();
     /// The number of bytes.
     std::uint64_t size() const { return size_; }
-    /// The path of the file until it is complete, for another program that writes it.
+    /// The temporary path of the file, so that another program can write to the file before
+    /// complete().
     std::filesystem::path temporary_path() const;
 
     /// Syncs the file to the disk and gives it its final name. Must be the last call.
@@ -39,8 +42,8 @@ public:
 private:
     GrowingFile(const std::filesystem::path& path, const std::filesystem::path& target);
 
-    std::filesystem::path path_;    ///< As the user wrote it.
-    std::filesystem::path target_;  ///< With links resolved.
+    std::filesystem::path path_;    ///< The path as the user wrote it.
+    std::filesystem::path target_;  ///< The path with links resolved.
     Descriptor folder_;
     std::optional<TemporaryFile> file_;
     std::uint64_t size_ = 0;

@@ -9,7 +9,7 @@ namespace cascade {
 
 /// pcg4d of M. Jarzynski and M. Olano, "Hash Functions for GPU Rendering", JCGT 9(3), 2020: maps
 /// four 32-bit words to four well-mixed ones. Cell kernels compute the same function
-/// (ir/random_numbers.cpp). This one serves tests and keys.
+/// (ir/random_numbers.cpp). The function here serves tests and keys.
 std::array<std::uint32_t, 4> pcg4d(std::array<std::uint32_t, 4> v);
 
 /// 64-bit FNV-1a of a text. To hash several texts, pass the hash of one as the `seed` of the next.

@@ -7,16 +7,16 @@
 namespace cascade {
 
 struct JsonSize {
-    std::size_t objects = 0;  ///< Objects and arrays.
-    std::size_t values = 0;   ///< All values, up to one missing per object or array.
+    std::size_t objects = 0;  ///< Number of objects and arrays.
+    std::size_t values = 0;   ///< Number of values, or at most one fewer per object or array.
     std::size_t depth = 0;    ///< Depth of nesting.
 };
 
 /// Counts braces, brackets and commas outside of strings. Also works on texts that are not JSON.
 JsonSize measure_json(std::string_view text);
 
-/// Whether JSON settings are small enough to parse: a parser needs many times the memory of a text
-/// of brackets, and some recurse for each nested one.
+/// Whether JSON settings are small enough to parse. A parser needs many times the memory of a text
+/// of brackets, and some parsers recurse for each nested bracket.
 bool is_small_json(std::string_view text);
 
 }  // namespace cascade

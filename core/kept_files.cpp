@@ -29,7 +29,7 @@ constexpr std::uint64_t largest_file = std::uint64_t{16} << 20;
 /// The start of a file. The key and the content follow.
 struct Header {
     char magic[8] = {};
-    std::uint64_t checksum = 0;  ///< Covers all bytes after it.
+    std::uint64_t checksum = 0;  ///< Checksum of all bytes after this member.
     std::uint64_t key_size = 0;
     std::uint64_t content_size = 0;
 };
@@ -68,8 +68,8 @@ std::string read_own_file(const Descriptor& folder, const std::string& name) {
         if (got <= 0) return {};
         used += static_cast<std::size_t>(got);
     }
-    // A file in use gets a new time at most once a day. The files unused for longest are removed
-    // first.
+    // The modification time of a file in use is renewed at most once a day. Files unused for
+    // longest are removed first.
     constexpr long day = 24 * 60 * 60;
     if (status.st_mtime + day < ::time(nullptr)) ::futimens(file.number(), nullptr);
     return bytes;
@@ -149,7 +149,7 @@ void KeptFiles::keep(std::string_view key, std::string_view content) {
     if (bytes.empty() || bytes.size() > largest_file) return;
     const Descriptor folder(make_own_folder(folder_));
     if (!folder.is_open()) return;
-    // Listing the folder takes as long as writing a file, so it is not done every time.
+    // Listing the folder takes as long as writing a file, so only every 64th call lists it.
     constexpr unsigned often = 64;
     if (kept_.fetch_add(1) % often == 0) remove_oldest(folder);
     // No fsync: a file that a crash leaves empty fails its checksum.

@@ -1,10 +1,11 @@
 // Small files stored on disk under keys for later processes: compiled kernels and measurements.
 //
 // A folder has one file per key. If anything is wrong with a file, its owner or the folder, the key
-// counts as unknown, so no problem with them can fail a run. Processes may share the folder,
+// counts as unknown, so such a problem never makes a run fail. Processes may share the folder,
 // because files appear under their names complete. A file holds the whole key, so that a hash
 // collision does no harm, and a checksum of everything. The checksum guards against accidents only.
-// Against other users, files and folder must belong to this user and be writable by no one else.
+// As protection against other users, files and folder must belong to this user and be writable by
+// no one else.
 #pragma once
 
 #include <atomic>
@@ -22,12 +23,13 @@ class KeptFiles {
 public:
     /// The properties shared by all files of one kind. Several kinds may share a folder.
     struct Kind {
-        std::string_view suffix;  ///< Ends all names, such as ".kernel".
+        std::string_view suffix;  ///< The ending of all names of these files, such as ".kernel".
         std::string_view magic;   ///< The first eight bytes of each file. The last is a version.
-        std::uint64_t limit = 0;  ///< Above this total of bytes, the oldest are removed.
+        /// When all files together exceed this number of bytes, the oldest are removed.
+        std::uint64_t limit = 0;
     };
 
-    /// With an empty `folder`, stores and finds no files.
+    /// With an empty `folder`, no file is stored or found.
     KeptFiles(std::filesystem::path folder, const Kind& kind)
         : folder_(std::move(folder)), kind_(kind) {}
 

@@ -12,13 +12,13 @@ struct LateFunction {
     }
 };
 
-/// Is never unloaded, since threads or handlers of libraries may remain.
+/// A shared library. It is never unloaded, since threads or handlers of the library may remain.
 class LateLibrary {
 public:
     /// Loads the library of this file name from the system's search path. If that fails, aborts
     /// with a message that names the library, because it is installed with Cascade.
     explicit LateLibrary(const char* file);
-    /// Aborts likewise if the library lacks the function.
+    /// The function of this name. Aborts with a message if the library lacks it.
     LateFunction operator[](const char* name) const;
 
 private:

@@ -59,7 +59,8 @@ public:
         std::array<Range, slice_cells> links;
         std::array<std::int64_t, slice_cells> own{};
 
-        /// The cell with most links left; null if none are left.
+        /// Of the remaining links: those of the cell that has the largest number of them; null if
+        /// no links remain.
         const Range* longest() const {
             const auto most =
                 std::max_element(links.begin(), links.end(),
@@ -214,7 +215,8 @@ void Links::add_slice(auto slice, const PlacedLinks& links, const PlaneLayout& l
     auto least = static_cast<std::int32_t>(slice.first), most = least;
     for (std::size_t k = 0; k < elements.size(); ++k) {
         const auto cell = static_cast<std::int32_t>(links.neighbours[first + k]);
-        // Exact, because half a cell far exceeds the product's error.
+        // Truncates to the right row, because half a cell is far more than the product's rounding
+        // error.
         const auto row = static_cast<std::int32_t>((cell + 0.5) * row_of_cell);
         elements[k] = cell + row * beside_row;
         least = std::min(least, elements[k]);
@@ -260,7 +262,7 @@ void Links::assign(const PlacedLinks& links, const PlaneLayout& layout, Precisio
     slices_.cells = links.ends.size();
     if (changed.empty()) reach_ = 1;
     const Placing placing(links.ends, layout, {});
-    // No cell before these is padding, neither now nor before.
+    // The cells before this one are padding neither in the new table nor in the previous one.
     const std::size_t whole = std::min(before_.cells, slices_.cells) - 1;
     const auto is_kept = [&](std::size_t number) {
         const auto [first, count] = placing.cells_of(number);

@@ -34,14 +34,15 @@ struct LinkTable {
     static constexpr std::int64_t slice_cells = PlaneLayout::row_pad;
 
     const std::uint32_t* starts = nullptr;
-    const std::int32_t* bases = nullptr;    ///< Per entry: elements from cell (0, 0) to the base.
-    const std::int16_t* offsets = nullptr;  ///< Elements from the base to the neighbour.
+    /// Per entry: the number of elements from cell (0, 0) to the base.
+    const std::int32_t* bases = nullptr;
+    const std::int16_t* offsets = nullptr;  ///< Numbers of elements from the base to the neighbour.
     /// Factor of (neighbour − cell) in a Laplacian; null if the links have no weights.
     const Number* weights = nullptr;
     /// The factors for the components of a gradient in space; null unless requested.
     std::array<const Number*, 3> gradients{};
-    std::int64_t reach = 1;                 ///< Most rows that a link spans; at least 1.
-    const std::uint16_t* filled = nullptr;  ///< Per entry: bit k is set if lane k has a link there.
+    std::int64_t reach = 1;  ///< The largest number of rows that a link spans; at least 1.
+    const std::uint16_t* filled = nullptr;  ///< Per entry: bit k is set if lane k has a link in it.
 
     /// The element to which a link leads, counted from cell (0, 0).
     std::int64_t target(std::int64_t link) const {
@@ -93,10 +94,10 @@ public:
     Links(const LinkList& list, const PlaneLayout& layout, Precision precision,
           std::span<const std::uint32_t> order = {});
 
-    /// Replaces the links by these, without weights, in the present memory if it is large enough
-    /// and not shared with a copy. Invalidates earlier tables. `ends` has at least one cell and at
-    /// most as many as `layout`. Cell k is at column k mod width of row k / width; padding cells
-    /// are as above. Throws std::bad_alloc.
+    /// Replaces the table by `links`, which have no weights. Reuses the present memory if it is
+    /// large enough and not shared with a copy. Invalidates earlier tables. `ends` has at least one
+    /// cell and at most as many as `layout`. Cell k is at column k mod width of row k / width.
+    /// Padding cells get the links of the last cell. Throws std::bad_alloc.
     ///
     /// `changed` is empty, or says for each cell whether its links differ from the present table,
     /// which then must have the same layout and precision. Slices without changes are copied.
@@ -104,7 +105,7 @@ public:
                 const std::vector<bool>& changed = {});
 
     /// A copy with gradient weights, one for each link of the list given to the constructor.
-    /// `ends`, layout and order are the list's. Throws std::bad_alloc.
+    /// `ends`, `layout` and `order` must be the same as in the constructor. Throws std::bad_alloc.
     Links with_gradients(std::span<const Vector3d> gradients, std::span<const std::size_t> ends,
                          const PlaneLayout& layout,
                          std::span<const std::uint32_t> order = {}) const;
@@ -124,13 +125,13 @@ private:
         std::array<AlignedArray<Number>, 3> gradients;
     };
 
-    /// The arrays built slice by slice.
+    /// The arrays of a table, built slice by slice.
     struct Slices {
         std::vector<std::uint32_t> starts;
         std::vector<std::int32_t> bases;
         std::vector<std::uint16_t> filled;
         AlignedArray<std::int16_t> offsets;
-        std::size_t cells = 0;  ///< Cells with a list of their own.
+        std::size_t cells = 0;  ///< Number of cells without padding cells.
     };
 
     void add_slice(auto slice, const PlacedLinks& links, const PlaneLayout& layout,

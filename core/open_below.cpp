@@ -65,7 +65,8 @@ int open_below(const Descriptor& folder, const fs::path& file, PathWalk walk) {
     }
     if (walk == PathWalk::kernel_or_parts) {
         const int number = open_by_kernel(folder, file);
-        // An old kernel, a container that forbids the call, or names that changed meanwhile.
+        // These errors mean an old kernel, a container that forbids the call, or names that changed
+        // meanwhile.
         if (number != -ENOSYS && number != -EPERM && number != -EAGAIN) return number;
     }
     return open_by_parts(folder, file);

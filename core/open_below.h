@@ -11,8 +11,9 @@ namespace cascade {
 enum class PathWalk { kernel_or_parts, parts };
 
 /// Opens `file` for reading below the open folder. Returns a descriptor or the negative error
-/// number. `file` is relative, has no "..", and no part of it may be a symbolic link (-ELOOP). It
-/// is below the folder even if names change meanwhile. Does not wait for the other end of a pipe.
+/// number. The path `file` is relative, has no "..", and no part of it may be a symbolic link
+/// (-ELOOP). The opened file is below the folder even if names change meanwhile. Does not wait for
+/// the other end of a pipe.
 int open_below(const Descriptor& folder, const std::filesystem::path& file,
                PathWalk walk = PathWalk::kernel_or_parts);
 

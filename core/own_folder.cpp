@@ -1,4 +1,4 @@
-// The owner of the nearest existing folder decides.
+// Checks who owns the nearest existing folder.
 #include "core/own_folder.h"
 
 #include <sys/stat.h>

@@ -76,7 +76,7 @@ struct OwnPalette {
     const OwnPalette* next = nullptr;
 };
 
-/// Palettes are never removed, like literals in scripts. Any thread may add to the list.
+/// Like literals in scripts, palettes are never removed. Any thread may add to the list.
 const Palette* find_own(std::string_view name) {
     static std::atomic<const OwnPalette*> newest = nullptr;
     for (const OwnPalette* each = newest; each != nullptr; each = each->next) {

@@ -18,16 +18,17 @@ inline constexpr Colour colour_of_nan{1.0F, 0.0F, 1.0F};
 /// Colours at equal distances from 0 to 1, interpolated linearly in sRGB.
 struct Palette {
     std::string_view name;
-    std::string_view description;   ///< For `--help` and the spec.
-    std::span<const Colour> stops;  ///< At least two.
+    std::string_view description;  ///< For `--help` and the spec.
+    std::span<const Colour>
+        stops;  ///< At least two colours, at equal distances from position 0 to position 1.
 };
 
 /// All palettes, "grey" first.
 std::span<const Palette> palettes();
 
-/// The palette of that name, or one given by its colours: 2 to 64 in hexadecimal with blanks
-/// between them, "#1b2a49 #f08a5d #fff3d6" or "#000 #fff". nullptr if there is none. Never
-/// destroyed.
+/// The palette of that name, or a palette given as 2 to 64 hexadecimal colours with blanks between
+/// them, such as "#1b2a49 #f08a5d #fff3d6" or "#000 #fff". nullptr if `name` is neither. A palette
+/// is never destroyed.
 const Palette* find_palette(std::string_view name);
 
 /// "#1b2a49" or "#fff"; nullopt for other words.

@@ -24,7 +24,7 @@
 namespace cascade {
 namespace {
 
-/// Tells the core that this is a waiting loop, so that it serves its other hyper-thread.
+/// Tells the core that this is a waiting loop, so that the core serves its other hyper-thread.
 void relax() {
 #if defined(__x86_64__)
     _mm_pause();
@@ -33,8 +33,9 @@ void relax() {
 #endif
 }
 
-/// Waits until `word` differs from `old`. Spinning responds within tens of nanoseconds while every
-/// thread has a core. Sleeping saves whole time slices on an oversubscribed machine.
+/// Waits until `word` differs from `old`. Spins first, which responds within tens of nanoseconds
+/// while every thread has a core. Then sleeps, which saves whole time slices on an oversubscribed
+/// machine.
 void wait_while(const std::atomic<std::uint32_t>& word, std::uint32_t old, int spins) {
     for (int spin = 0; spin < spins; ++spin) {
         if (word.load(std::memory_order_acquire) != old) return;
@@ -54,7 +55,7 @@ int quota_of_control_group() {
     std::FILE* file = std::fopen("/sys/fs/cgroup/cpu.max", "r");
     if (!file) return 0;
     double quota = 0, period = 0;
-    const int read = std::fscanf(file, "%lf %lf", &quota, &period);  // "max" is no number.
+    const int read = std::fscanf(file, "%lf %lf", &quota, &period);  // Reads no number from "max".
     std::fclose(file);
     if (read != 2 || quota <= 0 || period <= 0) return 0;
     return std::max(1, static_cast<int>(std::lround(quota / period)));
@@ -79,11 +80,11 @@ struct Abandoned {};
 
 /// A reusable barrier. Each word that threads wait for has its own cache line.
 struct Meeting {
-    alignas(64) std::atomic<std::uint32_t> count{0};  ///< Completed meetings.
+    alignas(64) std::atomic<std::uint32_t> count{0};  ///< Number of completed meetings.
     std::atomic<bool> is_off{false};                  ///< Set before `count` is increased.
-    alignas(64) std::atomic<int> arrived{0};          ///< Threads waiting for the others.
+    alignas(64) std::atomic<int> arrived{0};  ///< Number of threads that wait for the others.
 
-    /// Ends the other threads' waiting, now and at later meetings.
+    /// Ends the wait of the other threads, now and at later meetings.
     void call_off() {
         is_off = true;
         ++count;
@@ -109,15 +110,15 @@ struct Meeting {
 struct Team::State {
     alignas(64) std::atomic<std::uint32_t> task{
         0};              ///< Counts calls of run(). Workers wait for it to change.
-    Meeting barrier;     ///< For the active threads.
-    Meeting end_of_run;  ///< For all threads.
+    Meeting barrier;     ///< For the active threads of a run.
+    Meeting end_of_run;  ///< For all threads of the team.
     alignas(64) const std::function<void(int)>* work = nullptr;  ///< Null tells workers to end.
     int active = 1;
     int size = 1;
     int spins = 0;
     std::vector<std::thread> workers;
     std::mutex of_error;
-    std::exception_ptr error;  ///< The first one of a run.
+    std::exception_ptr error;  ///< The first exception of a run.
 
     /// Does a thread's work and stores the exception it throws.
     void attempt(int index) noexcept {
@@ -156,7 +157,7 @@ Team::Team(int size) : state_(std::make_unique<State>()) {
         try {
             state_->workers.emplace_back([state = state_.get(), index] { state->serve(index); });
         } catch (const std::exception&) {  // The system refused, or memory ran out.
-            state_->size = index;          // Workers read it only when they have work.
+            state_->size = index;          // Workers read the size only when they have work.
             break;
         }
     }

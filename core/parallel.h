@@ -11,7 +11,7 @@ namespace cascade {
 /// The number of threads that the machine offers this process, at least 1.
 int hardware_threads();
 
-/// Abandons work that is no longer needed, such as a step of a run that is to end: unwinds the work
+/// Abandons work that is no longer needed, such as a step of a run that is to end. Unwinds the work
 /// of a Team, on any of its threads, and its callers up to complete().
 [[noreturn]] void abandon_work();
 
@@ -19,7 +19,7 @@ int hardware_threads();
 bool complete(const std::function<void()>& work);
 
 /// A team of `size` threads, or fewer if the system refuses to start more. The calling thread is
-/// number 0. All work under FlushDenormals.
+/// number 0. All threads run under FlushDenormals.
 class Team {
 public:
     explicit Team(int size);
@@ -34,7 +34,8 @@ public:
     /// exception. Not reentrant.
     void run(const std::function<void(int index)>& work);
 
-    /// The same on threads 0 … active − 1 only. With active == 1 the others stay asleep.
+    /// Runs `work(index)` once on each of threads 0 … active − 1 and waits for them. With active ==
+    /// 1 the other threads stay asleep.
     void run(const std::function<void(int index)>& work, int active);
 
     /// Called inside `work` only: waits until every active thread has arrived. Writes made before

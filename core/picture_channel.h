@@ -1,4 +1,4 @@
-// The kinds of number that make up a picture.
+// The numbers that a pixel of a picture consists of.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@ namespace cascade {
 
 enum class PictureChannel : std::uint8_t { lightness, red, green, blue, alpha };
 
-/// Their names in scripts, by PictureChannel.
+/// The names of the channels in scripts, indexed by PictureChannel.
 inline constexpr std::array<std::string_view, 5> picture_channel_names{"lightness", "red", "green",
                                                                        "blue", "alpha"};
 

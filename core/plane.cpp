@@ -11,7 +11,8 @@
 namespace cascade {
 namespace {
 
-/// The first or last cell of an axis of `count` cells, which determines the cell beyond a side.
+/// The cell that determines the cell beyond a side: the first or the last of the `count` cells of
+/// an axis.
 std::int64_t source_of(const SideRule& rule, Side side, std::int64_t count) {
     const bool is_before = static_cast<int>(side) % 2 == 0;
     return is_before == (rule.kind == SideKind::periodic) ? count - 1 : 0;
@@ -22,7 +23,7 @@ Number beyond(const SideRule& rule, Number cell, Number value, Number spacing) {
     return rule.kind == SideKind::fixed ? 2 * value - cell : cell + spacing * value;
 }
 
-/// Fills the halo cells that depend on some columns of some rows of a slice.
+/// Fills the halo cells whose values come from given columns of given rows of a slice.
 template <typename Number>
 class HaloFill {
 public:
@@ -70,13 +71,14 @@ private:
         std::int64_t row, slice;
     };
 
-    /// Is the halo beyond a side in memory? Of a part of a grid, only some sides are.
+    /// Whether the halo beyond a side is in memory. A part of a grid holds the halo of some sides
+    /// only.
     bool is_held(Side side) const {
         if (layout_.has_halo_slices() && side < Side::front) return true;
         return static_cast<int>(side) % 2 == 0 ? layout_.has_first() : layout_.has_last();
     }
 
-    /// The side's value e at a cell beside it.
+    /// The side's value e at a cell beside the side.
     static Number value_at(const SideRule& rule, std::int64_t cell) {
         return static_cast<Number>(rule.values ? rule.values->at(cell) : rule.value);
     }
@@ -107,8 +109,8 @@ private:
         }
     }
 
-    /// The first cell beside a side in a row. Halo cells count, because side values continue as the
-    /// field does.
+    /// The number of the first cell beside a side in a row. In a halo row, this is the number in
+    /// the nearest row of cells, because side values continue into the halo as the field does.
     std::int64_t first_beside(Side side, RowPlace from) const {
         const std::int64_t of_slice = from.row < 0                 ? source(Side::top)
                                       : from.row >= layout_.height ? source(Side::bottom)
@@ -122,7 +124,7 @@ private:
         const SideRule& rule = sides_[side];
         const Number* cells = origin_ + start(from);
         Number* halo = origin_ + start(to);
-        // `set` fills a column with the side's value at another one.
+        // `set(i, column)` fills column i of the halo row with the side's value at `column`.
         const auto fill = [&](const auto& set) {
             if (is_left_given_) set(-1, source(Side::left));
             for (std::int64_t i = columns_.begin; i < columns_.end; ++i) set(i, i);

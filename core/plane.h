@@ -17,8 +17,8 @@
 namespace cascade {
 
 /// Zeroed memory, aligned to 64 bytes. Large planes use huge pages if the system has them, because
-/// a step reads at least eight planes at once. Threads touch the memory first when they first use
-/// it, so they share that work, and unused planes take no memory. Throws std::bad_alloc.
+/// a step reads at least eight planes at once. Pages are cleared when a thread first touches them,
+/// so threads share that work, and unused planes take no memory. Throws std::bad_alloc.
 void* allocate_plane(std::size_t bytes);
 void free_plane(void* plane);
 
@@ -28,9 +28,9 @@ void free_plane(void* plane);
 template <typename Number>
 void fill_halo(Number* origin, const PlaneLayout& layout, const SideRules& sides);
 
-/// Fills all halo cells that kernels read and that depend on these cells. Leaves out rows above and
-/// below a single row, because no stencil reads them. Threads with disjoint patches fill the whole
-/// halo without reading each other's cells.
+/// Fills all halo cells that depend on the cells of `patch` and that kernels read. Leaves out rows
+/// above and below a single row, because no stencil reads them. Threads with disjoint patches fill
+/// the whole halo without reading each other's cells.
 template <typename Number>
 void fill_halo_from(Number* origin, const PlaneLayout& layout, const SideRules& sides,
                     const Patch& patch);
@@ -72,7 +72,8 @@ public:
     Plane clone() const { return Plane(*this); }
 
     /// The halo is not part of a plane's value but caches what the rules of the sides give. Code
-    /// that reads neighbours fills it first, even in a const plane. One thread at a time.
+    /// that reads neighbours fills it first, even in a const plane. Only one thread at a time may
+    /// do so.
     void fill_halo(const SideRules& sides) const {
         cascade::fill_halo(data_.get() + layout_.offset(0, 0), layout_, sides);
     }
@@ -115,7 +116,7 @@ public:
     Precision precision() const {
         return cells_.index() == 0 ? Precision::single : Precision::binary64;
     }
-    /// Calls `look` with the plane, a `Plane<float>` or a `Plane<double>`.
+    /// Calls `look` with the field's plane, which is a `Plane<float>` or a `Plane<double>`.
     template <typename Look>
     decltype(auto) visit(Look&& look) {
         return std::visit(std::forward<Look>(look), cells_);
@@ -132,8 +133,8 @@ public:
         return visit([](const auto& plane) -> const PlaneLayout& { return plane.layout(); });
     }
     Field clone() const { return Field(*this); }
-    void fill_halo(const SideRules& sides) const;  ///< As Plane::fill_halo().
-    /// A copy in another precision, including the halo. Rounds if that is lower.
+    void fill_halo(const SideRules& sides) const;  ///< See Plane::fill_halo().
+    /// A copy in another precision, including the halo. Rounds if the other precision is lower.
     Field converted(Precision precision) const;
 
     template <typename Number = float>
@@ -170,7 +171,7 @@ public:
     Number at(std::int64_t i, std::int64_t j, std::int64_t k = 0) const {
         return plane<Number>().at(i, j, k);
     }
-    /// A cell in either precision.
+    /// The value of a cell, converted to double if the field is in binary32.
     double number_at(std::int64_t i, std::int64_t j, std::int64_t k = 0) const {
         return visit([&](const auto& plane) { return static_cast<double>(plane.at(i, j, k)); });
     }

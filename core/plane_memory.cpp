@@ -1,6 +1,6 @@
 // Small planes come from the heap. Large ones come from the system, which clears their pages when a
-// thread first touches them. That takes longer than filling a picture's plane, so the memory of one
-// freed plane is reused for the next of its size.
+// thread first touches them. Clearing takes longer than filling a picture's plane, so the memory of
+// one freed plane is reused for the next plane of the same size.
 #include "core/enough_memory.h"
 #include "core/plane.h"
 #include "core/shared_plane.h"
@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t cache_line = 64;
 constexpr std::size_t huge_page = std::size_t{2} << 20;
 
-/// Precedes each plane, at the end of a cache line of its own.
+/// A header before each plane, at the end of a cache line that holds nothing else.
 struct Block {
     void* begin;
     std::size_t mapped_bytes;  ///< 0 if the block is on the heap.
@@ -40,7 +40,7 @@ Block& block_of(const void* plane) {
 std::size_t next_shift(std::size_t bytes) {
     constexpr std::size_t small_plane = 65536, lines_of_way = 2048, lines_of_page = 64;
     static std::atomic<std::size_t> planes{0};
-    std::size_t lines = 1;  // This line holds the block.
+    std::size_t lines = 1;  // Counts the line of the header.
     if (bytes >= small_plane) {
         const std::size_t place = 783 * planes.fetch_add(1, std::memory_order_relaxed);
         lines += place % (bytes >= 2 * huge_page ? lines_of_way : lines_of_page);
@@ -52,7 +52,7 @@ std::size_t round_up(std::size_t bytes, std::size_t unit) {
     return (bytes + unit - 1) / unit * unit;
 }
 
-/// Zeroed pages that begin with a huge one; null if there are none.
+/// Zeroed pages that begin with a huge page; null if the system has none.
 void* map_pages(std::size_t bytes) {
     // After the first position aligned for a huge page, at least `bytes` remain.
     const std::size_t reserved = bytes + huge_page;

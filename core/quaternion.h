@@ -14,7 +14,7 @@ struct Quaternion {
     friend bool operator==(const Quaternion&, const Quaternion&) = default;
 };
 
-/// The rotation b followed by a.
+/// The rotation that first rotates by b and then by a.
 inline Quaternion operator*(const Quaternion& a, const Quaternion& b) {
     return {a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z,
             a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
@@ -22,7 +22,7 @@ inline Quaternion operator*(const Quaternion& a, const Quaternion& b) {
             a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
 }
 
-/// Normalises `q`. Returns the identity if it is 0 or not finite.
+/// Normalises `q`. Returns the identity if `q` is 0 or not finite.
 inline Quaternion of_length_1(const Quaternion& q) {
     const double size = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
     if (!(size > 0) || !std::isfinite(size)) return {};
@@ -38,7 +38,7 @@ inline Vector3d turned(const Quaternion& q, Vector3d v) {
 
 /// The rotation that takes the axes x, y and z to three directions, which are orthonormal and
 /// right-handed: S. W. Shepperd, "Quaternion from Rotation Matrix", Journal of Guidance and Control
-/// 1(3), 1978. Of q and −q, returns the one whose largest component is positive.
+/// 1(3), 1978. The largest component of the result is positive, which distinguishes q from −q.
 inline Quaternion quaternion_of(Vector3d x, Vector3d y, Vector3d z) {
     const double trace = x.x + y.y + z.z;
     const double most = std::max({trace, x.x, y.y, z.z});

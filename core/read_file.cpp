@@ -38,7 +38,7 @@ Result<std::string> read_all(int opened, std::uint64_t largest, std::string_view
     if (S_ISDIR(status.st_mode)) return cannot("read", name, EISDIR);
     const bool is_plain = S_ISREG(status.st_mode);
     if (!is_plain && accepted == Accepted::plain_files) {
-        return failure(fmt::format("'{}' is a pipe or a device and no file", short_name(name)));
+        return failure(fmt::format("'{}' is a pipe or a device, not a file", short_name(name)));
     }
     const auto too_large = [&] {
         return failure(
@@ -92,7 +92,7 @@ std::string first_bytes(const fs::path& path, std::size_t count) {
 Result<std::string> read_plain_file(const fs::path& path, std::uint64_t largest) {
     const int opened = open_to_read(path, O_NONBLOCK | O_NOCTTY | O_NOFOLLOW);
     if (opened == -ELOOP)
-        return failure(fmt::format("'{}' is a link and no file", short_name(path.string())));
+        return failure(fmt::format("'{}' is a link, not a file", short_name(path.string())));
     return read_all(opened, largest, path.string(), Accepted::plain_files);
 }
 

@@ -15,9 +15,8 @@ namespace cascade {
 namespace {
 
 constexpr std::size_t widest_excerpt = 100;   // The widest shown part of a source line.
-constexpr std::size_t columns_in_front = 60;  // If the span starts further right, the start of the
-                                              // line is cut off
-constexpr std::size_t columns_kept = 40;      // and this many characters precede the span.
+constexpr std::size_t columns_in_front = 60;  // A span further right hides the line's start.
+constexpr std::size_t columns_kept = 40;      // Characters shown before such a span.
 constexpr std::size_t tab_stop = 8;
 constexpr std::string_view ellipsis = "\xe2\x80\xa6";  // U+2026.
 
@@ -40,7 +39,8 @@ struct Excerpt {
 
 /// The byte at which the excerpt begins: the line's start, or some characters before the span.
 std::size_t excerpt_begin(std::string_view line, std::size_t span_begin) {
-    const bool may_be_near = span_begin <= 4 * columns_in_front;  // At most 4 bytes per character.
+    // A character has at most 4 bytes.
+    const bool may_be_near = span_begin <= 4 * columns_in_front;
     if (may_be_near && count_code_points(line.substr(0, span_begin)) <= columns_in_front) return 0;
     std::size_t begin = span_begin;
     for (std::size_t k = 0; k < columns_kept && begin > 0; ++k) {

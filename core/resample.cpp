@@ -25,7 +25,8 @@ struct Neighbours {
     std::int64_t near = 0, far = 0;
 };
 
-/// Fine cells 2n and 2n + 1 lie in coarse cell n, a quarter of its width from its centre.
+/// Fine cells 2n and 2n + 1 lie in coarse cell n. Their centres are a quarter of a coarse
+/// cell's width from the coarse cell's centre.
 Neighbours neighbours_of(std::int64_t fine, std::int64_t coarse_cells) {
     if (coarse_cells == 1) return {0, 0};
     const std::int64_t near = fine / 2;

@@ -6,7 +6,7 @@
 namespace cascade {
 
 /// The grid of the same domain with cells `times` as wide. Along each axis, the number of cells
-/// must be a multiple of `times`, or 1, which stays.
+/// must be 1, which stays 1, or a multiple of `times`.
 Grid coarser(const Grid& grid, std::int64_t times);
 
 /// A plane on a coarser grid: each cell has the mean of its fine cells, summed in binary64.
@@ -14,7 +14,7 @@ template <typename Number>
 Plane<Number> restricted(const Plane<Number>& fine, const Grid& fine_grid, const Grid& coarse_grid);
 
 /// A plane on a grid twice as fine, interpolated from the four nearest cells (two on a line, eight
-/// in a volume). The nearest has weight 3/4 along each axis. Fills the halo of `coarse` by the
+/// in a volume). The nearest cell has weight 3/4 along each axis. Fills the halo of `coarse` by the
 /// rules `sides`.
 template <typename Number>
 Plane<Number> refined(Plane<Number>& coarse, const Grid& coarse_grid, const Grid& fine_grid,
@@ -30,8 +30,8 @@ Grid finer_grid(const Grid& grid, std::int64_t times);
 template <typename Number>
 Plane<Number> divided(const Plane<Number>& plane, const Grid& grid, std::int64_t times);
 
-/// The same for values from which a run continues: along each axis, each stays in the range of the
-/// four cells around it. On a periodic grid the mean stays the same up to rounding.
+/// divided() for values from which a run continues: along each axis, each value stays in the range
+/// of the four cells around it. On a periodic grid the mean stays the same up to rounding.
 template <typename Number>
 Plane<Number> divided_in_range(const Plane<Number>& plane, const Grid& grid, std::int64_t times);
 

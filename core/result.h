@@ -8,7 +8,7 @@
 
 namespace cascade {
 
-/// Why an operation failed, in words for the user, and what to do about it (may be empty).
+/// Explains to the user why an operation failed. `hint` says what to do about it and may be empty.
 struct Failure {
     std::string message;
     std::string hint;

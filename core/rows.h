@@ -1,4 +1,4 @@
-// Ranges of rows, which also say which part of a grid is meant.
+// Ranges of rows. Also used to say which part of a grid is meant.
 #pragma once
 
 #include <cstdint>

@@ -10,37 +10,47 @@ namespace cascade {
 
 /// The progress of a stage, sent about ten times a second and at the stage's end.
 struct Progress {
-    std::string doing;     ///< The activity between stages: `step` of `steps`, if above 0.
-    std::string stage;     ///< The stage's name.
-    std::string note;      ///< A remark to print after it; usually empty.
+    std::string doing;  ///< The activity, if no stage is running. Its progress is `step` of `steps`
+                        ///< if `steps` is above 0.
+    std::string stage;  ///< The stage's name.
+    std::string note;   ///< Words to print after the stage's name; usually empty.
     int stage_number = 1;  ///< Counted from 1.
     int stage_count = 1;
-    std::int64_t step = 0;        ///< Completed steps of this stage.
-    std::int64_t steps = 0;       ///< Steps this stage will take.
-    double t = 0;                 ///< The stage's time if it ends at a time,
-    double duration = 0;          ///< and that end; 0 if it ends after some steps.
+    std::int64_t step = 0;   ///< Number of completed steps of this stage.
+    std::int64_t steps = 0;  ///< Number of steps that this stage will take.
+    double t = 0;            ///< The stage's time, if the stage ends at a given time.
+    /// The time at which the stage ends; 0 if it ends after a number of steps.
+    double duration = 0;
     double steps_per_second = 0;  ///< Recent rate; 0 while unknown.
     double seconds_left = -1;     ///< Estimate for this stage; negative while unknown.
     bool stage_done = false;
-    bool condition_met = false;  ///< The stage ended by its own condition, `until`;
-    std::string when_met;        ///< then the word to print, such as "settled".
+    bool condition_met = false;  ///< Whether the stage ended by its own condition, `until`.
+    std::string when_met;  ///< The word to print if `condition_met` is true, such as "settled".
 };
 
-/// For long operations that cannot be cancelled.
+/// A flag that is never set, for long operations that cannot be cancelled.
 inline const std::atomic<bool> never_cancelled{false};
 
 /// Shared between a run and its observer. A signal handler or another thread may set `cancel`. The
-/// run then ends after a complete step, or abandons a step that takes long.
+/// run then ends after a complete step. It abandons a step that takes long.
 struct RunControl {
     std::atomic<bool> cancel{false};
-    /// Set when many calls take a stage's steps together. A call may then return without a check
-    /// for non-finite values, which a later call makes at most 64 steps after they appear. Doubts
-    /// wait for the stage's end, and faster ways to step are tried as if one call took all steps.
+    /// Set some time after `cancel` where the program must end: outputs that take long are left
+    /// out.
+    std::atomic<bool> hurry{false};
+    /// Would an end of the program at this moment lose nothing but outputs that take long? False
+    /// from the first step until the run is saved.
+    std::atomic<bool> may_end{true};
+    /// Set when many calls together take the steps of one stage. A call may then return before
+    /// checking for non-finite values, and a later call checks, at most 64 steps after the values
+    /// appear. Doubts about the result wait for the stage's end, and faster ways to step are tried
+    /// as if one call took all steps.
     bool checks_later = false;
     std::function<void(const Progress&)> report;
-    /// Warnings that do not stop the run, such as an interpreted kernel.
+    /// Called with each warning that does not stop the run, for example that a kernel is
+    /// interpreted instead of compiled.
     std::function<void(const std::string& message)> warn;
-    /// Information, not a problem.
+    /// Called with information for the user that is not a problem.
     std::function<void(const std::string& message)> note;
 };
 

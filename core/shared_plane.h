@@ -1,4 +1,5 @@
-// Planes that somebody keeps while the simulation goes on, such as arrays of an embedding program.
+// Planes with a second owner, such as an array of an embedding program. The second owner keeps the
+// plane while the simulation goes on.
 #pragma once
 
 #include "core/plane.h"
@@ -7,20 +8,20 @@
 
 namespace cascade {
 
-/// Counts one more owner of the memory of a plane, which free_plane() frees when it has been called
-/// for every owner. `plane` is what allocate_plane() returned.
+/// Counts one more owner of a plane's memory. free_plane() must be called once per owner, and the
+/// last call frees the memory. `plane` is what allocate_plane() returned.
 void add_owner_of_plane(const void* plane);
 bool has_several_owners(const void* plane);
 
-/// The memory of a field as allocate_plane() returned it. The field is not empty.
+/// The address of a field's memory, as returned by allocate_plane(). The field must not be empty.
 inline const void* memory_of(const Field& field) {
     return field.visit([](const auto& plane) -> const void* {
         return plane.origin() - plane.layout().offset(0, 0);
     });
 }
 
-/// Keeps the cells of a field as they are for as long as the result lives. Whoever would change
-/// them in place, as steps do, changes a copy instead if is_shared().
+/// Keeps the cells of a field unchanged while the result lives. Code that changes cells in place,
+/// such as a step, must test is_shared() and, if true, change a copy instead.
 inline std::shared_ptr<const void> share(const Field& field) {
     const void* const memory = memory_of(field);
     add_owner_of_plane(memory);

@@ -1,4 +1,4 @@
-// The sides of a grid and the border of a mask, and the boundary conditions of a field there.
+// The sides of a grid, the border of a mask, and the boundary conditions of a field there.
 #pragma once
 
 #include "core/grid.h"
@@ -16,8 +16,9 @@ namespace cascade {
 /// of a mask, which runs between cells of the grid.
 enum class Side : std::uint8_t { left, right, top, bottom, front, back, border };
 
-inline constexpr std::size_t side_count = 6;               ///< The sides of the grid.
-inline constexpr std::size_t wall_count = side_count + 1;  ///< With the border.
+inline constexpr std::size_t side_count = 6;  ///< The sides of the grid.
+/// The sides of the grid and the border.
+inline constexpr std::size_t wall_count = side_count + 1;
 inline constexpr std::array<std::string_view, wall_count> side_names{"left",   "right", "top",
                                                                      "bottom", "front", "back",
                                                                      "border"};
@@ -27,29 +28,32 @@ constexpr Side opposite(Side side) {
     return static_cast<Side>(static_cast<std::uint8_t>(side) ^ 1u);
 }
 
-/// What a cell of value c at a side sees beyond it, where e is the side's value and h the spacing.
+/// How the value beyond a side follows from the cell at the side. c is the value of this cell, e
+/// the value given for the side, and h the spacing.
 enum class SideKind : std::uint8_t {
     periodic,  ///< The cell at the opposite side.
     no_flux,   ///< c: nothing flows through the side.
     fixed,     ///< 2e − c: the value at the face is e.
     slope,     ///< c + h·e: the derivative along the outward normal is e.
-    flux,      ///< Only in scripts: diffusion carries e in. Halos are filled by the equivalent
-               ///< slope (lang/calculus/side_values.h).
+    /// Diffusion carries the flux e in. Occurs only in scripts: halos are filled by the equivalent
+    /// slope (lang/calculus/side_values.h).
+    flux,
 };
 
 constexpr bool takes_value(SideKind kind) {
     return kind == SideKind::fixed || kind == SideKind::slope || kind == SideKind::flux;
 }
 
-/// The words for the kinds in scripts.
+/// The words for the kinds in scripts, indexed by SideKind.
 inline constexpr std::array<std::string_view, 5> side_kind_words{"periodic", "noflux", "fixed",
                                                                  "slope", "flux"};
 
-/// Values e that vary along a side, in the field's precision. Cells beside a side are numbered as
-/// in core/side_cells.h.
+/// Values e that vary along a side, in the field's precision. core/side_cells.h numbers the cells
+/// beside a side.
 struct SideValues {
-    std::int64_t first = 0;       ///< The cell of the first number.
-    std::vector<double> numbers;  ///< One per cell from which halo is filled.
+    std::int64_t first = 0;  ///< The number of the cell that has the first value.
+    std::vector<double>
+        numbers;  ///< One for each cell at the side whose value determines a cell of the halo.
 
     double at(std::int64_t cell) const { return numbers[static_cast<std::size_t>(cell - first)]; }
 };

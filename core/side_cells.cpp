@@ -8,13 +8,13 @@
 namespace cascade {
 namespace {
 
-/// The part of [begin, end) in [first, last).
+/// The part of `rows` that lies in [first, last).
 RowRange common(RowRange rows, std::int64_t first, std::int64_t last) {
     const std::int64_t begin = std::clamp(rows.begin, first, last);
     return {begin, std::max(begin, std::min(rows.end, last))};
 }
 
-/// The slices whose row number `row` is among the given rows.
+/// The slices whose row `row`, counted within the slice, is among the given rows.
 RowRange slices_with(RowRange rows, std::int64_t row, std::int64_t height) {
     const auto first_from = [&](std::int64_t bound) {
         return std::max<std::int64_t>(0, (bound - row + height - 1) / height);

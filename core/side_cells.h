@@ -11,8 +11,8 @@
 
 namespace cascade {
 
-/// The numbers of cells beside a side: rows [begin, end) have [first, first + count), in order of
-/// rows and columns.
+/// The numbers of the cells beside a side: rows [begin, end) contain the cells [first, first +
+/// count), in order of rows and columns.
 struct SideCells {
     std::int64_t first = 0, count = 0;
 

@@ -12,7 +12,8 @@ namespace cascade {
 
 namespace {
 
-/// Some editors write it at the start of a file. It does not count as a character.
+/// The byte order mark, which some editors write at the start of a file. It does not count as a
+/// character.
 constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
 /// Lines end with LF, CR LF or CR.

@@ -28,7 +28,8 @@ struct Span {
 /// The smallest span that covers both, which must be in one source.
 Span join(Span first, Span last);
 
-/// A line and a column as shown to a user: both from 1, columns in code points, not bytes.
+/// A line and a column as shown to a user. Both count from 1, and columns count code points, not
+/// bytes.
 struct Location {
     std::uint32_t line = 1;
     std::uint32_t column = 1;
@@ -54,7 +55,7 @@ private:
     std::vector<std::uint32_t> line_starts_;
 };
 
-/// All texts of one program. Adding one never moves the others, so string views into them stay
+/// All texts of one program. Adding a text never moves the others, so string views into them stay
 /// valid.
 class Sources {
 public:

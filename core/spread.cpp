@@ -10,7 +10,7 @@
 namespace cascade {
 namespace {
 
-/// As many values as compilers hold in a few vectors.
+/// The number of values that compilers can hold in a few vectors.
 constexpr std::size_t lanes = 16;
 
 /// Combines values lane by lane: `combine(so_far, value)`. Compilers vectorise one such loop, but
@@ -89,7 +89,7 @@ Spread spread_of_all(std::span<const Number> values) {
     return spread;
 }
 
-/// Statistics of the values that count, one run of them after another.
+/// Statistics of the values that count, added range by range of adjacent values.
 template <typename Number>
 Spread spread_of_some(std::span<const Number> values, const std::uint8_t* counts) {
     if (counts == nullptr) return spread_of_all(values);

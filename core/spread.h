@@ -10,10 +10,10 @@
 namespace cascade {
 
 /// Values count as uniform if their standard deviation is at most this fraction of their largest
-/// magnitude, about the rounding error of binary32,
-inline constexpr double even_deviation = 1e-5;
-/// or at most this fraction of their largest magnitude so far: the remains of a pattern that dies
-/// away.
+/// magnitude. It is about the rounding error of binary32.
+inline constexpr double uniform_deviation = 1e-5;
+/// Values also count as uniform if their standard deviation is at most this fraction of the largest
+/// magnitude that they ever had. They are the remains of a pattern that has died away.
 inline constexpr double remaining_part = 1e-12;
 
 /// The statistics of a set of values. Non-finite values are ignored.
@@ -28,10 +28,11 @@ struct Spread {
     double magnitude() const {
         return count > 0 ? std::max(std::abs(smallest), std::abs(largest)) : 0;
     }
-    /// A set without values is uniform. `once` is the largest magnitude the values had before. No
-    /// absolute size is small, because users choose the units.
-    bool is_even(double once = 0) const {
-        return !(deviation() > std::max(even_deviation * magnitude(), remaining_part * once));
+    /// Whether the values count as uniform. True for a set without values. `once` is the largest
+    /// magnitude that the values had before. No absolute size counts as small, because users choose
+    /// the units.
+    bool is_uniform(double once = 0) const {
+        return !(deviation() > std::max(uniform_deviation * magnitude(), remaining_part * once));
     }
     /// Whether all values are the same number.
     bool is_one_number() const { return !(smallest < largest); }
@@ -42,8 +43,8 @@ struct Spread {
 };
 
 /// The statistics of values. `for_each(take)` calls `take(value)` for every value, in the same
-/// order each time. Squares are summed in a second pass, because a difference of sums would lose
-/// small patterns.
+/// order each time. Squared differences from the mean are summed in a second pass, because a
+/// difference of sums would lose small patterns.
 template <typename ForEach>
 Spread spread_of(const ForEach& for_each) {
     Spread spread;
@@ -64,8 +65,8 @@ Spread spread_of(const ForEach& for_each) {
     return spread;
 }
 
-/// The same for adjacent values. If `counts` is not null, only values where it is not 0 count.
-/// Several times as fast where all are finite and all count.
+/// The statistics of adjacent values. If `counts` is not null, only values where it is not 0 count.
+/// Several times as fast if all values are finite and all count.
 Spread spread_of(std::span<const float> values, const std::uint8_t* counts = nullptr);
 Spread spread_of(std::span<const double> values, const std::uint8_t* counts = nullptr);
 

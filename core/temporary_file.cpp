@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <cstdint>
 #include <ctime>
@@ -46,6 +47,31 @@ void remove_if_dead(const Descriptor& folder, const char* name) {
     ::unlinkat(folder.number(), name, 0);
 }
 
+/// What remove_all() knows of a file. Constructors and destructors write it and a signal handler
+/// reads it, so it is global and takes no lock.
+struct Slot {
+    enum State : int { free, taken, whole };
+    std::atomic<int> state{free};
+    std::atomic<int> folder{-1};
+    std::array<char, beginning.size() + digit_count + 24> name{};
+};
+std::array<Slot, 64> slots;
+static_assert(std::atomic<int>::is_always_lock_free);
+
+/// Negative where all slots are taken, or the name is too long.
+int enter(int folder, std::string_view name) {
+    for (std::size_t k = 0; k < slots.size() && name.size() < slots[k].name.size(); ++k) {
+        int state = Slot::free;
+        if (!slots[k].state.compare_exchange_strong(state, Slot::taken)) continue;
+        slots[k].folder = folder;
+        slots[k].name.fill('\0');
+        std::copy(name.begin(), name.end(), slots[k].name.begin());
+        slots[k].state = Slot::whole;
+        return static_cast<int>(k);
+    }
+    return -1;
+}
+
 using Words = std::array<std::uint32_t, 4>;
 
 std::string digits_of(const Words& words) {
@@ -82,11 +108,25 @@ TemporaryFile::TemporaryFile(const Descriptor& folder, mode_t mode, std::string_
         return;
     }
     is_ours_ = true;
+    slot_ = enter(folder_.number(), name_);
     (void)::flock(file_.number(), LOCK_EX | LOCK_NB);  // Some file systems cannot lock.
 }
 
 TemporaryFile::~TemporaryFile() {
     if (is_ours_) ::unlinkat(folder_.number(), name_.c_str(), 0);
+    disown();
+}
+
+void TemporaryFile::disown() {
+    is_ours_ = false;
+    if (slot_ >= 0) slots[static_cast<std::size_t>(slot_)].state = Slot::free;
+    slot_ = -1;
+}
+
+void TemporaryFile::remove_all() noexcept {
+    for (const Slot& slot : slots) {
+        if (slot.state == Slot::whole) ::unlinkat(slot.folder, slot.name.data(), 0);
+    }
 }
 
 int TemporaryFile::write(std::string_view bytes) {
@@ -106,14 +146,14 @@ int TemporaryFile::take_name(const std::string& name) {
     if (error_ != 0) return error_;
     if (::renameat(folder_.number(), name_.c_str(), folder_.number(), name.c_str()) != 0)
         return errno;
-    is_ours_ = false;
+    disown();
     return 0;
 }
 
 int TemporaryFile::stay() {
     if (error_ != 0) return error_;
     if (!file_.close()) return errno;
-    is_ours_ = false;
+    disown();
     return 0;
 }
 

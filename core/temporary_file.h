@@ -1,8 +1,8 @@
 // New files under temporary names, renamed when they are complete.
 //
 // Names are random: in containers that share a folder, all processes may have the same id, and a
-// file left by a killed process would block the next. While its writer lives, a temporary file is
-// locked (flock), unlike the files of killed processes.
+// file left by a killed process would block the next process. While its writer lives, a temporary
+// file is locked (flock), unlike the files of killed processes.
 #pragma once
 
 #include "core/descriptor.h"
@@ -15,13 +15,15 @@
 
 namespace cascade {
 
-/// 128 random bits from the system as 32 hexadecimal digits, if it gives any.
+/// 128 random bits from the system as 32 hexadecimal digits. Empty if the system gives none.
 std::optional<std::string> secret_digits();
 
-/// The same for names, which only have to be unique: falls back to another source.
+/// 32 random hexadecimal digits for a name, which only has to be unique. If the system gives no
+/// random bits, uses std::random_device.
 std::string random_digits();
 
-/// A descriptor that only serves to name files in a folder; negative, with errno set, on failure.
+/// Opens a folder only to reach its files by name. Returns the descriptor; on failure it is
+/// negative and errno is set.
 int open_folder(const std::filesystem::path& folder);
 
 class TemporaryFile {
@@ -46,17 +48,23 @@ public:
     /// Closes the file and renames it to `name` in the folder, replacing any file of that name.
     /// Returns 0 or the error number.
     int rename_to(const std::string& name);
-    /// Renames it likewise, and leaves it open.
+    /// Renames the file as rename_to() does, but leaves it open.
     int take_name(const std::string& name);
     /// Closes the file and leaves it under its temporary name. Returns 0 or the error number.
     int stay();
+    /// Removes most of the temporary files of this process. No TemporaryFile must be used
+    /// afterwards. A signal handler may call this function before it ends the program.
+    static void remove_all() noexcept;
 
 private:
+    void disown();
+
     const Descriptor& folder_;
     std::string name_;
     Descriptor file_;
-    bool is_ours_ = false;  ///< The file exists and must be removed.
+    bool is_ours_ = false;  ///< Whether the file exists and must be removed.
     int error_ = 0;
+    int slot_ = -1;  ///< The index in the list of remove_all(); negative: not listed.
 };
 
 /// Whether a TemporaryFile with this ending could have this name.

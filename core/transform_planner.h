@@ -3,8 +3,9 @@
 
 namespace cascade {
 
-/// At most one exists at a time, and further threads wait. Held while FFTW's plans of any precision
-/// are created or destroyed, in solvers/ and measure/.
+/// Gives one thread sole use of FFTW's planner. While an object exists, constructors in other
+/// threads wait. Code in solvers/ and measure/ holds an object while it creates or destroys FFTW's
+/// plans, in any precision.
 class TransformPlanner {
 public:
     TransformPlanner();

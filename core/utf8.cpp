@@ -19,7 +19,7 @@ bool is_in(char32_t code_point, const Interval* begin, const Interval* end) {
     });
 }
 
-/// The length of the sequence that starts with this byte; 0 if none does.
+/// The length of the sequence that starts with this byte; 0 if no sequence does.
 std::uint32_t announced_size(unsigned char first) {
     if (first < 0x80) return 1;
     if (first >= 0xc2 && first <= 0xdf) return 2;

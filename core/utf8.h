@@ -10,7 +10,7 @@ namespace cascade {
 /// A decoded code point. An invalid byte has `valid == false`, its own value, and size 1.
 struct CodePoint {
     char32_t value = 0;
-    std::uint32_t size = 1;  ///< Bytes in the text.
+    std::uint32_t size = 1;  ///< Number of bytes in the text.
     bool valid = true;
 };
 
@@ -31,8 +31,8 @@ std::size_t count_utf16_units(std::string_view text);
 /// Terminal columns of a printable code point: 0 for combining marks, 2 for wide letters, else 1.
 int display_width(char32_t code_point);
 
-/// Whether a code point must not reach a terminal unchanged: control characters, and invisible ones
-/// that change the direction or appearance of the text around them.
+/// Whether a code point must not reach a terminal unchanged: control characters, and invisible
+/// characters that change the direction or appearance of the text around them.
 bool is_unprintable(char32_t code_point);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// In a file of its own, so that a new version recompiles only this file.
+// Only this file contains the version, so that a new version recompiles nothing else.
 #include "core/version.h"
 
 namespace cascade {

@@ -5,7 +5,7 @@
 
 namespace cascade {
 
-/// The version that `--version` prints and that pictures and saved runs record, such as "0.1.0".
+/// The version that `--version` prints and that pictures and saved runs record, such as "0.9.0".
 std::string_view version();
 
 }  // namespace cascade

@@ -12,7 +12,8 @@
 
 namespace cascade {
 
-/// Writes the bytes of `encode()`, a Result<std::string>, atomically. Fails as either does.
+/// Writes the bytes of `encode()`, a Result<std::string>, atomically. Fails if `encode` or the
+/// writing fails.
 template <typename Encode>
 Result<void> write_encoded(const std::filesystem::path& path, const Encode& encode) {
     const std::string name = path.string();

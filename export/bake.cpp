@@ -1,5 +1,5 @@
-// Threads paint bands of rows of texels, each texel as the mean of its samples in linear light.
-// Then gaps are filled and colours stored.
+// Threads paint bands of rows of texels. Each texel is the mean of its samples in linear light.
+// Afterwards gaps are filled and colours stored.
 #include "export/bake.h"
 
 #include "core/check.h"
@@ -23,8 +23,10 @@ namespace cascade {
 
 namespace {
 
-constexpr std::int64_t rows_of_band = 16;  ///< Texels; a thread's unit of work.
-constexpr double most_covered_area = 64;   ///< Above it, the texture repeats all over the model.
+constexpr std::int64_t rows_of_band = 16;  ///< Rows of texels that a thread paints at a time.
+/// The largest area that coordinates may cover, in areas of the texture. If they cover more, the
+/// texture is meant to repeat all over the model.
+constexpr double most_covered_area = 64;
 
 tl::unexpected<Failure> no_area() {
     return failure("the model's texture coordinates have no area in the texture",
@@ -34,13 +36,13 @@ tl::unexpected<Failure> no_area() {
 /// Working memory of one thread, allocated in advance.
 struct Scratch {
     std::unique_ptr<SamplePainter> painter;
-    std::vector<std::uint32_t> owners = {};     ///< For the samples of a band.
-    std::span<const std::uint32_t> row = {};    ///< For a row of texels.
-    std::vector<Colour> lights = {};            ///< For the samples of a row of texels.
-    std::vector<float> heights = {};            ///< Likewise.
-    std::vector<OfParts<float>> material = {};  ///< Likewise.
-    std::vector<SurfacePlace> places = {};      ///< For the samples of a texel with heights.
-    std::int64_t covered = 0;                   ///< Number of samples.
+    std::vector<std::uint32_t> owners = {};     ///< One per sample of a band.
+    std::span<const std::uint32_t> row = {};    ///< The owners in a row of texels.
+    std::vector<Colour> lights = {};            ///< One per sample of a row of texels.
+    std::vector<float> heights = {};            ///< One per sample of a row of texels.
+    std::vector<OfParts<float>> material = {};  ///< One per sample of a row of texels.
+    std::vector<SurfacePlace> places = {};  ///< One per sample of a texel, if there are heights.
+    std::int64_t covered = 0;               ///< Number of samples on the surface.
     TextureLayout::Overlap overlap = {};
 };
 
@@ -121,12 +123,12 @@ private:
         }
     }
 
-    /// The number of a sample in the row of texels that a thread paints.
+    /// The index of sample (i, j) in the row of texels that a thread paints.
     std::size_t sample(std::int64_t i, std::int64_t j) const {
         return static_cast<std::size_t>(j * layout_.width() + i);
     }
 
-    /// Paints the samples of a row span by span. The samples of a span are in one triangle.
+    /// Paints the samples of a row in spans. A span is a sequence of samples in one triangle.
     void paint_samples(std::int64_t y, std::int64_t j, Scratch& own) const {
         for (std::int64_t i = 0; i < layout_.width();) {
             const std::uint32_t owner = own.row[sample(i, j)];
@@ -182,7 +184,7 @@ private:
         if (maps_.normals) turn_texel(x, y, own);
     }
 
-    /// Computes the mean height of a texel's samples. Returns false if none is finite.
+    /// Computes the mean height of a texel's samples. Returns false if no height is finite.
     bool lift_texel(std::int64_t x, std::int64_t y, const Scratch& own) {
         double sum = 0, finite = 0;
         visit_samples(x, own, [&](std::int64_t i, std::int64_t j) {
@@ -208,8 +210,8 @@ private:
         slopes_.is_filled[texel(x, y)] = 1;
     }
 
-    /// The normal of the raised surface at a texel's samples, relative to the tangent, the
-    /// bitangent and the smooth normal.
+    /// The mean normal of the raised surface at a texel's samples, in components along the tangent,
+    /// the bitangent and the smooth normal.
     Vector3 raised_normal(Scratch& own) const {
         const SurfacePlace& place = own.places[own.places.size() / 2];
         const Vector3d normal = normals_.at(mesh_, place);
@@ -322,7 +324,7 @@ private:
     CornerNormals normals_;
     RenderVertices vertices_;
     PartialTexture colour_, relief_, slopes_;
-    std::array<PartialTexture, 3> material_;  ///< Parts of the material, three in each.
+    std::array<PartialTexture, 3> material_;  ///< Parts of the material, three in each texture.
 };
 
 }  // namespace

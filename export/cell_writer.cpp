@@ -1,4 +1,4 @@
-// Collects the same arrays for both formats. Each link is written once, by its lower cell.
+// Collects the same arrays for both formats. Each link is written once, with the lower index first.
 #include "export/cell_writer.h"
 
 #include "core/check.h"
@@ -33,7 +33,7 @@ struct Link {
     double weight = 0;
 };
 
-/// The Voronoi edges, each once.
+/// The Voronoi edges. Each pair of cells appears once.
 std::vector<Link> links_of(const SurfaceCells& cells) {
     std::vector<Link> links;
     for (std::uint32_t cell = 0; cell < cells.places.size(); ++cell) {

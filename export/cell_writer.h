@@ -1,4 +1,5 @@
-// Cells of a surface with their results, as files for other programs: NumPy's .npz and VTK's .vtp.
+// Writes cells of a surface with their results as files for other programs: NumPy's .npz and VTK's
+// .vtp.
 #pragma once
 
 #include "core/file_format.h"
@@ -13,8 +14,8 @@
 namespace cascade {
 
 struct CellResults {
-    std::span<const Colour> colours;    ///< sRGB, one per cell; empty: none.
-    std::span<const Channel> channels;  ///< One number per cell each.
+    std::span<const Colour> colours;    ///< sRGB, one per cell. May be empty.
+    std::span<const Channel> channels;  ///< Each has one number per cell.
 };
 
 /// An archive of arrays for numpy.load, all little-endian, for n cells and m links:
@@ -23,20 +24,22 @@ struct CellResults {
 ///     normals  n × 3 float64  smooth, of length 1
 ///     areas    n     float64
 ///     links    m × 2 uint32   pairs i < j, ascending
-///     weights  m     float64  length of the Voronoi edge over distance
+///     weights  m     float64  length of the Voronoi edge / distance of the cells
 ///     colors   n × 3 float32  if there are any
 ///
-/// and each channel as n × float32 under its name, with an underscore added if it is one of these.
-/// A diffusion step is u_i += D dt / areas_i · Σ weights (u_j − u_i). Fails above 4 GiB.
+/// Each channel is an array of n × float32 under its name. If this is one of the names above, an
+/// underscore is added. A diffusion step is u_i += D dt / areas_i · Σ weights (u_j − u_i). Fails
+/// above 4 GiB.
 Result<std::string> encode_npz(const SurfaceMesh& mesh, const SurfaceCells& cells,
                                const CellResults& results);
 
-/// VTK's XML PolyData: each cell is a vertex at its position, with its normal, `area`, colour as
-/// `color` and channels as point data.
+/// VTK's XML PolyData. Each cell is a vertex at its position. Point data are its normal, `area`,
+/// the colour as `color`, and the channels.
 std::string encode_vtp(const SurfaceMesh& mesh, const SurfaceCells& cells,
                        const CellResults& results);
 
-/// The bytes of cells in the format of a name's ending, .npz or .vtp. Fails on other endings.
+/// The bytes of a file of cells, in the format of the name's ending, .npz or .vtp. Fails on other
+/// endings.
 template <typename... Cells>
 Result<std::string> encode_cells(const std::filesystem::path& path, const Cells&... cells) {
     if (is_of_format(path, FileFormat::npz)) return encode_npz(cells...);

@@ -1,4 +1,4 @@
-// Names in use get underscores. Colours are clamped, and NaN has a colour of its own.
+// Adds underscores to names in use. Clamps colours. NaN has its own colour.
 #include "export/channels.h"
 
 #include <algorithm>

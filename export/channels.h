@@ -1,4 +1,4 @@
-// The results on a surface for files: named numbers, and colours.
+// Results on a surface as files store them: named numbers, and colours.
 #pragma once
 
 #include "core/palette.h"
@@ -15,14 +15,16 @@ namespace cascade {
 /// Named numbers, one for each point of a mesh, or one for each cell.
 using Channel = PointAttribute;
 
-/// The names of the channels, made distinct from each other and from `reserved` by underscores.
+/// The names of the channels, with underscores added where a name equals another one or one of
+/// `reserved`.
 std::vector<std::string> distinct_names(std::span<const Channel> channels,
                                         std::initializer_list<std::string_view> reserved);
 
-/// The colour, clamped to 0 … 1, or the colour of NaN if one of its channels is NaN.
+/// The colour with its channels clamped to 0 … 1. If a channel is NaN, the colour that represents
+/// NaN.
 Colour shown(const Colour& colour);
 
-/// Whether every coordinate of the points is 0 or a normal binary32 number.
+/// Whether every coordinate of the points is 0 or in the normal range of binary32.
 bool are_single(std::span<const Vector3d> points);
 
 }  // namespace cascade

@@ -1,4 +1,5 @@
-// Knots are so close that values between them are linear.
+// Computes filtered values at knots. The knots are so close that values between them are nearly
+// linear.
 #include "export/field_samples.h"
 
 #include "picture/srgb.h"
@@ -9,10 +10,10 @@ namespace cascade {
 
 namespace {
 
-/// The distance of knots, in radii of the filter. Linear interpolation between them leaves an error
+/// The distance between knots, in radii of the filter. The error of linear interpolation is then
 /// below 1/255 of the range of the values.
 constexpr double knots_apart = 1.0 / 16;
-constexpr std::size_t most_steps = 64;  ///< Samples from one knot to the next.
+constexpr std::size_t most_steps = 64;  ///< The most samples from one knot to the next.
 
 }  // namespace
 
@@ -55,7 +56,8 @@ void FieldSamples::paint(const SampleRow& row) {
     }
 }
 
-/// The number of samples from one knot to the next, given two neighbouring samples.
+/// The number of samples from one knot to the next, if two neighbouring samples are at `one` and
+/// `other`.
 std::size_t FieldSamples::steps_of(const SurfacePlace& one, const SurfacePlace& other) const {
     const double apart = length(position_of(mesh_, one) - position_of(mesh_, other));
     const double reach = knots_apart * filter_.radius();

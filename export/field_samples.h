@@ -1,4 +1,4 @@
-// Baked samples of cells that cover a surface.
+// Samples of the cells that cover a surface, for baking.
 #pragma once
 
 #include "export/painted_cells.h"
@@ -8,19 +8,19 @@
 
 namespace cascade {
 
-/// Paints the pattern of cells, bumped by their heights if there are any. The arguments must
-/// outlive it.
+/// Paints the pattern of cells, with the bumps of their heights if there are any. The arguments
+/// must outlive the painter.
 ///
 /// Filtered values vary smoothly within a triangle, but thresholds and positions make colours jump.
-/// So the filter is queried at knots along a row of samples, its values are interpolated, and every
-/// sample gets a colour of its own.
+/// So filtered values are computed only at some samples of a row, the knots, and interpolated
+/// between them. The colour is computed for every sample.
 class FieldSamples : public SamplePainter {
 public:
     FieldSamples(const SurfaceMesh& mesh, const CellFilter& filter, const PaintedCells& cells);
 
     MapSet maps() const override { return maps_of(cells_.material, !cells_.heights.empty()); }
     void paint(const SampleRow& row) override;
-    /// The middle sample represents all.
+    /// Computes the normal at the middle sample only.
     Vector3d raised_normal(std::span<const SurfacePlace> samples, const Vector3d& normal) override;
 
 private:
@@ -30,8 +30,8 @@ private:
     const CellFilter& filter_;
     const PaintedCells& cells_;
     PlacePainter painter_;
-    std::vector<float> here_, there_;  ///< Filtered values at two knots,
-    std::vector<float> between_;       ///< and between them.
+    std::vector<float> here_, there_;  ///< Filtered values at two knots.
+    std::vector<float> between_;       ///< Filtered values between the knots.
 };
 
 }  // namespace cascade

@@ -9,9 +9,10 @@ namespace cascade {
 
 namespace {
 
-constexpr int rim = 2;  ///< Texels.
+constexpr int rim = 2;  ///< Width in texels.
 
-/// Fills texels that have filled neighbours. Neighbours at a side count twice those at a corner.
+/// Fills texels that have filled neighbours. Neighbours at a side have twice the weight of those at
+/// a corner.
 void widen(PartialTexture& texture) {
     const std::vector<std::uint8_t> was_filled = texture.is_filled;
     const auto wrapped = [](std::int64_t place, std::int64_t size) {
@@ -21,7 +22,7 @@ void widen(PartialTexture& texture) {
         for (std::int64_t x = 0; x < texture.width; ++x) {
             const auto at = static_cast<std::size_t>(y * texture.width + x);
             if (was_filled[at] != 0) continue;
-            std::array<double, 3> sum{};  // Would overflow in binary32.
+            std::array<double, 3> sum{};  // Sums could overflow in binary32.
             double count = 0;
             for (std::int64_t j = -1; j <= 1; ++j) {
                 const std::int64_t line = wrapped(y + j, texture.height) * texture.width;
@@ -43,12 +44,12 @@ void widen(PartialTexture& texture) {
     }
 }
 
-/// Half as wide and high. Each texel is the mean of its fine texels that have values.
+/// A texture half as wide and high. Each texel is the mean of its fine texels that have values.
 PartialTexture halved(const PartialTexture& fine) {
     PartialTexture coarse((fine.width + 1) / 2, (fine.height + 1) / 2);
     for (std::int64_t y = 0; y < coarse.height; ++y) {
         for (std::int64_t x = 0; x < coarse.width; ++x) {
-            std::array<double, 3> sum{};  // Would overflow in binary32.
+            std::array<double, 3> sum{};  // Sums could overflow in binary32.
             double count = 0;
             for (std::int64_t j = 2 * y; j < std::min(2 * y + 2, fine.height); ++j) {
                 for (std::int64_t i = 2 * x; i < std::min(2 * x + 2, fine.width); ++i) {
@@ -69,7 +70,8 @@ PartialTexture halved(const PartialTexture& fine) {
     return coarse;
 }
 
-/// The coarse texels on either side of a fine one's centre, and the weight of the second one.
+/// The coarse texels on either side of a fine texel's centre, and the weight of the second coarse
+/// texel.
 struct CoarseNeighbours {
     std::int64_t first = 0, second = 0;
     float part = 0;

@@ -21,11 +21,12 @@ struct PartialTexture {
           is_filled(static_cast<std::size_t>(w * h)) {}
 };
 
-/// Gives every texel without values numbers that smoothly continue those around it, so that
-/// interpolation and reduced copies of the picture have no artefacts. Within two texels of filled
-/// ones, which renderers mix with them, it is the mean of adjacent texels. Farther away it is the
-/// pull and push of S. Gortler et al., "The Lumigraph" (SIGGRAPH 1996), section 3.4, which uses all
-/// surroundings. The picture repeats in all directions. If no texel has values, they stay 0.
+/// Fills every texel without values so that it smoothly continues the texels around it.
+/// Interpolation and reduced copies of the picture then have no artefacts. Renderers mix texels at
+/// a distance of up to two with filled texels, so each of these is the mean of adjacent texels.
+/// Texels farther away are computed by the "pull-push" method of S. Gortler et al., "The Lumigraph"
+/// (SIGGRAPH 1996), section 3.4, which uses all surroundings. The picture repeats in all
+/// directions. If no texel has values, all stay 0.
 void fill_gaps(PartialTexture& texture);
 
 }  // namespace cascade

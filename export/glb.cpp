@@ -18,8 +18,8 @@ namespace {
 
 using Json = GlbFile::Json;
 
-/// The ratio of the screen coverages at which successive levels of detail appear. Each level has
-/// fewer triangles by this factor.
+/// If the model covers a fraction of the screen that is smaller by this factor, the next level of
+/// detail appears. The number of triangles falls by the same factor from level to level.
 constexpr double coverage_factor = 4;
 
 /// Adds the parts of one model to a file.
@@ -55,7 +55,7 @@ private:
             return GlbFile::component(vertices_.normals[k], c);
         });
         if (!vertices_.texture.empty()) {
-            // glTF has the origin at the upper left.
+            // In glTF, the origin is at the upper left.
             attributes["TEXCOORD_0"] = add_floats("VEC2", [&](std::size_t k, std::size_t c) {
                 const float place = vertices_.texture[k][c];
                 return c == 0 ? place : 1 - place;
@@ -86,13 +86,13 @@ private:
                                                 });
     }
 
-    /// The light of a vertex as a level of 16 bits.
+    /// The light of a vertex as a 16-bit number.
     std::uint32_t level_in(std::span<const Colour> colours, std::size_t vertex,
                            std::size_t channel) const {
         return level_of(light_of(shown(colours[vertices_.points[vertex]])[channel]), 65535);
     }
 
-    /// Each moment's differences from the mesh.
+    /// The differences of each moment from the mesh, as morph targets.
     Json targets() {
         Json targets = Json::array();
         const std::vector<Vector3d> normals = point_normals(mesh_);
@@ -108,7 +108,7 @@ private:
             if (!moment.points.empty()) {
                 add_shape(moment, normals, target);
             } else {
-                // three.js shows no colours of targets without positions.
+                // three.js shows the colours of a target only if it has positions.
                 if (!still) still = file_.add_zeros(vertices_.points.size());
                 target["POSITION"] = *still;
             }
@@ -116,7 +116,8 @@ private:
                 GlbFile::vertex_buffer, "VEC4", vertices_.points.size(),
                 [&](std::size_t k, std::size_t c) {
                     if (c == 3) return 0;
-                    // 32767 means 1, as 65535 does in the colours.
+                    // The value 1 is stored as 32767 in these signed integers, and as 65535 in
+                    // colours.
                     return (static_cast<int>(level_in(moment.colours, k, c)) - levels[k][c]) / 2;
                 });
             targets.push_back(std::move(target));
@@ -124,7 +125,7 @@ private:
         return targets;
     }
 
-    /// Normals of vertices at creases turn as their points' normals do.
+    /// At a crease a point has several normals. They rotate as the smooth normal of the point does.
     void add_shape(const GlbMoment& moment, const std::vector<Vector3d>& normals, Json& target) {
         SurfaceMesh moved;
         moved.points = moment.points;
@@ -170,7 +171,8 @@ private:
         return result;
     }
 
-    /// Factors multiply the map, which is 1 for parts that it lacks.
+    /// Sets the factors of the material, by which the map is multiplied. For a part that is not in
+    /// the map, the map is 1, so the factor is the value of the part.
     void add_surface(Json& material) {
         const std::size_t texture = add_picture(look_.surface_map);
         if (look_.has.occlusion) material["occlusionTexture"] = {{"index", texture}};
@@ -181,7 +183,7 @@ private:
         if (look_.has.metalness) shine["metallicFactor"] = 1.0;
     }
 
-    /// The index of its texture.
+    /// Adds a picture and returns the index of its texture.
     std::size_t add_picture(std::string_view png) {
         const std::size_t view = file_.add_view(0, [&](std::string& bytes) { bytes.append(png); });
         const std::size_t image =
@@ -191,7 +193,8 @@ private:
         return file_.add("textures", std::move(texture));
     }
 
-    /// The only sampler, which says where textures do not repeat. Without it they do.
+    /// The index of the only sampler, which says along which axes textures do not repeat. Without a
+    /// sampler, textures repeat.
     std::size_t sampler() {
         const auto wrap = [&](bool repeats) {
             return repeats ? GlbFile::wrap_repeat : GlbFile::wrap_clamp;
@@ -211,7 +214,7 @@ private:
     std::optional<std::size_t> sampler_;
 };
 
-/// An empty file whose coordinates begin where the mesh's are exact.
+/// A file without parts. Its origin is chosen so that the coordinates of the mesh are exact.
 Result<GlbFile> file_for(const SurfaceMesh& mesh) {
     const SurfaceMesh::Box box = mesh.box();
     const Result<Vector3d> origin = origin_of_glb(mesh.points, box.low, box.high);
@@ -219,7 +222,8 @@ Result<GlbFile> file_for(const SurfaceMesh& mesh) {
     return GlbFile(*origin);
 }
 
-/// An animation in which one moment after the other has all the weight, and the mesh the rest.
+/// Adds an animation in which each moment in turn has all the weight. At the end no moment has any
+/// weight, so the mesh itself is shown.
 void animate(std::size_t node, const GlbGrowth& growth, GlbFile& file) {
     const std::size_t count = growth.moments.size();
     const std::size_t times =

@@ -1,4 +1,4 @@
-// A header of 12 bytes, then the chunks of JSON and of the buffer, each padded to 4 bytes.
+// A header of 12 bytes, then a chunk of JSON and a chunk with the buffer, each padded to 4 bytes.
 #include "export/glb_file.h"
 
 #include "export/channels.h"
@@ -74,7 +74,7 @@ std::size_t GlbFile::add_corners(std::span<const std::array<std::uint32_t, 3>> t
                                  std::size_t vertices, bool is_compact) {
     const auto corner = [&](std::size_t k, std::size_t) { return triangles[k / 3][k % 3]; };
     const std::size_t count = 3 * triangles.size();
-    // 65535 would begin a new strip.
+    // Index 65535 has a special meaning: it would begin a new strip.
     return is_compact && vertices <= 65535
                ? add_numbers<std::uint16_t>(index_buffer, "SCALAR", count, corner)
                : add_numbers<std::uint32_t>(index_buffer, "SCALAR", count, corner);

@@ -19,29 +19,30 @@
 
 namespace cascade {
 
-/// A part's number is its index in the list of its kind.
+/// Builds a GLB file from parts. A part's number is its index in the list of its kind.
 class GlbFile {
 public:
     using Json = nlohmann::ordered_json;
 
-    // Numeric codes of the format.
+    // The codes by which the format denotes these types.
     static constexpr int vertex_buffer = 34962, index_buffer = 34963;
     static constexpr int wrap_repeat = 10497, wrap_clamp = 33071;
 
-    /// Begins without parts. All nodes will be in the one scene, moved by `origin`.
+    /// Begins without parts. All nodes will be in the file's only scene, moved by `origin`.
     explicit GlbFile(Vector3d origin = {});
 
-    /// Appends to a list: "nodes", "meshes", "materials", "images", "textures",
-    /// "samplers", "animations".
+    /// Appends a part to a list and returns its number. Lists are "nodes", "meshes", "materials",
+    /// "images", "textures", "samplers" and "animations".
     std::size_t add(const char* list, Json part);
-    /// A node, moved by the origin. If it is not in the scene, it must belong to another node.
+    /// Adds a node. If it is in the scene, moves it by the origin. A node that is not in the scene
+    /// must belong to another node.
     std::size_t add_node(Json node, bool is_in_scene = true);
-    /// An extension that readers may ignore.
+    /// Declares the use of an extension that readers may ignore.
     void use(const char* extension);
     void require(const char* extension);
 
-    /// A view of the bytes that `write` appends. `target` is 0 unless these are vertices or
-    /// indices.
+    /// Adds a view of the bytes that `write` appends. `target` is 0 unless the bytes are vertices
+    /// or indices.
     template <typename Write>
     std::size_t add_view(int target, const Write& write) {
         const std::size_t begin = bytes_.size();
@@ -53,8 +54,9 @@ public:
         return views_.size() - 1;
     }
 
-    /// An accessor of `count` elements of a shape such as "VEC3". `number(k, c)` is component c of
-    /// element k, and its type is the file's. Integers are fractions of their largest value.
+    /// Adds an accessor of `count` elements of a shape such as "VEC3". `number(k, c)` gives
+    /// component c of element k. Its type is also the type of numbers in the file. Integers
+    /// represent fractions of their largest value.
     template <typename Number, typename Take>
     std::size_t add_numbers(int target, std::string_view shape, std::size_t count,
                             const Take& number) {
@@ -75,7 +77,8 @@ public:
         return accessors_.size() - 1;
     }
 
-    /// Positions of vertices relative to the origin, with their bounds. `place(k)` is in double.
+    /// Adds positions of vertices relative to the origin, with their bounds. `place(k)` is in
+    /// double precision.
     template <typename Take>
     std::size_t add_places(std::size_t count, const Take& place) {
         return add_bounded(vertex_buffer, "VEC3", count, [&](std::size_t k, std::size_t c) {
@@ -83,7 +86,7 @@ public:
         });
     }
 
-    /// The same as add_numbers() for binary32, with the bounds of each component.
+    /// Does the same as add_numbers() for binary32, and stores the bounds of each component.
     template <typename Take>
     std::size_t add_bounded(int target, std::string_view shape, std::size_t count,
                             const Take& number) {
@@ -104,16 +107,17 @@ public:
         return added;
     }
 
-    /// `count` vectors of zeros, which take no bytes.
+    /// Adds `count` vectors of zeros, which take no bytes.
     std::size_t add_zeros(std::size_t count);
 
-    /// The corners of triangles between `vertices` vertices, in as few bytes as possible.
+    /// Adds the corners of triangles, as indices of `vertices` vertices. If `is_compact` is true,
+    /// indices take as few bytes as possible.
     std::size_t add_corners(std::span<const std::array<std::uint32_t, 3>> triangles,
                             std::size_t vertices, bool is_compact);
 
     Vector3d origin() const { return origin_; }
 
-    /// The whole file. Fails above 4 GiB.
+    /// The bytes of the whole file. Fails above 4 GiB.
     Result<std::string> pack();
 
     template <typename Vector>
@@ -137,8 +141,9 @@ private:
     Json views_ = Json::array(), accessors_ = Json::array();
 };
 
-/// The origin of a file's coordinates: 0 if binary32 represents all of them, otherwise their
-/// middle. `low` and `high` bound everything. Fails if binary32 cannot represent its size.
+/// The origin of a file's coordinates: 0 if binary32 represents all coordinates exactly, otherwise
+/// the middle of their range. `low` and `high` bound all points of the file. Fails if binary32
+/// cannot represent the size.
 Result<Vector3d> origin_of_glb(std::span<const Vector3d> points, Vector3d low, Vector3d high);
 
 /// A non-metallic material of this roughness.

@@ -1,4 +1,4 @@
-// Groups are ranges of one list of numbers, which is partitioned.
+// A list of indices of colours is partitioned again and again. Each group is a range of this list.
 #include "export/group_colours.h"
 
 #include <algorithm>
@@ -8,7 +8,7 @@ namespace cascade {
 
 namespace {
 
-/// A range of the list, with the channel of the largest range.
+/// A range of the list, with the channel in which the group has its largest range.
 struct Group {
     std::size_t begin = 0, end = 0;
     std::size_t channel = 0;
@@ -54,8 +54,9 @@ ColourGroups group_colours(std::span<const Colour> colours, std::size_t most) {
             std::stable_partition(numbers.begin() + static_cast<std::ptrdiff_t>(whole.begin),
                                   numbers.begin() + static_cast<std::ptrdiff_t>(whole.end),
                                   [&](std::uint32_t number) {
-                                      // Not all: the lowest is below the middle unless rounding
-                                      // made it the middle.
+                                      // Never true for all colours of the group. The second
+                                      // condition matters if rounding has moved the middle to the
+                                      // highest colour.
                                       return colours[number][whole.channel] <= middle &&
                                              colours[number][whole.channel] < whole.high;
                                   });

@@ -12,12 +12,12 @@ namespace cascade {
 /// Groups of similar colours.
 struct ColourGroups {
     std::vector<Colour> means;
-    std::vector<std::uint32_t> group;  ///< For each colour.
+    std::vector<std::uint32_t> group;  ///< The group of each colour.
 };
 
 /// Groups colours by median cut: P. Heckbert, "Color Image Quantization for Frame Buffer Display",
-/// SIGGRAPH 1982. The group with the largest range of a channel is divided at the middle of that
-/// range until there are `most` groups or all colours of each group are equal.
+/// SIGGRAPH 1982. Divides the group with the largest range in a channel at the middle of that
+/// range, until there are `most` groups or all colours of each group are equal.
 ColourGroups group_colours(std::span<const Colour> colours, std::size_t most);
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
-// Marches from each cell in each direction, in steps that grow with the distance, until no height
-// could be seen above those already passed.
+// Marches from each cell in each direction, in steps that grow with the distance. Stops when no
+// farther height could rise above the horizon found so far.
 #include "export/height_occlusion.h"
 
 #include "core/check.h"
@@ -16,7 +16,8 @@ namespace {
 
 constexpr std::size_t directions = 16;
 constexpr double least_rise = 0.02;
-constexpr double step_part = 0.125;  ///< Relative to the distance. The first steps are a cell.
+/// The length of a step, relative to the distance. The first steps are one cell long.
+constexpr double step_part = 0.125;
 
 class Horizon {
 public:
@@ -62,7 +63,8 @@ private:
         return steepest < least_rise ? 0 : steepest;
     }
 
-    /// Linear between cells; low where there is no height.
+    /// The height at any position, linear between cells. Where the plane has no height, the result
+    /// is lower than all heights.
     double height_at(double x, double y) const {
         const double left = std::floor(x), top = std::floor(y);
         const auto corner = [&](std::int64_t i, std::int64_t j) {

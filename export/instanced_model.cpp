@@ -1,4 +1,5 @@
-// Copies that share a mesh and a material are one node. Nodes share the vertices of their mesh.
+// Copies that share a mesh and a material are in one node. Nodes of the same mesh share its
+// vertices.
 #include "export/instanced_model.h"
 
 #include "core/check.h"
@@ -25,10 +26,10 @@ namespace {
 
 using Json = GlbFile::Json;
 
-constexpr float roughness = 0.6F;  ///< Same as for models.
+constexpr float roughness = 0.6F;  ///< Equal to the roughness of models.
 
 double component(const Quaternion& q, std::size_t c) {
-    // glTF has the real part last.
+    // In glTF, the real part is last.
     return c == 0 ? q.x : c == 1 ? q.y : c == 2 ? q.z : q.w;
 }
 
@@ -36,7 +37,8 @@ bool has_triangles(const InstancedModel& model) {
     return (model.body && !model.body->triangles.empty()) || model.copies.triangle_count() > 0;
 }
 
-/// The origin of the coordinates of body, copies and, if these are merged, their points.
+/// The origin for the coordinates of the body and of the copies. If the copies are merged, `points`
+/// are their points.
 Result<Vector3d> origin_of(const InstancedModel& model, std::vector<Vector3d> points = {}) {
     CHECK(has_triangles(model), "there is a body or a copy");
     const std::vector<Placement>& placements = model.copies.placements;
@@ -72,7 +74,7 @@ Json primitive_of(const TriangleMesh& mesh, GlbFile& file) {
     const std::size_t count = mesh.positions.size();
     Json attributes;
     attributes["POSITION"] = file.add_places(count, [&](std::size_t k) {
-        // The mesh has a system of coordinates of its own.
+        // Positions are relative to the mesh's own origin, not to the file's.
         const Vector3& p = mesh.positions[k];
         return Vector3d{p.x, p.y, p.z} + file.origin();
     });
@@ -89,7 +91,7 @@ Json primitive_of(const TriangleMesh& mesh, GlbFile& file) {
     return {{"attributes", attributes}, {"indices", file.add_corners(mesh.triangles, count, true)}};
 }
 
-/// The attributes of some copies. `light` is their material's.
+/// The attributes of some copies. `light` is the light of their material.
 Json attributes_of(const std::vector<const Placement*>& copies, const Colour& light,
                    GlbFile& file) {
     const std::size_t count = copies.size();
@@ -126,7 +128,7 @@ void add_copies(const Instances& copies, GlbFile& file) {
         material["pbrMetallicRoughness"]["baseColorFactor"] = {light[0], light[1], light[2], 1.0};
         materials.push_back(file.add("materials", std::move(material)));
     }
-    // For each mesh and material.
+    // By mesh and material: the copies in the node.
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<const Placement*>> nodes;
     for (std::size_t k = 0; k < copies.placements.size(); ++k) {
         const Placement& placement = copies.placements[k];

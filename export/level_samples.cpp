@@ -1,4 +1,4 @@
-// Every sample finds its own nearest point, since colours may jump anywhere.
+// Finds the nearest point for every sample separately, since colours may jump anywhere.
 #include "export/level_samples.h"
 
 #include "picture/srgb.h"
@@ -41,7 +41,7 @@ void LevelSamples::paint(const SampleRow& row) {
     }
 }
 
-/// The middle sample represents all.
+/// Computes the normal at the middle sample only.
 Vector3d LevelSamples::raised_normal(std::span<const SurfacePlace> samples, const Vector3d&) {
     return fine_.normal_near(position_of(mesh_, samples[samples.size() / 2]), painter_);
 }

@@ -1,4 +1,4 @@
-// Baked samples of a simplified surface.
+// Samples of a simplified surface, for baking.
 #pragma once
 
 #include "export/painted_cells.h"
@@ -9,19 +9,23 @@
 
 namespace cascade {
 
-/// The surface that simplified ones represent. The arguments must outlive it. Thread-safe.
+/// A fine surface with a pattern, whose simplified versions are painted. The arguments must outlive
+/// it. Thread-safe.
 class FineSurface {
 public:
-    /// Cells lie on `mesh`. `displaced` is the same surface raised by their heights, if any.
+    /// The cells are on `mesh`. `displaced` is null, or the same surface raised by the heights of
+    /// the cells.
     FineSurface(const SurfaceMesh& mesh, const CellFilter& filter, const PaintedCells& cells,
                 const RefinedMesh* displaced);
 
     PlacePainter painter() const { return {filter_, cells_}; }
     const PaintedCells& cells() const { return cells_; }
 
-    /// The nearest point to `point` on the surface, as a position on `mesh`, which has the colours.
+    /// The position on `mesh` that belongs to the point of the surface nearest to `point`. If the
+    /// surface is raised, the nearest point of the raised surface counts.
     SurfacePlace place_near(Vector3d point) const;
-    /// The normal there, bumped by heights with `painter` if the surface is not raised by them.
+    /// The normal at place_near(). If the surface is not raised by heights, `painter` adds the
+    /// heights as bumps.
     Vector3d normal_near(Vector3d point, PlacePainter& painter) const;
 
 private:
@@ -35,16 +39,17 @@ private:
     const PaintedCells& cells_;
     const RefinedMesh* displaced_;
     NearestPlace on_shape_;
-    CornerNormals normals_;  ///< Normals of the shape.
+    CornerNormals
+        normals_;  ///< Normals of the raised surface, if there is one, otherwise of `mesh`.
 };
 
-/// Paints each sample as the nearest point of the fine surface, with its colour, its material, and
-/// its normal, bumped by heights if there are any. Light thus still shows the lost shape (P.
-/// Cignoni et al., "A General Method for Preserving Attribute Values on Simplified Meshes", IEEE
-/// Visualization 1998). There are no heights.
+/// Paints samples of a simplified surface. Each sample gets the colour, the material and the
+/// normal, with bumps of heights, of the nearest point of the fine surface. So light still shows
+/// the details that simplification has removed (P. Cignoni et al., "A General Method for Preserving
+/// Attribute Values on Simplified Meshes", IEEE Visualization 1998). Gives no heights.
 class LevelSamples : public SamplePainter {
 public:
-    /// `mesh` is the simplified surface. Both must outlive it.
+    /// `mesh` is the simplified surface. Both arguments must outlive the painter.
     LevelSamples(const SurfaceMesh& mesh, const FineSurface& fine)
         : mesh_(mesh), fine_(fine), painter_(fine.painter()) {}
 

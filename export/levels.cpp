@@ -1,4 +1,4 @@
-// Simplifies level by level, and averages merged points.
+// Simplifies level by level, and averages values of merged points.
 #include "export/levels.h"
 
 #include "core/file_format.h"
@@ -17,7 +17,7 @@ namespace cascade {
 
 namespace {
 
-/// A third of the area of the triangles around each point.
+/// For each point, a third of the area of the triangles around it.
 std::vector<double> areas_of_points(const SurfaceMesh& mesh) {
     std::vector<double> areas(mesh.points.size());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -27,13 +27,14 @@ std::vector<double> areas_of_points(const SurfaceMesh& mesh) {
     return areas;
 }
 
-/// Means over the points that have merged into each one.
+/// Means over the points that have merged into each point.
 class MergedMeans {
 public:
     MergedMeans(const Simplified& simplified, std::vector<double> areas)
         : simplified_(simplified), areas_(std::move(areas)) {}
 
-    /// The means of `number(point)`. Non-finite numbers do not count, unless all are.
+    /// The means of `number(point)`. Ignores numbers that are not finite, unless none of them is
+    /// finite.
     template <typename Take>
     std::vector<float> of(const Take& number) const {
         const std::size_t count = simplified_.points.size();
@@ -90,7 +91,8 @@ Result<std::vector<ModelLevel>> levels_of(ModelLevel finest, int count, double p
         auto simplified = simplify(finer.mesh, triangles / triangles_to_level,
                                    {finer.colours, pattern_length}, cancel);
         if (!simplified) return tl::unexpected(simplified.error());
-        // The topology may need nearly all remaining triangles.
+        // If simplification could not remove enough triangles, because the topology needs nearly
+        // all of them, there are no coarser levels.
         if (2 * simplified->mesh.triangles.size() > triangles) break;
         levels.push_back(level_below(finer, *std::move(simplified)));
     }
@@ -107,7 +109,7 @@ std::filesystem::path path_of_level(const std::filesystem::path& path, std::size
 
 namespace {
 
-/// A file that contains all levels.
+/// The bytes of a file that contains all levels.
 Result<std::string> encode_all(std::span<const ModelLevel> levels) {
     std::vector<GlbLook> looks(levels.size());
     std::vector<GlbLevel> models;

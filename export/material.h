@@ -1,4 +1,4 @@
-// The properties of a surface besides colour and height, in glTF's metallic-roughness model.
+// The properties of a surface, besides colour and height, in glTF's metallic-roughness model.
 #pragma once
 
 #include <algorithm>
@@ -9,13 +9,14 @@
 
 namespace cascade {
 
-/// Numbers from 0 to 1, three to a texture, in the order of its channels: occlusion, roughness and
-/// metalness; the colour of emitted light; opacity.
+/// Quantities from 0 to 1. They are stored in three textures. The channels of the first are
+/// occlusion, roughness and metalness, those of the second are red, green and blue of the emitted
+/// light, and the third has the opacity. The enumerators are in this order.
 enum class MaterialPart : std::uint8_t {
     occlusion,  ///< The visible part of the sky: 0 in the deepest crevice.
     roughness,
     metalness,
-    red,  ///< Emitted light, sRGB.
+    red,  ///< Emitted light, in sRGB.
     green,
     blue,
     opacity,
@@ -33,24 +34,25 @@ struct OfParts : std::array<Each, material_parts> {
     using Base::operator[];
 };
 
-/// One number from 0 to 1 per cell for each given part; others are empty. `red`, `green` and `blue`
-/// are given together.
+/// For each part that is given, one number from 0 to 1 per cell. Parts that are not given are
+/// empty. `red`, `green` and `blue` are all given or all empty.
 using MaterialCells = OfParts<std::span<const float>>;
 
-/// True if opacities only mark holes: 0 or 1.
+/// Whether opacities only mark holes, that is, whether every opacity is 0 or 1.
 inline bool is_cut(std::span<const float> opacities) {
     return !opacities.empty() && std::all_of(opacities.begin(), opacities.end(), [](float opacity) {
         return opacity == 0 || opacity == 1;
     });
 }
 
-/// Which maps exist besides colours.
+/// Which maps exist, besides colours.
 struct MapSet {
     bool heights = false, normals = false;
     bool occlusion = false, roughness = false, metalness = false;
     bool emission = false, opacity = false;
 
-    /// True if there is a part that is packed into one texture with others.
+    /// Whether there is a texture of occlusion, roughness and metalness, that is, whether at least
+    /// one of the three is given.
     bool has_surface() const { return occlusion || roughness || metalness; }
 };
 

@@ -1,4 +1,4 @@
-// Encodes maps side by side and writes them.
+// Encodes maps in parallel and writes them.
 #include "export/material_maps.h"
 
 #include "core/parallel.h"
@@ -21,16 +21,16 @@ namespace cascade {
 
 namespace {
 
-/// The file of a map, inside the GLB file or next to it.
+/// The file of one map, inside the GLB file or next to it.
 struct MapFile {
     const Image* image = nullptr;
     PngDepth depth = PngDepth::eight;
     PngMeaning meaning = PngMeaning::colours;
-    /// Grey, from this channel of the image alone.
+    /// If set, the file is grey and has only this channel of the image.
     std::optional<std::size_t> channel = {};
-    /// The alpha channel.
+    /// If set, the image whose grey is stored as the alpha channel.
     const Image* opacity = nullptr;
-    /// For heights: the numbers that are black and white.
+    /// For heights: the range whose ends are stored as black and white.
     std::optional<ValueRange> range = {};
     std::string bytes = {};
     Result<void> done = {};
@@ -53,7 +53,7 @@ private:
         return encode_png(own, depth, texts, meaning);
     }
 
-    /// Colours as linear light, heights in lengths.
+    /// Stores colours as linear light, and heights in lengths.
     Result<std::string> encode_as_exr() const {
         if (channel || range) {
             std::vector<float> numbers;
@@ -91,7 +91,7 @@ Result<void> encode(std::span<MapFile> files, MapFormat format, const PngTexts& 
 
 /// The files next to a model.
 struct SideFiles {
-    std::vector<std::string_view> names;  ///< Endings after the model's name.
+    std::vector<std::string_view> names;  ///< The endings of their names, after the model's name.
     std::vector<MapFile> files;
 };
 
@@ -115,12 +115,13 @@ SideFiles side_files(const MaterialMaps& maps, const MapSet& which) {
     return beside;
 }
 
-/// The maps of one level inside a GLB file, with 8 bits, which all viewers of GLB files support.
+/// The maps of one level inside a GLB file. They have 8 bits, which all viewers of GLB files
+/// support.
 class MapsInside {
 public:
     MapsInside(const MaterialMaps& maps, const PngTexts& texts) : maps_(maps), texts_(texts) {}
 
-    /// `plain_colours` is the encoded map of colours, if known.
+    /// `plain_colours` is the encoded map of colours, if it exists already.
     Result<void> encode(std::string_view plain_colours) {
         const MapSet& has = maps_.maps;
         constexpr auto eight = PngDepth::eight;
@@ -157,7 +158,7 @@ private:
 
 Result<std::string> encode_models(std::span<const MappedModel> levels, const PngTexts& texts,
                                   const std::string& plain_colours) {
-    std::deque<MapsInside> inside;  // Looks refer to the bytes in it.
+    std::deque<MapsInside> inside;  // Each GlbLook refers to the bytes in one of these.
     std::vector<GlbLevel> models;
     for (const MappedModel& level : levels) {
         MapsInside& maps = inside.emplace_back(level.maps, texts);

@@ -1,4 +1,4 @@
-// The maps of a material: textures, and the files that hold them.
+// The maps of a material, and the files that hold them.
 #pragma once
 
 #include "core/result.h"
@@ -14,31 +14,35 @@
 
 namespace cascade {
 
-/// Textures of one size. Missing ones are empty.
+/// Textures of one size. Missing maps are empty.
 struct MaterialMaps {
     Image colour;
-    /// Grey, from 0 to 1 over the range of the texels' heights, `heights`.
+    /// The heights of the texels as greys from 0 to 1. `heights` is the range of heights to which 0
+    /// and 1 belong.
     Image relief;
     ValueRange heights;
-    /// Directions relative to the tangents, −1 … 1 stored as 0 … 1, y up.
+    /// Directions relative to the tangents, with y upwards. −1 … 1 is stored as 0 … 1.
     Image normals;
-    /// Red is occlusion, green roughness and blue metalness, as glTF packs them. 1 if `maps` lacks
-    /// the part.
+    /// Occlusion in red, roughness in green and metalness in blue, as in glTF. A channel is 1 if
+    /// `maps` does not contain its part.
     Image surface;
     Image emission;
     Image opacity;  ///< Grey.
     MapSet maps;
-    bool is_cut = false;  ///< Opacities mark holes: 0 or 1, and between only at their edges.
-    /// Along x and y: the texture repeats. Otherwise its edge texels extend outwards.
+    /// Whether opacities only mark holes. They are then 0 or 1, except at the edges of holes.
+    bool is_cut = false;
+    /// Whether the textures repeat along x and y. If not, edge texels extend outwards.
     std::array<bool, 2> repeats{true, true};
 };
 
-/// The format of maps next to a model: PNG, or OpenEXR with linear colours and heights in lengths.
+/// The format of the map files that are written next to a model: PNG, or OpenEXR. In OpenEXR,
+/// colours are linear, and heights are lengths.
 enum class MapFormat : std::uint8_t { png, exr };
 
-/// The files that write_maps makes: the model, then in the same folder NAME_color.png and one for
-/// each of the other maps: NAME_height.png and NAME_normal.png (16 bits), NAME_occlusion.png,
-/// NAME_roughness.png, NAME_metalness.png, NAME_emission.png, NAME_opacity.png; or .exr.
+/// The files that write_maps() makes: the model, then in the same folder NAME_color.png, and one
+/// file for each further map that exists: NAME_height.png and NAME_normal.png (16 bits),
+/// NAME_occlusion.png, NAME_roughness.png, NAME_metalness.png, NAME_emission.png, NAME_opacity.png.
+/// In OpenEXR, the ending is .exr.
 std::vector<std::filesystem::path> map_paths(const std::filesystem::path& glb, const MapSet& maps,
                                              MapFormat format = MapFormat::png);
 
@@ -48,12 +52,12 @@ struct MappedModel {
     const MaterialMaps& maps;
 };
 
-/// Writes a GLB file of the model with the maps inside, and the maps next to it. PNG files have
-/// these texts. Coarser levels follow the model, finest first, and only have their maps inside
-/// (encode_glb). Each file is written atomically.
+/// Writes a GLB file of the model with the maps inside, and the maps next to it. `texts` are stored
+/// in PNG files. `levels` begins with the model. Coarser levels follow, finest first. Their maps
+/// are only inside the GLB file (encode_glb). Each file is written atomically.
 Result<void> write_maps(const std::filesystem::path& glb, std::span<const MappedModel> levels,
                         const PngTexts& texts, MapFormat format = MapFormat::png);
-/// The same for the model alone.
+/// Does the same as write_maps() for a model without coarser levels.
 Result<void> write_maps(const std::filesystem::path& glb, const SurfaceMesh& mesh,
                         const MaterialMaps& maps, const PngTexts& texts,
                         MapFormat format = MapFormat::png);

@@ -17,10 +17,11 @@
 
 namespace cascade {
 
-/// The arrays of an archive.
+/// Collects the arrays of an archive.
 class NpzArrays {
 public:
-    /// Adds an array of rows × columns, or of rows if columns is 1. `type` is NumPy's.
+    /// Adds an array of rows × columns, or of rows if `columns` is 1. `type` is NumPy's name of the
+    /// type.
     template <typename Number, typename Take>
     void add(const std::string& name, std::string_view type, std::size_t rows, std::size_t columns,
              const Take& take) {
@@ -49,7 +50,7 @@ public:
         });
     }
 
-    /// Adds channels under their names, with an underscore added to `reserved` ones.
+    /// Adds channels under their names. Names in `reserved` get an underscore.
     void add_channels(std::span<const Channel> channels,
                       std::initializer_list<std::string_view> reserved) {
         const std::vector<std::string> names = distinct_names(channels, reserved);

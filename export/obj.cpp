@@ -1,4 +1,4 @@
-// Positions, normals and texture coordinates have indices of their own.
+// Positions, normals and texture coordinates are indexed separately.
 #include "export/obj.h"
 
 #include "mesh/normals.h"
@@ -34,7 +34,7 @@ void ObjText::add(const SurfaceMesh& mesh, const PointResults& results) {
     for (const Vector3d& normal : normals.normals) {
         fmt::format_to(out, "vn {:.6g} {:.6g} {:.6g}\n", normal.x, normal.y, normal.z);
     }
-    std::vector<std::size_t> texture;  // Index of each corner's coordinates.
+    std::vector<std::size_t> texture;  // For each corner, the index of its texture coordinates.
     texture.reserve(3 * mesh.texture.size());
     std::map<TexturePlace, std::size_t> known;
     for (const auto& corners : mesh.texture) {
@@ -44,7 +44,7 @@ void ObjText::add(const SurfaceMesh& mesh, const PointResults& results) {
             texture.push_back(entry->second);
         }
     }
-    text_ += "s 1\n";  // Smooth, because some programs use normals only then.
+    text_ += "s 1\n";  // Marks faces as smooth, because some programs use normals only then.
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         text_ += 'f';
         for (std::size_t k = 0; k < 3; ++k) {
@@ -61,7 +61,8 @@ void ObjText::add(const SurfaceMesh& mesh, const PointResults& results) {
 
 namespace {
 
-/// The digits of coordinates that give nine of the model's own size, however far away it is.
+/// The number of digits of coordinates. It is chosen so that nine digits remain relative to the
+/// model's size, however far from the origin the model is.
 int digits_of(std::span<const Vector3d> points) {
     constexpr int usual = 9, all = 17;
     if (points.empty()) return usual;

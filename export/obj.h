@@ -1,4 +1,4 @@
-// The text of a Wavefront OBJ file, object after object.
+// Builds the text of a Wavefront OBJ file, object after object.
 #pragma once
 
 #include "export/instanced_model.h"
@@ -14,14 +14,15 @@ public:
     /// Begins an object with a name.
     void begin(std::string_view name);
     void add(const SurfaceMesh& mesh, const PointResults& results);
-    /// Coordinates have nine digits, or more if far from the origin.
+    /// Adds copies. Coordinates have nine digits, or more if they are far from the origin.
     void add(const MergedCopies& copies);
 
     const std::string& text() const { return text_; }
 
 private:
     std::string text_ = "# Cascade\n";
-    // The numbers written so far. Indices of a file begin at 1 and continue from object to object.
+    // How many have been written so far. Indices in a file begin at 1 and continue from object to
+    // object.
     std::size_t points_ = 0, normals_ = 0, places_ = 0;
 };
 

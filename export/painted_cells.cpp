@@ -1,5 +1,5 @@
-// Filters the values of nearby cells (surface/cell_filter), then maps the result to a colour, so
-// that values are blended instead of colours.
+// Filters the values of nearby cells (surface/cell_filter), then computes a colour from the result.
+// So values are blended and not colours.
 #include "export/painted_cells.h"
 
 #include "export/channels.h"

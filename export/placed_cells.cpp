@@ -1,4 +1,4 @@
-// The same arrays for both formats.
+// Writes the same arrays in both formats.
 #include "export/placed_cells.h"
 
 #include "core/check.h"

@@ -1,5 +1,5 @@
-// Cells in space with their frames and values, as files for other programs: NumPy's .npz and VTK's
-// .vtp. Cells of surfaces, which have areas and links, are in export/cell_writer.h.
+// Writes cells in space, with their frames and values, as files for other programs: NumPy's .npz
+// and VTK's .vtp. Cells of surfaces, which have areas and links, are in export/cell_writer.h.
 #pragma once
 
 #include "core/quaternion.h"
@@ -12,14 +12,15 @@
 
 namespace cascade {
 
-/// Refers to its parts, each with one element per cell.
+/// Cells to write. Refers to its parts, each of which has one element per cell.
 struct PlacedCells {
     std::span<const Vector3d> places;
-    /// Rotations, of length 1, from the axes of space to the cell's: y points away from the surface
-    /// on which it sits, z in the direction of its combing.
+    /// Rotations, of length 1, from the axes of space to the axes of each cell. The cell's y axis
+    /// points away from the surface on which the cell sits. Its z axis is the direction in which
+    /// scales or hairs are combed.
     std::span<const Quaternion> frames;
     std::span<const double> radii;
-    std::span<const Colour> colours;  ///< sRGB; empty: none.
+    std::span<const Colour> colours;  ///< sRGB. May be empty.
     std::span<const Channel> channels;
 };
 
@@ -30,13 +31,13 @@ struct PlacedCells {
 ///     radii   n     float64
 ///     colors  n × 3 float32  if there are any
 ///
-/// and each channel as n × float32 under its name, with an underscore added if it is one of these.
-/// Fails above 4 GiB.
+/// Each channel is an array of n × float32 under its name. If this is one of the names above, an
+/// underscore is added. Fails above 4 GiB.
 Result<std::string> encode_npz(const PlacedCells& cells);
 
-/// VTK's XML PolyData: each cell is a vertex at its position, with the y axis of its frame as
-/// normal, `frame` (w, x, y, z, as glyph filters of ParaView take it), `radius`, its colour as
-/// `color` and the channels as point data.
+/// VTK's XML PolyData. Each cell is a vertex at its position. Point data are the y axis of its
+/// frame as normal, `frame` (w, x, y, z, as ParaView's glyph filters read it), `radius`, the colour
+/// as `color`, and the channels.
 std::string encode_vtp(const PlacedCells& cells);
 
 /// Writes encode_cells() atomically. Fails as encode_cells(), encode_npz and write_file do.

@@ -1,4 +1,4 @@
-// Interpolates each row of samples from rows of cells, then each sample from columns.
+// For each row of samples, interpolates first between the rows of cells, then between columns.
 #include "export/plane_maps.h"
 
 #include "core/between_cells.h"
@@ -19,10 +19,10 @@ namespace cascade {
 
 namespace {
 
-/// The position of an axis's samples between cells.
+/// The position of a sample between cells, along one axis.
 struct SamplePlace {
-    std::int64_t before = 0;  ///< The last cell centred before the sample; may be −1.
-    float part = 0;           ///< Fraction of the way to the next one.
+    std::int64_t before = 0;  ///< The last cell whose centre is before the sample; may be −1.
+    float part = 0;           ///< The fraction of the way to the next cell.
 };
 
 SamplePlace place_of_sample(std::int64_t sample, std::int64_t samples, std::int64_t cells) {
@@ -33,7 +33,7 @@ SamplePlace place_of_sample(std::int64_t sample, std::int64_t samples, std::int6
     return {static_cast<std::int64_t>(before), static_cast<float>(place - before)};
 }
 
-/// The values between rows of cells.
+/// Interpolates between rows of cells.
 WITH_WIDE_VECTORS void blend_rows(const std::array<const float*, cells_between>& rows, float part,
                                   float* values, std::size_t count) {
     const auto [a, b, c, d, e, f] = rows;
@@ -42,14 +42,14 @@ WITH_WIDE_VECTORS void blend_rows(const std::array<const float*, cells_between>&
     }
 }
 
-/// The slopes in cells of a line, which begins two cells before them.
+/// The slopes in `count` adjacent cells. `line` begins two cells before the first one.
 WITH_WIDE_VECTORS void find_slopes(const float* line, float* slopes, std::size_t count) {
     for (std::size_t k = 0; k < count; ++k) {
         slopes[k] = slope_in(line[k], line[k + 1], line[k + 2], line[k + 3], line[k + 4]);
     }
 }
 
-/// The values of samples between cells with these values and slopes.
+/// Interpolates between the cells of a line that have these values and slopes.
 WITH_WIDE_VECTORS void blend_columns(const float* cells, const float* slopes,
                                      const std::int32_t* before, const float* parts,
                                      float* __restrict values, std::size_t count) {
@@ -61,7 +61,7 @@ WITH_WIDE_VECTORS void blend_columns(const float* cells, const float* slopes,
 }
 
 /// The values of a plane's cells: the channels of colours, the given parts of the material, and the
-/// height if there is one. Gives the attributes of samples, one row at a time.
+/// height, if there is one. Interpolates them to one row of samples at a time.
 class CellValues {
 public:
     CellValues(const FlatCells& cells, const PaintedCells& painted)
@@ -82,7 +82,8 @@ public:
     std::size_t size() const { return values_.size(); }
     std::span<const MaterialPart> parts() const { return parts_; }
 
-    /// Value k of all columns between rows. `line` has `margin` more cells at both ends.
+    /// Writes value k of all columns, interpolated between two rows of cells, to `line`, which has
+    /// `margin` more cells at both ends.
     void row_at(std::size_t k, const SamplePlace& down, std::span<float> line) const {
         std::array<const float*, cells_between> rows{};
         for (std::size_t n = 0; n < rows.size(); ++n) {
@@ -111,8 +112,8 @@ private:
         for (std::size_t cell = 0; cell < cells_.count(); ++cell) values_[k][cell] = take(cell);
     }
 
-    /// Replaces value k in cells where it does not count: outside the domain, though opacity is 0
-    /// there, and where heights are not finite.
+    /// Replaces value k by values from the surroundings, in cells outside the domain and where
+    /// heights are not finite. Opacity is an exception: it is 0 outside the domain.
     void fill(std::size_t k) {
         const bool is_height = has_heights_ && k + 1 == size();
         const bool is_opacity =
@@ -136,7 +137,7 @@ private:
     std::size_t channels_;
     bool has_heights_;
     std::vector<MaterialPart> parts_;
-    std::vector<std::vector<float>> values_;  ///< Values of the cells, one value after the other.
+    std::vector<std::vector<float>> values_;  ///< The values of all cells, one list per value.
 };
 
 class PlaneBaker {
@@ -183,7 +184,7 @@ public:
     }
 
 private:
-    /// Paints rows of texels. Holds a thread's working memory.
+    /// Paints rows of texels. Owns a thread's working memory.
     class RowPainter {
     public:
         explicit RowPainter(PlaneBaker& baker)
@@ -230,13 +231,13 @@ private:
             for (std::size_t k = 0; k < values_.size(); ++k) {
                 baker_.values_.row_at(k, down, line_);
                 find_slopes(line_.data(), slopes_.data(), slopes_.size());
-                // The first cell with a slope is the third one.
+                // Slopes begin at the third cell of the line.
                 blend_columns(&line_[2], slopes_.data(), baker_.before_.data(),
                               baker_.parts_.data(), values_[k].data(), values_[k].size());
             }
         }
 
-        /// The light of the row's samples.
+        /// Computes the light of each sample of the row.
         void find_colours() {
             const PaintedCells& painted = baker_.painted_;
             const std::size_t channels = painted.channels;
@@ -280,10 +281,10 @@ private:
 
         PlaneBaker& baker_;
         std::vector<float> line_, slopes_;
-        std::vector<std::vector<float>> values_;  ///< For a row of samples.
-        std::vector<float> by_sample_;  ///< The channels of each sample, one after another.
+        std::vector<std::vector<float>> values_;  ///< The values of a row of samples.
+        std::vector<float> by_sample_;  ///< The values of each sample, one sample after another.
         std::vector<Colour> colours_;
-        std::vector<Sum> sums_;  ///< For a row's texels.
+        std::vector<Sum> sums_;  ///< One for each texel of a row.
     };
 
     template <typename Use>
@@ -298,7 +299,7 @@ private:
         });
     }
 
-    /// Stores everything but the colour.
+    /// Stores all maps of a texel except for its colour.
     void store(std::int64_t x, std::int64_t y, const RowPainter::Sum& sum) {
         const auto all = static_cast<float>(samples_ * samples_);
         const auto mean = [&](MaterialPart part) { return sum.material[part] / all; };
@@ -321,7 +322,7 @@ private:
         }
     }
 
-    /// Finds normals from the heights of the texels on both sides.
+    /// Computes normals from the heights of the texels on both sides.
     void find_normals(std::int64_t y) {
         const Image& relief = maps_.relief;
         const auto rise = [&](std::int64_t x0, std::int64_t y0, std::int64_t x1, std::int64_t y1) {
@@ -332,7 +333,7 @@ private:
             return std::array{FlatCells::place(k - 1, count, repeats),
                               FlatCells::place(k + 1, count, repeats)};
         };
-        // At a side that does not repeat, one of the two is the texel itself.
+        // At a side where the texture does not repeat, one of the two is the texel itself.
         const auto apart = [](std::int64_t k, std::int64_t count, bool repeats, double side) {
             const bool is_at_side = !repeats && count > 1 && (k == 0 || k == count - 1);
             return is_at_side ? side : 2 * side;
@@ -356,9 +357,9 @@ private:
     const FlatCells& cells_;
     const PaintedCells& painted_;
     CellValues values_;
-    std::int64_t samples_ = 2;  ///< Per texel, along each axis.
-    /// The positions of a row's samples: the cell before each, counted from −1, and the fraction of
-    /// the way to the next one.
+    std::int64_t samples_ = 2;  ///< Samples per texel along each axis.
+    /// The positions of a row's samples: the index, plus one, of the cell before each sample (which
+    /// may be −1), and the fraction of the way to the next cell.
     std::vector<std::int32_t> before_;
     std::vector<float> parts_;
     MaterialMaps maps_;

@@ -1,4 +1,4 @@
-// Maps of a plane of cells: textures of any size, which repeat where its sides do.
+// Maps of a plane of cells: textures of any size, which repeat where the plane's sides do.
 #pragma once
 
 #include "export/flat_cells.h"
@@ -8,20 +8,21 @@
 
 namespace cascade {
 
-/// The size of a plane's texture whose longer side has this many texels. The other side is in
-/// proportion, and at least 1.
+/// The size of a plane's texture, in texels across and down. The longer side has `texels` texels,
+/// and the other side is in proportion, but at least 1.
 std::array<std::int64_t, 2> texture_size(const FlatCells& cells, std::int64_t texels);
 
 /// The maps of a plane. Values between cells lie on cubic curves that stay in range at edges
-/// (core/between_cells.h). Colours are computed from the values there. A texel is the mean of its
-/// samples, with colours in linear light. There are four samples or, in small textures, one or more
-/// for each cell. Normals belong to the surface raised by the texels' heights. Cells outside take
-/// values from their surroundings, as do non-finite heights. `colour` gets no position. `size` is
-/// in texels across and down. The same on any number of threads. Throws std::bad_alloc.
+/// (core/between_cells.h). Colours are computed from these values. A texel is the mean of its
+/// samples, with colours in linear light. There are four samples per texel or, in small textures,
+/// at least one per cell. Normals are those of the surface raised by the texels' heights. Cells
+/// outside the domain get the values of their surroundings. So do heights that are not finite. The
+/// function `painted.colour` is called without a meaningful position. `size` is in texels across
+/// and down. The result is the same with any number of threads. Throws std::bad_alloc.
 MaterialMaps bake_plane(const FlatCells& cells, const PaintedCells& painted,
                         std::array<std::int64_t, 2> size, Team& team);
 
-/// A rectangle of the plane's size around the origin that faces z, y upwards, with texture
+/// A rectangle around the origin that has the plane's size and faces z, with y upwards and texture
 /// coordinates from 0 to 1.
 SurfaceMesh plane_mesh(const FlatCells& cells);
 

@@ -1,4 +1,4 @@
-// Models as binary PLY files.
+// Writes models as binary PLY files.
 #include "export/model_writer.h"
 #include "mesh/normals.h"
 #include "picture/float_bytes.h"
@@ -20,8 +20,8 @@ std::string one_word(std::string name) {
     return name;
 }
 
-/// Names of channels without another meaning in a PLY file: neither G. Turk's own nor those that
-/// readers take for texture coordinates and colours.
+/// Names for the channels that have no other meaning in a PLY file. They are none of the names that
+/// G. Turk defined, and none that readers take for texture coordinates or colours.
 std::vector<std::string> property_names(std::span<const Channel> channels) {
     std::vector<Channel> named;
     for (const Channel& channel : channels) named.push_back({one_word(channel.name), {}});

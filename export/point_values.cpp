@@ -1,11 +1,12 @@
-// Each point is a position in its first triangle. Threads filter ranges of positions.
+// Each point becomes a position in its first triangle. Threads filter ranges of positions.
 #include "export/point_values.h"
 
 namespace cascade {
 
 std::vector<SurfacePlace> places_of_points(const SurfaceMesh& mesh) {
     std::vector<SurfacePlace> places(mesh.points.size());
-    for (std::size_t t = mesh.triangles.size(); t-- > 0;) {  // The first triangle wins.
+    // The loop runs backwards, so that each point gets its first triangle.
+    for (std::size_t t = mesh.triangles.size(); t-- > 0;) {
         for (std::size_t k = 0; k < 3; ++k) {
             SurfacePlace& place = places[mesh.triangles[t][k]];
             place.triangle = static_cast<std::uint32_t>(t);

@@ -1,5 +1,5 @@
-// Repeatedly halves all edges that are too long, and splits each triangle depending on which of its
-// edges are halved. Of two diagonals it takes the shorter one. Adjacency is maintained.
+// Repeatedly halves all edges that are too long, and splits each triangle according to which of its
+// edges are halved. If two diagonals are possible, the shorter one is used. Adjacency is updated.
 #include "export/refine.h"
 
 #include <array>
@@ -15,12 +15,14 @@ namespace {
 using Triangle = std::array<std::uint32_t, 3>;
 using Weights = std::array<double, 3>;
 
-/// Corners of parts of a triangle: 0 … 2 are its own, 3 + k is the middle of its edge k.
+/// Corners of a part of a triangle. 0 … 2 are the triangle's own corners, and 3 + k is the middle
+/// of its edge k.
 using Part = std::array<std::uint32_t, 3>;
 
-/// The parts of a triangle, given its halved edges. With two halved edges the corner between them
-/// is cut off, and the remaining quadrilateral is split along one diagonal: the one from the corner
-/// before them if `is_first_shorter`.
+/// The parts of a triangle, given its halved edges. With two halved edges, the corner between them
+/// is cut off, and the remaining quadrilateral is split along a diagonal. If `is_first_shorter`,
+/// the diagonal begins at the corner before the first halved edge, otherwise at the corner after
+/// the second.
 std::vector<Part> parts_of(const std::array<bool, 3>& is_halved, bool is_first_shorter) {
     const int count = is_halved[0] + is_halved[1] + is_halved[2];
     if (count == 0) return {{0, 1, 2}};
@@ -33,7 +35,7 @@ std::vector<Part> parts_of(const std::array<bool, 3>& is_halved, bool is_first_s
     return {{3 + a, b, 3 + b}, {a, 3 + a, c}, {3 + a, 3 + b, c}};
 }
 
-/// Triangles with their positions in the first mesh.
+/// Triangles with their positions in the original mesh.
 class Refiner {
 public:
     explicit Refiner(const SurfaceMesh& mesh)
@@ -49,7 +51,8 @@ public:
         }
     }
 
-    /// Halves all edges that are too long, once. Returns false if there are none or too many.
+    /// Halves all edges that are too long, once. Returns false if there are none, or if there would
+    /// be too many triangles.
     bool halve(double longest, std::size_t most_triangles) {
         find_middles(longest);
         std::size_t count = triangles_.size();
@@ -129,7 +132,8 @@ private:
         std::vector<Triangle> triangles;
         std::vector<TriangleOrigin> origins;
         std::vector<std::array<TriangleEdge, 3>> across;
-        // The successors of each edge: itself, or its first and second half.
+        // By edge: its pieces. If the edge is halved, these are its first and its second half,
+        // otherwise there is one piece.
         std::vector<std::array<std::array<TriangleEdge, 2>, 3>> pieces(triangles_.size());
         for (std::size_t t = 0; t < triangles_.size(); ++t) {
             const auto first = static_cast<std::uint32_t>(triangles.size());
@@ -200,7 +204,7 @@ private:
             for (std::uint32_t k = 0; k < 3; ++k) {
                 const std::uint32_t from = parts[p][k], to = parts[p][corner_after(k)];
                 if (const auto beyond = find(to, from)) across[first + p][k] = *beyond;
-                else pieces[from % 3][from < 3 ? 0 : 1] = {first + p, k};  // The first if whole.
+                else pieces[from % 3][from < 3 ? 0 : 1] = {first + p, k};  // 0: a whole edge.
             }
         }
     }
@@ -237,7 +241,8 @@ private:
     std::vector<std::array<TriangleEdge, 3>> across_;
     std::vector<SurfacePlace> places_;     ///< One per point.
     std::vector<TriangleOrigin> origins_;  ///< One per triangle.
-    std::vector<Triangle> middles_;        ///< The new points on their edges, if any.
+    /// For each edge of a triangle, the new point in its middle, if any.
+    std::vector<Triangle> middles_;
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Refines a mesh for files that only have vertex colours.
+// Refines a mesh for files that can only have vertex colours.
 #pragma once
 
 #include "mesh/flat.h"
@@ -11,12 +11,13 @@
 
 namespace cascade {
 
-/// The position of a refined mesh's triangle in a triangle of the original mesh.
+/// Which part of a triangle of the original mesh a triangle of the refined mesh is.
 struct TriangleOrigin {
     std::uint32_t triangle = 0;
-    std::array<std::array<double, 3>, 3> corners;  ///< Weights at each corner.
+    /// For each corner of the refined triangle: its weights of the original triangle's corners.
+    std::array<std::array<double, 3>, 3> corners;
 
-    /// The position in the original mesh, given weights of the part's corners.
+    /// A position on the original mesh, given by weights of the refined triangle's corners.
     SurfacePlace at(const std::array<double, 3>& weights) const {
         SurfacePlace place{triangle, {}};
         for (std::size_t k = 0; k < 3; ++k) {
@@ -32,13 +33,14 @@ struct RefinedMesh {
     std::vector<TriangleOrigin> origins;  ///< One per triangle.
 };
 
-/// Halves edges longer than `longest_edge` (positive), splitting the triangles at them, until none
-/// is left or the mesh would exceed `most_triangles`. The mesh's points come first, unchanged.
-/// Texture coordinates and attributes of new points are interpolated. Throws std::bad_alloc.
+/// Halves edges longer than `longest_edge` (positive) and splits the triangles at them, until no
+/// such edge is left or the mesh would have more than `most_triangles`. The mesh's own points come
+/// first, unchanged. Texture coordinates and attributes of new points are interpolated. Throws
+/// std::bad_alloc.
 RefinedMesh refined(const SurfaceMesh& mesh, double longest_edge, std::size_t most_triangles);
 
-/// Moves each point along its normal by its height, in lengths of the mesh. Non-finite heights
-/// count as 0.
+/// Moves each point along its normal by its height, in the unit of the mesh. Heights that are not
+/// finite count as 0.
 void displace(SurfaceMesh& mesh, std::span<const Vector3d> normals, std::span<const float> heights);
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
-// Sorts corners by normal, side and texture coordinates. Equal ones become one vertex. A tangent is
-// the mean of its triangles' tangents, weighted by angle.
+// Sorts corners by normal, side and texture coordinates. Corners that agree in all of these become
+// one vertex. The tangent of a vertex is the mean of its triangles' tangents, weighted by angle.
 #include "export/render_vertices.h"
 
 #include "mesh/flat.h"
@@ -20,10 +20,10 @@ TexturePlace finite(TexturePlace place) {
     return place;
 }
 
-/// The orientation of a triangle in the texture.
+/// How the texture is oriented in a triangle.
 struct TriangleTangent {
-    Vector3d direction;  ///< Direction in which the first coordinate grows; zero without an area in
-                         ///< the texture.
+    /// Direction in which the first coordinate grows; 0 if the triangle has no area in the texture.
+    Vector3d direction;
     int side = 1;
 };
 
@@ -41,7 +41,8 @@ TriangleTangent tangent_of(const SurfaceMesh& mesh, std::size_t t) {
     return {unit(along * (area > 0 ? 1.0 : -1.0)), area > 0 ? 1 : -1};
 }
 
-/// The component of a vector perpendicular to a normal, normalised; zero if it vanishes.
+/// The component of a vector perpendicular to a normal, scaled to length 1; 0 if the component
+/// vanishes.
 Vector3d across(Vector3d vector, Vector3d normal) {
     const Vector3d left = vector - normal * dot(vector, normal);
     return length(left) > 1e-6 ? unit(left) : Vector3d{};

@@ -10,27 +10,31 @@
 
 namespace cascade {
 
-/// The frame of a normal map: the unit vector, perpendicular to the smooth normal, along which the
-/// first texture coordinate grows, and whether the second one grows to its left (1) or to its right
-/// (−1, if the texture is mirrored), seen from outside.
+/// The frame of a normal map at a vertex. Its vector has length 1, is perpendicular to the smooth
+/// normal, and points in the direction in which the first texture coordinate grows. Its sign says
+/// whether the second coordinate grows to the left of this vector (1), or to the right (−1, if the
+/// texture is mirrored), seen from outside.
 struct Tangent {
     Vector3d direction;
     int side = 1;
 };
 
 struct RenderVertices {
-    std::vector<std::uint32_t> points;  ///< Points of the mesh, ascending, each at least once.
+    /// For each vertex, its point of the mesh. In ascending order. Each point occurs at least once.
+    std::vector<std::uint32_t> points;
     std::vector<Vector3d> normals;      ///< One per vertex, of length 1.
     std::vector<TexturePlace> texture;  ///< Finite; empty if the mesh has none.
-    std::vector<Tangent> tangents;      ///< Likewise.
-    /// The triangles of the mesh, in order.
+    /// One tangent per vertex. Empty if the mesh has no texture coordinates.
+    std::vector<Tangent> tangents;
+    /// The triangles of the mesh, in its order.
     std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// Without texture coordinates, there is a vertex for each normal. With them, there is one for each
-/// normal, pair of texture coordinates and side. Its tangent is the sum over its triangles,
-/// weighted by their angles there (as in M. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited",
-/// 2008). Non-finite coordinates become 0.
+/// Makes vertices from the corners of a mesh. Without texture coordinates, a point has one vertex
+/// for each normal. With them, it has one for each normal, pair of texture coordinates and side.
+/// The tangent of a vertex is the sum over its triangles, weighted by their angles there (as in M.
+/// Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008). Coordinates that are not finite
+/// become 0.
 RenderVertices render_vertices(const SurfaceMesh& mesh, const CornerNormals& normals);
 
 }  // namespace cascade

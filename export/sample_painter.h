@@ -1,4 +1,4 @@
-// The input of baking: the look of a surface at the samples of a texture.
+// What baking paints: the appearance of a surface at the samples of a texture.
 #pragma once
 
 #include "atlas/texture_layout.h"
@@ -12,21 +12,22 @@
 
 namespace cascade {
 
-/// Consecutive samples of a texture's row in one triangle, and the memory for their looks.
+/// Consecutive samples of a texture's row that are in one triangle, and the memory for the results
+/// of painting them.
 struct SampleRow {
     const TextureLayout& layout;
     std::uint32_t triangle = 0;
     std::int64_t first = 0, row = 0;     ///< Position of the first sample.
-    std::span<Colour> lights;            ///< Reflected fractions, 0 … 1 (light_of).
-    std::span<float> heights;            ///< Above the surface, in the unit of the mesh.
-    std::span<OfParts<float>> material;  ///< Emission as light.
+    std::span<Colour> lights;            ///< Reflected fractions of light, 0 … 1 (light_of).
+    std::span<float> heights;            ///< Heights above the surface, in the unit of the mesh.
+    std::span<OfParts<float>> material;  ///< The material, with emission as light.
 
     SurfacePlace place(std::size_t k) const {
         return layout.place_at(triangle, first + static_cast<std::int64_t>(k), row);
     }
 };
 
-/// Paints samples. Not thread-safe, so each thread has its own.
+/// Paints samples. Not thread-safe, so each thread has its own painter.
 class SamplePainter {
 public:
     SamplePainter() = default;
@@ -34,14 +35,16 @@ public:
     SamplePainter(const SamplePainter&) = delete;
     SamplePainter& operator=(const SamplePainter&) = delete;
 
-    /// The maps it paints besides colours. Without heights all are 0.
+    /// Which maps this painter gives, besides colours. If it gives no heights, all heights are 0.
     virtual MapSet maps() const = 0;
 
-    /// Sets all lights, and heights and material as far as maps() has them.
+    /// Sets all lights of the row, and the heights and the parts of the material that are in
+    /// maps().
     virtual void paint(const SampleRow& row) = 0;
 
-    /// A vector along the normal of the surface raised by the heights, for the samples of one
-    /// texel, at least one. `normal` is the surface's in their middle.
+    /// A vector, of any length, along the normal of the surface raised by the heights. `samples`
+    /// are the samples of one texel, at least one. `normal` is the normal of the unraised surface
+    /// at their middle.
     virtual Vector3d raised_normal(std::span<const SurfacePlace> samples,
                                    const Vector3d& normal) = 0;
 };

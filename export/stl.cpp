@@ -1,5 +1,5 @@
-// Models as binary STL files (3D Systems, "StereoLithography Interface Specification", 1988), for
-// 3-D printers: triangles with their normals only.
+// Writes models as binary STL files (3D Systems, "StereoLithography Interface Specification",
+// 1988), for 3-D printers: triangles with their normals only.
 #include "export/model_writer.h"
 #include "picture/float_bytes.h"
 
@@ -12,7 +12,7 @@ namespace cascade {
 
 namespace {
 
-/// For coordinates, relative to a usual edge of the triangles.
+/// The largest rounding error of coordinates, as a fraction of a usual edge of the triangles.
 constexpr double most_rounding = 1e-3;
 
 }  // namespace
@@ -30,7 +30,7 @@ Vector3d stl_origin(const SurfaceMesh& mesh) {
 
 std::string encode_stl(const SurfaceMesh& mesh, Vector3d origin) {
     constexpr std::size_t size_of_head = 80, size_of_triangle = 50;
-    // A header that begins with "solid" would be taken for a text file's.
+    // The header must not begin with "solid", because text files do.
     std::string bytes = "binary STL, Cascade";
     bytes.resize(size_of_head, ' ');
     bytes.reserve(size_of_head + 4 + size_of_triangle * mesh.triangles.size());

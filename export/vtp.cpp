@@ -15,7 +15,7 @@ namespace cascade {
 
 namespace {
 
-/// The header and the block after it.
+/// Builds the header and the block after it.
 class VtpFile {
 public:
     explicit VtpFile(const VtpPoints& points) : points_(points) {}

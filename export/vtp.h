@@ -16,16 +16,16 @@ namespace cascade {
 struct VtpPoints {
     std::span<const Vector3d> places;
     std::span<const Vector3d> normals;
-    std::span<const Colour> colours;     ///< Empty: none.
-    std::span<const double> areas;       ///< Per cell; empty: none.
-    std::span<const double> radii;       ///< Likewise.
-    std::span<const Quaternion> frames;  ///< Likewise; as `frame`, w first.
+    std::span<const Colour> colours;     ///< May be empty.
+    std::span<const double> areas;       ///< Per cell. May be empty.
+    std::span<const double> radii;       ///< Per cell. May be empty.
+    std::span<const Quaternion> frames;  ///< Per cell, written as `frame`, w first. May be empty.
     std::span<const Channel> channels;
-    /// Triangles between the points. If empty, each point is a vertex.
+    /// The triangles between the points. If empty, each point is a vertex.
     std::span<const std::array<std::uint32_t, 3>> triangles;
 };
 
-/// The file in memory. Positions are Float32, or Float64 if that is not exact.
+/// The bytes of the file. Positions are Float32, or Float64 if Float32 would not be exact.
 std::string encode_vtp(const VtpPoints& points);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Dates are constant, so that equal cells give equal bytes.
+// All dates are the same, so that equal cells give equal bytes.
 #include "export/zip.h"
 
 #include "picture/float_bytes.h"
@@ -29,14 +29,14 @@ std::string description_of(const ZipEntry& entry) {
     std::string bytes;
     append16(bytes, version_needed);
     append16(bytes, names_are_utf8);
-    append16(bytes, 0);  // Stored.
-    append16(bytes, 0);  // Midnight.
+    append16(bytes, 0);  // Method: stored.
+    append16(bytes, 0);  // Time: midnight.
     append16(bytes, first_date);
     append32(bytes, checksum);
     append32(bytes, entry.bytes.size());
     append32(bytes, entry.bytes.size());
     append16(bytes, entry.name.size());
-    append16(bytes, 0);  // No extra field.
+    append16(bytes, 0);  // Length of the extra field.
     return bytes;
 }
 
@@ -44,10 +44,10 @@ std::string directory_entry(const ZipEntry& entry, std::size_t begin) {
     std::string bytes = "PK\x01\x02";
     append16(bytes, version_needed);
     bytes += description_of(entry);
-    append16(bytes, 0);  // No comment,
-    append16(bytes, 0);  // on the first disk,
-    append16(bytes, 0);  // bytes and not text,
-    append32(bytes, 0);  // no attributes of a file system.
+    append16(bytes, 0);  // Length of the comment.
+    append16(bytes, 0);  // Number of the disk.
+    append16(bytes, 0);  // Bytes, not text.
+    append32(bytes, 0);  // Attributes of a file system.
     append32(bytes, begin);
     return bytes + entry.name;
 }
@@ -76,12 +76,12 @@ Result<std::string> encode_zip(std::span<const ZipEntry> entries) {
     }
     const std::size_t directory_begin = bytes.size();
     bytes += directory + "PK\x05\x06";
-    append32(bytes, 0);  // One disk.
+    append32(bytes, 0);  // Numbers of this disk and of the first.
     append16(bytes, entries.size());
     append16(bytes, entries.size());
     append32(bytes, directory.size());
     append32(bytes, directory_begin);
-    append16(bytes, 0);  // No comment.
+    append16(bytes, 0);  // Length of the comment.
     return bytes;
 }
 

@@ -1,5 +1,5 @@
 // Zip archives without compression, as in NumPy's .npz files. The format is "APPNOTE.TXT", PKWARE,
-// version 6.3, without encryption and the extensions for 64 bits.
+// version 6.3, without encryption and without the extensions for 64 bits.
 #pragma once
 
 #include "core/result.h"
@@ -14,8 +14,8 @@ struct ZipEntry {
     std::string bytes;
 };
 
-/// The archive in memory. All entries have the earliest time of the format, so that equal entries
-/// make equal archives. Fails above 4 GiB and above 65535 entries.
+/// The bytes of the archive. All entries have the earliest time of the format, so that equal
+/// entries make equal archives. Fails above 4 GiB and above 65535 entries.
 Result<std::string> encode_zip(std::span<const ZipEntry> entries);
 
 }  // namespace cascade

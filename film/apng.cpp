@@ -1,6 +1,6 @@
-// Animated PNG files: APNG Specification, Mozilla, version 1.0, 2008, now part of "Portable Network
-// Graphics (PNG) Specification (Third Edition)", W3C, 2023. Frames after the first one hold only
-// the changed part.
+// Writes animated PNG files: APNG Specification, Mozilla, version 1.0, 2008, now part of "Portable
+// Network Graphics (PNG) Specification (Third Edition)", W3C, 2023. Every frame after the first
+// contains only the part that has changed.
 #include "core/check.h"
 #include "core/growing_file.h"
 #include "film/film.h"
@@ -15,7 +15,7 @@
 namespace cascade {
 namespace {
 
-constexpr int apng_effort = 6;  // Effort of compression.
+constexpr int apng_effort = 6;  // The effort of compression.
 constexpr std::size_t apng_ticks_per_second = 1000;
 
 class ApngWriter : public FilmWriter {
@@ -23,12 +23,13 @@ public:
     ApngWriter(std::unique_ptr<GrowingFile> file, const FilmSettings& settings)
         : file_(std::move(file)), times_(settings.frames_per_second, apng_ticks_per_second) {}
 
-    /// Writes everything before the first frame.
+    /// Writes everything that precedes the first frame.
     Result<void> begin(std::int64_t width, std::int64_t height, const PngTexts& texts) {
         std::string header(png_signature), size;
         append_big_endian(size, static_cast<std::size_t>(width));
         append_big_endian(size, static_cast<std::size_t>(height));
-        // 8 bits of red, green, blue and alpha, with usual compression and filters, not interlaced.
+        // 8 bits of red, green, blue and alpha, the standard compression and filters, not
+        // interlaced.
         append_chunk(header, "IHDR", size + std::string("\x08\x06\0\0\0", 5));
         place_of_count_ = header.size();
         header += count_chunk();
@@ -62,7 +63,7 @@ public:
     }
 
 private:
-    /// The number of frames, and that they repeat for ever.
+    /// The chunk that contains the number of frames and makes them repeat for ever.
     std::string count_chunk() const {
         std::string data, chunk;
         append_big_endian(data, frames_);
@@ -71,7 +72,7 @@ private:
         return chunk;
     }
 
-    /// The number of a chunk in the order of all animation chunks.
+    /// The sequence number of an animation chunk.
     std::string next_number() {
         std::string bytes;
         append_big_endian(bytes, chunks_++);
@@ -83,10 +84,12 @@ private:
         for (const std::int64_t number : {part.width, part.height, part.x, part.y}) {
             append_big_endian(data, static_cast<std::size_t>(number));
         }
-        // Two numbers of 16 bits: the time of the frame in ticks, and ticks per second.
+        // Two numbers of 16 bits: the time of the frame in ticks, and the number of ticks
+        // per second.
         append_big_endian(data,
                           static_cast<std::size_t>(times_.next()) << 16 | apng_ticks_per_second);
-        return data.append(2, '\0');  // The frame stays, and replaces the earlier content.
+        // The frame stays after its time, and replaces the pixels below it.
+        return data.append(2, '\0');
     }
 
     static std::string compressed(const FilmFrame& frame, const FramePart& part) {

@@ -1,6 +1,6 @@
-// Uses posix_spawn() with a pipe for the input and an unnamed temporary file for errors, which
-// cannot fill up and block as a second pipe would. No call blocks, because a program that hangs
-// would keep this one from ending.
+// Uses posix_spawn() with a pipe for the input. The process writes errors to an unnamed temporary
+// file. A second pipe could fill up and block the process. No call here waits without a limit,
+// because a process that hangs would otherwise prevent this program from ending.
 #include "film/child_process.h"
 
 #include <fmt/format.h>
@@ -23,7 +23,7 @@ extern char** environ;
 namespace cascade {
 namespace {
 
-/// The attributes and file actions for posix_spawn().
+/// The attributes and file actions of posix_spawn().
 struct Orders {
     posix_spawn_file_actions_t files;
     posix_spawnattr_t attributes;
@@ -51,7 +51,8 @@ std::string last_line(std::FILE* file) {
     return begin == std::string::npos ? text : text.substr(begin + 1);
 }
 
-/// Another end of a pipe, to read what no process has read; none without /proc.
+/// A second reading end of the pipe, by which this program finds bytes that no process has read.
+/// Invalid if the system has no /proc.
 Descriptor reader_of(const Descriptor& input) {
     const std::string name = fmt::format("/proc/self/fd/{}", input.number());
     return Descriptor(::open(name.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
@@ -62,7 +63,7 @@ bool has_bytes(const Descriptor& reader) {
     return reader.is_open() && ::read(reader.number(), &byte, 1) == 1;
 }
 
-/// The processor time it has used; 0 if it has ended.
+/// The processor time that a process has used. 0 if the process has ended.
 std::chrono::nanoseconds time_computed(pid_t process) {
     clockid_t clock{};
     timespec time{};
@@ -98,7 +99,7 @@ Result<std::unique_ptr<ChildProcess>> ChildProcess::start(const std::filesystem:
     posix_spawn_file_actions_adddup2(&orders.files, its_end.number(), STDIN_FILENO);
     posix_spawn_file_actions_addopen(&orders.files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_adddup2(&orders.files, ::fileno(child->errors_.get()), STDERR_FILENO);
-    // The child must not inherit this program's ignored signals.
+    // The child must not inherit the signals that this program ignores.
     sigset_t usual;
     sigemptyset(&usual);
     for (const int signal : {SIGPIPE, SIGXFSZ, SIGINT, SIGTERM}) sigaddset(&usual, signal);
@@ -129,7 +130,7 @@ void ChildProcess::give_up() {
     ::kill(-process_, SIGKILL);
 }
 
-/// Must this program end while the other one makes no progress?
+/// Whether this program must end and the process makes no progress.
 bool ChildProcess::is_hopeless() {
     if (!patience_.is_over) {
         begin_waiting();
@@ -179,9 +180,9 @@ ChildProcess::End ChildProcess::end() {
     end.is_good = is_success && has_read_all && !is_given_up_;
     end.last_words = last_line(errors_.get());
     if (is_given_up_) {
-        end.last_words = "it did not get on, and was ended";
+        end.last_words = "it made no progress and was stopped";
     } else if (is_success && !has_read_all) {
-        end.last_words = "it ended before it had everything";
+        end.last_words = "it ended before all frames were written";
     } else if (end.last_words.empty()) {
         end.last_words = WIFSIGNALED(status) ? fmt::format("signal {}", WTERMSIG(status))
                                              : fmt::format("status {}", WEXITSTATUS(status));

@@ -1,4 +1,4 @@
-// Another program that reads what this one writes.
+// Runs another program, whose input this program writes.
 #pragma once
 
 #include "core/descriptor.h"
@@ -17,23 +17,27 @@
 
 namespace cascade {
 
-/// True for a file that may be started.
+/// Whether the path is a file that may be executed.
 bool is_program(const std::filesystem::path& path);
 
-/// How long to wait for a process once this program must end. Until then it may take any time.
+/// How long to wait for a process after this program must end. Before that, the wait is unlimited.
 struct Patience {
-    const std::atomic<bool>& is_over;     ///< Set when this program must end.
-    std::chrono::seconds while_idle{5};   ///< It neither takes input nor computes.
-    std::chrono::seconds while_busy{60};  ///< It takes no input.
+    const std::atomic<bool>& is_over;  ///< Set when this program must end.
+    /// The longest wait if the process neither takes input nor computes.
+    std::chrono::seconds while_idle{5};
+    /// The longest wait if the process computes but takes no input.
+    std::chrono::seconds while_busy{60};
 };
 
-/// Started without a shell, in a process group of its own, so that signals of the terminal do not
-/// reach it. Its output is dropped, except errors. The destructor ends it and its children.
+/// A process that is started without a shell, in a separate process group, so that signals of the
+/// terminal do not reach it. Its standard output is discarded, but its errors are recorded. The
+/// destructor ends the process and its children.
 class ChildProcess {
 public:
     struct End {
-        bool is_good = false;    ///< It exited with status 0 after reading everything.
-        std::string last_words;  ///< Its last line of errors, or else how it ended.
+        bool is_good = false;  ///< Whether the process read all input and then ended with status 0.
+        std::string last_words;  ///< The last line that the process wrote to standard error. If
+                                 ///< there is none, a description of how it ended.
     };
 
     static Result<std::unique_ptr<ChildProcess>> start(const std::filesystem::path& program,
@@ -43,9 +47,10 @@ public:
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;
 
-    /// Writes to its standard input; false if it no longer reads.
+    /// Writes to the standard input of the process. Returns false if the process no longer reads.
     bool write(std::string_view bytes);
-    /// Closes its input and waits for its end. Ends it if patience runs out.
+    /// Closes the input of the process and waits until the process ends. Kills it after the limits
+    /// of Patience.
     End end();
 
 private:
@@ -61,10 +66,11 @@ private:
     void give_up();
 
     Patience patience_;
-    Clock::time_point taken_at_, active_at_;  ///< When it last took bytes, or computed.
-    std::chrono::nanoseconds computed_{0};    ///< Processor time at active_at_.
+    /// When the process last read bytes, and when it last computed.
+    Clock::time_point taken_at_, active_at_;
+    std::chrono::nanoseconds computed_{0};  ///< The processor time of the process at active_at_.
     bool is_given_up_ = false;
-    bool has_refused_ = false;  ///< It has not taken what was written.
+    bool has_refused_ = false;  ///< Whether the process has not read everything that was written.
     pid_t process_ = -1;
     std::optional<Descriptor> input_;
     std::unique_ptr<std::FILE, CloseFile> errors_;

@@ -1,4 +1,4 @@
-// Colours are counted once. Groups are ranges of the list of colours.
+// Counts how often each colour occurs. Groups are ranges in the list of colours.
 #include "film/colour_table.h"
 
 #include "core/check.h"
@@ -38,12 +38,12 @@ std::vector<Counted> counted(std::span<const FilmFrame> frames) {
     return counts;
 }
 
-/// A range of colours with its moments.
+/// A range of colours, with their means and variance.
 struct Group {
     std::span<Counted> colours;
     std::array<double, 3> means{};
     std::size_t widest = 0;  ///< The channel with the largest variance.
-    double spread = 0;       ///< Its sum of squared distances from the mean.
+    double spread = 0;       ///< The sum of squared distances from the mean in that channel.
 
     explicit Group(std::span<Counted> members) : colours(members) {
         double weight = 0;

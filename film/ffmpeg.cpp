@@ -1,5 +1,5 @@
-// ffmpeg is started directly, without a shell, in a process group of its own, so that Ctrl-C does
-// not end it before it has all drawn frames. It writes to a temporary file.
+// Starts ffmpeg directly, without a shell, in a separate process group. So Ctrl-C does not end
+// ffmpeg before it has received all drawn frames. ffmpeg writes to a temporary file.
 #include "film/ffmpeg.h"
 
 #include "core/check.h"
@@ -17,12 +17,13 @@
 namespace cascade {
 namespace {
 
-/// The path of a program in the folders of PATH; empty if there is none.
+/// The path of a program in the folders of PATH. Empty if there is none.
 std::filesystem::path program_named(const std::string& name) {
     const char* const path = std::getenv("PATH");
     std::istringstream folders(path ? path : "");
     for (std::string folder; std::getline(folders, folder, ':');) {
-        // Relative folders are below the current one, which may hold a stranger's file.
+        // Relative folders are skipped, because the current folder may contain programs of other
+        // people.
         if (!folder.starts_with('/')) continue;
         const std::filesystem::path program = std::filesystem::path(folder) / name;
         if (is_program(program)) return program;
@@ -30,7 +31,7 @@ std::filesystem::path program_named(const std::string& name) {
     return {};
 }
 
-/// How frames reach ffmpeg, and what it makes of them.
+/// How frames are passed to ffmpeg, and what ffmpeg makes of them.
 struct Stream {
     bool is_webm;
     double frames_per_second;
@@ -39,14 +40,15 @@ struct Stream {
 };
 
 std::vector<std::string> encoder(const Stream& stream) {
-    // At this quality, noise in a pattern stays sharp. VP9 needs the bit rate 0 for it.
+    // At this quality, noise in a pattern remains sharp. VP9 requires a bit rate of 0 for constant
+    // quality.
     if (!stream.is_webm) {
         return {"-c:v",   "libx264",   "-crf",       "16", "-preset",
                 "medium", "-movflags", "+faststart", "-f", "mp4"};
     }
     std::vector<std::string> words = {"-c:v",    "libvpx-vp9", "-crf",      "24", "-b:v", "0",
                                       "-row-mt", "1",          "-cpu-used", "3",  "-f",   "webm"};
-    // With alpha, the encoder cannot look ahead.
+    // The encoder cannot use alternate reference frames together with alpha.
     if (stream.has_alpha) words.insert(words.end(), {"-auto-alt-ref", "0"});
     return words;
 }
@@ -57,7 +59,7 @@ std::vector<std::string> arguments(const Stream& stream) {
         stream.has_alpha ? "rgba" : "rgb24", "-video_size",
         fmt::format("{}x{}", stream.width, stream.height), "-framerate",
         fmt::format("{:.6f}", stream.frames_per_second), "-i", "pipe:0",
-        // Players use the matrix of HDTV if the file says so. The transfer curve is sRGB.
+        // Players use the colour matrix of HDTV if the file says so. The transfer curve is sRGB.
         "-vf",
         fmt::format("scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int,"
                     "format={}",
@@ -77,7 +79,7 @@ public:
           patience_(patience),
           is_webm_(is_of_format(path_, FileFormat::webm)) {}
 
-    /// Without a file, ffmpeg drops what it encodes.
+    /// If `file` is null, ffmpeg discards what it encodes.
     Result<void> begin(const FilmSettings& settings, const FilmFrame& first,
                        std::unique_ptr<GrowingFile> file) {
         if (auto found = find_ffmpeg(path_); !found) return found;
@@ -86,7 +88,7 @@ public:
         auto words = arguments({is_webm_, settings.frames_per_second, even(first.width),
                                 even(first.height), has_alpha_});
         if (!file_) words.insert(words.end(), {"-f", "null"});
-        // "file:" stops ffmpeg from reading a protocol or an option into a name.
+        // "file:" prevents ffmpeg from reading a name as a protocol or an option.
         words.push_back(file_ ? "file:" + file_->temporary_path().string() : "-");
         auto process = ChildProcess::start(program_named("ffmpeg"), words, patience_);
         if (!process) return tl::unexpected(process.error());
@@ -109,7 +111,7 @@ public:
         if (auto done = outcome(); !done) return done;
         if (!file_) return {};
         const auto held = frames_in_film(file_->temporary_path(), is_webm_);
-        if (!held) return failed("what it wrote is no whole film");
+        if (!held) return failed("it did not write a complete film");
         if (*held != frames_)
             return failed(fmt::format("it wrote {} of {} frames", *held, frames_));
         return file_->complete();
@@ -134,7 +136,7 @@ private:
         }
     }
 
-    /// ffmpeg's result, after its last input.
+    /// How ffmpeg has ended after its last input.
     Result<void> outcome() {
         const ChildProcess::End end = process_->end();
         return end.is_good ? Result<void>() : failed(end.last_words);
@@ -166,7 +168,7 @@ Result<void> find_ffmpeg(const std::filesystem::path& film) {
 
 Result<void> try_ffmpeg(const std::filesystem::path& film, std::int64_t width, std::int64_t height,
                         const std::atomic<bool>& cancel) {
-    // Ending it at once loses nothing.
+    // The result is not needed, so ffmpeg may be ended at once.
     FfmpegWriter writer(film, {cancel, std::chrono::seconds(0), std::chrono::seconds(0)});
     const FilmFrame first = film_frame(Image(width, height));
     if (auto begun = writer.begin({}, first, nullptr); !begun) return begun;

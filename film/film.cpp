@@ -25,8 +25,8 @@ struct FilmRow {
 
 constexpr std::int64_t unlimited = 0x7fffffff;
 
-// WebP's container has sides of up to 2^24 pixels, but its pictures of 2^14 - 1. ffmpeg knows its
-// own limits.
+// The container of WebP allows sides of up to 2^24 pixels, but its pictures only 2^14 - 1. ffmpeg
+// checks its own limits.
 constexpr std::array films = {
     FilmRow{FileFormat::gif, begin_gif, 65535, fastest_gif},
     FilmRow{FileFormat::webp, begin_webp, 16383},

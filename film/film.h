@@ -1,5 +1,5 @@
-// Films: frames written one after the other, in the format of the file's ending. Cascade itself
-// writes GIF, WebP and APNG, the program ffmpeg the others.
+// Writes films, one frame after the other, in the format of the file's ending. This code writes
+// GIF, WebP and APNG. The program ffmpeg writes all other formats.
 #pragma once
 
 #include "core/file_format.h"
@@ -17,53 +17,58 @@ namespace cascade {
 
 inline constexpr double slowest_film = 0.1;  ///< Frames per second.
 inline constexpr double fastest_film = 60;
-/// Browsers slow down faster GIF films.
+/// In frames per second. Browsers slow down GIF films that are faster than this.
 inline constexpr double fastest_gif = 50;
 
 struct FilmSettings {
-    double frames_per_second = 10;  ///< slowest_film … fastest_film; for GIF at most fastest_gif.
-    PngTexts texts;                 ///< Written into APNG files.
-    /// Set when the program must end. ffmpeg then has to make progress.
+    /// From slowest_film to fastest_film. For GIF at most fastest_gif.
+    double frames_per_second = 10;
+    PngTexts texts;  ///< Written into APNG files.
+    /// Set when the program must end. From then on the program waits for ffmpeg only while it makes
+    /// progress.
     const std::atomic<bool>* cancel = &never_cancelled;
 };
 
-/// A film being written. Frames have one size. Each is on its way to the disk when add() returns.
+/// A film that is being written. All frames have the same size. When add() returns, the frame has
+/// been passed on to the file or to ffmpeg.
 class FilmWriter {
 public:
     virtual ~FilmWriter() = default;
     /// Adds a frame.
     virtual Result<void> add(const FilmFrame& frame) = 0;
-    /// Completes the file and gives it its name. There must be a frame. Must be the last call.
+    /// Completes the file and gives it its final name. There must be at least one frame. No
+    /// function may be called afterwards.
     virtual Result<void> finish() = 0;
 };
 
-/// Checks before any work that a film of this name can be begun: the name is not a pipe's or a
-/// device's, and ffmpeg exists if needed.
+/// Checks, before any frame is drawn, whether a film with this path could be begun. The path must
+/// not be that of a pipe or device, and ffmpeg must be installed if the format needs it.
 Result<void> check_film(const std::filesystem::path& path);
 
-/// Checks that players show this many frames per second.
+/// Checks whether players can show this many frames per second.
 Result<void> check_pace(const std::filesystem::path& path, double frames_per_second);
 
-/// Checks that the format supports frames of this size. Makes ffmpeg encode one. Fails once
-/// `cancel` is set.
+/// Checks whether the format allows frames of this size. If ffmpeg writes the format, it encodes
+/// one frame as a test. Fails if `cancel` is set.
 Result<void> check_film_size(const std::filesystem::path& path, std::int64_t width,
                              std::int64_t height,
                              const std::atomic<bool>& cancel = never_cancelled);
 
-/// Begins a film of frames of the size of the samples, at least one. A GIF has 256 colours, which
-/// are chosen for the samples: frames from all over the film, so that colours stay constant from
-/// frame to frame.
+/// Begins a film whose frames have the size of the samples. There must be at least one sample. A
+/// GIF has 256 colours, which are chosen from the samples. So these should come from the whole
+/// film. Colours then stay constant from frame to frame.
 Result<std::unique_ptr<FilmWriter>> begin_film(const std::filesystem::path& path,
                                                const FilmSettings& settings,
                                                std::span<const FilmFrame> samples);
 
-/// Begins a film of one format, as begin_film() does.
+/// Begins a film of one format. See begin_film().
 using BeginFilm = Result<std::unique_ptr<FilmWriter>>(const std::filesystem::path& path,
                                                       const FilmSettings& settings,
                                                       std::span<const FilmFrame> samples);
 BeginFilm begin_gif, begin_apng, begin_webp;
 
-/// The time for which each frame is shown, in whole ticks, so that rounding errors do not add up.
+/// Computes how long each frame is shown, as a whole number of ticks, so that rounding errors do
+/// not add up.
 class FrameTimes {
 public:
     FrameTimes(double frames_per_second, double ticks_per_second)

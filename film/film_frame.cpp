@@ -1,4 +1,4 @@
-// Frames are compared row by row from the top and the bottom, then from both sides.
+// Compares frames row by row from the top and the bottom, and then from both sides.
 #include "film/film_frame.h"
 
 #include "picture/srgb.h"

@@ -7,8 +7,8 @@
 
 namespace cascade {
 
-/// The frames of an MP4 file with one track, or of a WebM file. nullopt if the file is empty,
-/// truncated or of another format. Does not decode pixels.
+/// The number of frames in an MP4 file with one track or in a WebM file. Empty if the file is
+/// empty, incomplete or in another format. Does not decode pixels.
 std::optional<std::int64_t> frames_in_film(const std::filesystem::path& path, bool is_webm);
 
 }  // namespace cascade

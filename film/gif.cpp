@@ -1,5 +1,5 @@
-// GIF films, by giflib: CompuServe, "Graphics Interchange Format, Version 89a", 1990. Films repeat
-// for ever by the extension of Netscape 2.0.
+// Writes GIF films with giflib: CompuServe, "Graphics Interchange Format, Version 89a", 1990. The
+// extension of Netscape 2.0 makes films repeat for ever.
 #include "core/check.h"
 #include "core/growing_file.h"
 #include "film/colour_table.h"
@@ -22,7 +22,7 @@ struct FreeTable {
 };
 using Table = std::unique_ptr<ColorMapObject, FreeTable>;
 
-/// A table as the format requires, whose size is a power of two.
+/// A table of colours. The format requires a power of two as its size.
 Table table_of(const std::vector<PackedColour>& colours, std::size_t count) {
     const int bits = std::max(1, GifBitSize(static_cast<int>(count)));
     Table table(GifMakeMapObject(1 << bits, nullptr));
@@ -37,8 +37,8 @@ Table table_of(const std::vector<PackedColour>& colours, std::size_t count) {
 
 class GifWriter : public FilmWriter {
 public:
-    /// With holes, each frame clears the content before it, the only way to make pixels of a GIF
-    /// transparent.
+    /// If `with_holes` is true, each frame first removes the previous one, because pixels of a GIF
+    /// can be made transparent again in no other way.
     GifWriter(std::unique_ptr<GrowingFile> file, const FilmSettings& settings, bool with_holes,
               std::vector<PackedColour> colours)
         : file_(std::move(file)),
@@ -97,7 +97,8 @@ private:
         return failure("there is not enough memory for a GIF film");
     }
 
-    /// giflib fails only if bytes cannot be written, or memory runs out.
+    /// Converts giflib's result. giflib fails only if bytes cannot be written or memory is
+    /// exhausted.
     Result<void> outcome(bool done) const {
         if (done) return {};
         if (failed_) return tl::unexpected(*failed_);
@@ -106,8 +107,8 @@ private:
 
     using OwnColours = std::optional<std::vector<PackedColour>>;
 
-    /// The colours of a frame that gets a table of its own, because they are few and not all in the
-    /// film's table.
+    /// The colours of a frame that gets its own table, because it has few colours and the film's
+    /// table lacks some of them. Otherwise empty.
     OwnColours own_colours(const FilmFrame& frame) const {
         OwnColours own = few_colours(frame, most_colours - with_holes_);
         const std::vector<PackedColour>& table = nearest_.table();
@@ -115,7 +116,7 @@ private:
         return own;
     }
 
-    /// The number after the last colour marks transparent pixels.
+    /// The index of the transparent colour, which follows the last colour of the table.
     int hole(const OwnColours& own) const {
         return static_cast<int>(own ? own->size() : nearest_.table().size());
     }
@@ -176,7 +177,7 @@ Result<std::unique_ptr<FilmWriter>> begin_gif(const std::filesystem::path& path,
                                               std::span<const FilmFrame> samples) {
     const bool with_holes = std::any_of(samples.begin(), samples.end(), has_holes);
     std::vector<PackedColour> colours = chosen_colours(samples, most_colours - with_holes);
-    if (colours.empty()) colours = {0xffffff};  // Only holes.
+    if (colours.empty()) colours = {0xffffff};  // All pixels of the samples are transparent.
     auto file = GrowingFile::create(path);
     if (!file) return tl::unexpected(file.error());
     auto film =

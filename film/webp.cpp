@@ -1,6 +1,6 @@
-// Animated WebP files without loss: Google, "WebP Container Specification", 2011. libwebp encodes
-// the frames. They are added to the container here, one after the other, because libwebpmux would
-// hold all of them in memory.
+// Writes animated WebP files without loss: Google, "WebP Container Specification", 2011. libwebp
+// encodes the frames. The container is written here, frame by frame, because libwebpmux would hold
+// all frames in memory.
 #include "core/check.h"
 #include "core/growing_file.h"
 #include "film/film.h"
@@ -16,9 +16,9 @@ namespace {
 constexpr double webp_ticks_per_second = 1000;
 constexpr std::uint64_t largest_file = 0xfffffff0U;
 constexpr std::size_t frame_header = 16;  // Bytes of a frame before its picture.
-constexpr std::size_t file_header = 12;   // RIFF, size, WEBP.
+constexpr std::size_t file_header = 12;   // "RIFF", the size, and "WEBP".
 
-/// 0, fast, to 9, small. Higher efforts take twice the time for a few percent.
+/// From 0 (fast) to 9 (small). Higher efforts take twice the time and save a few percent.
 constexpr int webp_effort = 2;
 
 std::string little_endian(std::uint64_t number, int bytes) {
@@ -27,7 +27,7 @@ std::string little_endian(std::uint64_t number, int bytes) {
     return text;
 }
 
-/// Frames begin at even pixels.
+/// Enlarges a part so that it begins at an even pixel, as the format requires.
 FramePart at_even(FramePart part) {
     part.width += part.x % 2;
     part.height += part.y % 2;
@@ -46,7 +46,7 @@ public:
     Picture(const Picture&) = delete;
     Picture& operator=(const Picture&) = delete;
 
-    /// The part as a file of its own; empty if memory runs out.
+    /// Encodes a part as a separate file. Empty if memory is exhausted.
     std::string encoded(const FilmFrame& frame, const FramePart& part) {
         WebPConfig config;
         picture_.width = static_cast<int>(part.width);
@@ -85,7 +85,7 @@ public:
             chunk("VP8X", little_endian(animated | with_alpha, 4) +
                               little_endian(static_cast<std::uint64_t>(width - 1), 3) +
                               little_endian(static_cast<std::uint64_t>(height - 1), 3)) +
-            // The background, white, and 0 for an animation that repeats for ever.
+            // The background is white. The 0 makes the animation repeat for ever.
             chunk("ANIM", little_endian(0xffffffffU, 4) + little_endian(0, 2)));
     }
 
@@ -123,7 +123,7 @@ private:
     static std::string chunk(const char* name, const std::string& data) {
         return name + little_endian(data.size(), 4) + data + std::string(data.size() % 2, '\0');
     }
-    /// The stated size is the file's without its first 8 bytes.
+    /// The header of the file. The size in it does not include the first 8 bytes of the file.
     std::string riff_header() const {
         const std::uint64_t size = file_->size() == 0 ? 0 : file_->size() - 8;
         return "RIFF" + little_endian(size, 4) + "WEBP";

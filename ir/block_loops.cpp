@@ -1,7 +1,8 @@
-// The interpreter's inner loops, one for each operation and each choice of scalar operands, and the
-// same operations on single words.
+// The interpreter's inner loops. Each operation has one loop for each set of operands that may be
+// scalars. Also the same operations on single words.
 //
-// Separate loops, instead of strides of 0 or 1 at run time, let the compiler vectorise each.
+// The compiler can vectorise a loop only if it knows which operands are scalars, so a loop whose
+// strides of 0 or 1 are chosen at run time would be slower.
 #include "ir/block_loops.h"
 
 #include "core/check.h"

@@ -9,14 +9,14 @@
 
 namespace cascade {
 
-/// Computes `count` words. Operands are words as float or double. A scalar operand is one word that
-/// all cells share. `out` overlaps no operand.
+/// Computes `count` words of `out`. The operands a, b and c are words, stored as float or double. A
+/// scalar operand is a single word that all cells share. `out` overlaps no operand.
 template <typename Number>
 using BlockLoop = void (*)(Number* out, const Number* a, const Number* b, const Number* c,
                            std::int64_t count);
 
-/// The loop of an operation that only depends on its operands. Bit k of `scalar_operands` says that
-/// operand k is a scalar. At least one operand is not.
+/// Returns the loop of an operation. The operation's result must depend only on its operands. If
+/// bit k of `scalar_operands` is set, operand k is a scalar. At least one operand is not a scalar.
 template <typename Number>
 BlockLoop<Number> block_loop(Op op, unsigned scalar_operands);
 

@@ -1,4 +1,5 @@
-// Counts the readers of each value, then walks the schedule of the kernel's loops.
+// Plans blocks: counts the readers of each value, then assigns locations in the order in which the
+// kernel's loops compute the values.
 #include "ir/block_plan.h"
 
 #include "core/check.h"
@@ -69,7 +70,8 @@ private:
         }
     }
 
-    /// What the loop reads of the cells is released after it, since each link reads it.
+    /// Values of cells that the loop reads are released only after the loop, because the loop reads
+    /// them again for each link.
     void locate_loop(const LinkLoop& loop) {
         for (const ValueId id : loop.before) locate(id);
         for (const ValueId id : loop.reductions) {
@@ -111,7 +113,8 @@ private:
             if (step.operands[k].kind == Location::Kind::scalar) scalars |= 1u << k;
         }
         if (is_function_of_operands(step.op)) step.loop = block_loop<Number>(step.op, scalars);
-        // Taken before operands are released, because a loop's output overlaps no operand.
+        // The result's register is taken before the operands' registers are released, because the
+        // output of a loop must not overlap an operand.
         step.target = take_register();
         for (std::size_t k = 0; k < arity(id); ++k) release(instruction.operands[k]);
         locations_[id] = {Location::Kind::vector, step.target};
@@ -140,7 +143,8 @@ private:
     const IdVector<ValueId, LoopLevel> levels_;
     const CellSchedule schedule_;
     IdVector<ValueId, Location> locations_;
-    IdVector<ValueId, std::uint32_t> readers_;  ///< Remaining reads of a value.
+    IdVector<ValueId, std::uint32_t> readers_;  ///< For each value, how many instructions have yet
+                                                ///< to read it.
     bool is_in_loop_ = false;
     std::vector<ValueId> read_in_loop_;
     std::vector<std::uint32_t> free_;

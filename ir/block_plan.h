@@ -1,8 +1,9 @@
 // How the interpreter computes a kernel, block by block of 256 cells (internal to ir).
 //
-// Uniform values (constants, uniforms and what is computed from them) are single words, computed
-// once per run. All others are in registers of 256 words, which are reused as soon as no later
-// instruction reads them: a chain of a million operations needs two.
+// Uniform values (constants, uniforms, and values computed from these alone) are single words,
+// computed once per run. All other values are in registers of 256 words. A register is reused as
+// soon as no later instruction reads its value, so a chain of a million operations needs two
+// registers.
 #pragma once
 
 #include "ir/block_loops.h"
@@ -19,41 +20,42 @@ inline constexpr std::int64_t block_cells = 256;
 /// The location of a value while a block is computed.
 struct Location {
     enum class Kind : std::uint8_t {
-        nowhere,  ///< For operands that an operation does not have.
-        scalar,   ///< Uniform: `index` counts scalars.
-        field,    ///< In memory: `index` is a field slot.
-        beside,   ///< In memory: `index` is the payload of a neighbour.
-        vector,   ///< In a register: `index` counts registers.
+        nowhere,  ///< For operands beyond the operation's arity.
+        scalar,   ///< Uniform. `index` is the number of the scalar.
+        field,    ///< In memory, in the cell itself. `index` is a field slot.
+        beside,   ///< In memory, in a neighbouring cell. `index` is a Neighbour's payload.
+        vector,   ///< In a register. `index` is the number of the register.
     };
     Kind kind = Kind::nowhere;
     std::uint32_t index = 0;
 };
 
-/// An instruction that is computed once per run.
+/// An instruction that is computed once per run, because its value is uniform.
 struct ScalarStep {
     Op op = Op::constant;
     std::uint64_t payload = 0;
-    std::array<std::uint32_t, 3> operands{};  ///< Scalars.
+    std::array<std::uint32_t, 3> operands{};  ///< Indices of scalars.
 };
 
-/// An instruction that is computed once per block, or once per link of its cells, into a register.
+/// An instruction that is computed into a register once per block, or once per link of the block's
+/// cells.
 template <typename Number>
 struct BlockStep {
     Op op = Op::constant;
-    std::uint64_t payload = 0;  ///< A slot, or two.
+    std::uint64_t payload = 0;  ///< One slot or two, as `op` requires.
     std::uint32_t target = 0;
     std::array<Location, 3> operands{};
-    BlockLoop<Number> loop = nullptr;  ///< For operations that only depend on their operands.
+    BlockLoop<Number> loop = nullptr;  ///< Null unless the result depends only on the operands.
 };
 
-/// A value of cells that is computed from one of each link, in a register.
+/// Reduces a value of links to a value of cells. The result is in register `target`.
 struct Reduction {
     Op op = Op::link_sum;
     std::uint32_t target = 0;
     Location operand;
 };
 
-/// Steps that are computed once per block, or for each link if there are reductions.
+/// Steps that are computed once per block or, if the section has reductions, once for each link.
 template <typename Number>
 struct Section {
     std::vector<BlockStep<Number>> steps;
@@ -68,8 +70,8 @@ struct Plan {
     std::uint32_t register_count = 0;
 };
 
-/// Assigns a location to every value of a kernel. `Number` is float or double, by its
-/// precision.
+/// Assigns a location to every value of a kernel. `Number` is float or double, according to the
+/// kernel's precision.
 template <typename Number>
 Plan<Number> plan_blocks(const CellKernel& kernel);
 

@@ -1,4 +1,4 @@
-// Emission, constant folding and value numbering.
+// Emits instructions, evaluates operations on constants, and reuses equal values.
 #include "ir/builder.h"
 
 #include "core/check.h"
@@ -31,17 +31,19 @@ Slot slot_of(const std::string& name, IdVector<Slot, std::string>& names,
     return entry->second;
 }
 
-/// Operations whose result is only ever read as a number, so that all NaNs are equivalent.
+/// Whether the result of an operation is always read as a number, never as bits. All NaNs are then
+/// equivalent.
 bool yields_number(Op op) {
     return (op >= Op::add && op <= Op::divide) || (op >= Op::square_root && op <= Op::multiply_add);
 }
 
-/// Operations whose result is the number 1 or 0.
+/// Whether the result of an operation is the number 1 or 0.
 bool yields_truth(Op op) { return op == Op::mask || (op >= Op::less && op <= Op::logical_not); }
 
 }  // namespace
 
-// One NaN for all, so that kernels do not depend on the NaN that the host's processor makes.
+// All NaNs become the same word, so that kernels do not depend on which NaN the host's processor
+// produces.
 ValueId KernelBuilder::number(double value) {
     if (std::isnan(value)) return word(format().nan());
     const std::uint64_t bits = word_of(value, precision());
@@ -149,7 +151,7 @@ ValueId KernelBuilder::emit(Instruction instruction) {
     return id;
 }
 
-/// The value of an instruction, if it is known at compile time.
+/// The value of an instruction, if it is known when the kernel is built.
 std::optional<ValueId> KernelBuilder::simplify(const Instruction& instruction) {
     const auto [a, b, c] = instruction.operands;
     const int arity = info(instruction.op).arity;

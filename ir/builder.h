@@ -1,13 +1,14 @@
-// Builds cell kernels. Every method returns the value of a new or an existing instruction: the
-// builder folds constants (in the spec's environment, as the interpreter evaluates operations) and
-// numbers values, so an unsimplified kernel never exists.
+// Builds cell kernels. Every method returns the value of a new instruction, or of an equal
+// instruction that exists already. An operation on constants is evaluated at once, as the
+// interpreter would evaluate it, with denormals flushed. So every kernel is simplified from the
+// beginning.
 //
-// It only uses identities that hold for every word (select with equal branches or a constant
-// condition, `and` and `or` with a constant). x * 1 and x + 0 are NOT among them: they flush
-// denormals and lose −0.
+// The builder simplifies only by identities that hold for every word: select with equal branches or
+// a constant condition, `and` and `or` with a constant. x * 1 and x + 0 are NOT simplified, because
+// they flush denormals and turn −0 into 0.
 //
-// Elementary functions are expanded here into operations of the table, so that every executor
-// computes the same bits (ir/elementary.cpp and spec/numerics.md state their accuracy).
+// Elementary functions are expanded here into operations of ir/operations.def, so that every
+// executor computes the same bits. spec/numerics.md states their accuracy.
 #pragma once
 
 #include "ir/cell_kernel.h"
@@ -20,8 +21,9 @@
 
 namespace cascade {
 
-/// Whether equal products and quotients are one value. In a kernel to be contracted they are
-/// several, so that keep() excludes only one of them. contracted() makes them one.
+/// Whether equal products, and equal quotients, become one value. In a kernel that will be
+/// contracted they stay separate, so that keep() can exclude a single one of them from contraction.
+/// contracted() then merges the equal ones.
 enum class EqualProducts : std::uint8_t { are_one, are_several };
 
 class KernelBuilder {
@@ -44,13 +46,13 @@ public:
     ValueId laplacian(FieldSlot slot);
     /// The value of a field in a neighbouring cell. Each offset is −1, 0 or 1, and all may be 0.
     ValueId neighbour(FieldSlot slot, int dx, int dy, int dz = 0);
-    /// A sum over a cell's links of differences of one field. Only in a kernel for a surface.
+    /// A sum over a cell's links of differences of one field. Only in a kernel for linked cells.
     ValueId over_links(Op op, FieldSlot slot);
     ValueId link_flow(Flow flow);
     /// The value of a field in the cell to which a link leads. Must be inside a reduction.
     ValueId theirs(FieldSlot slot);
     /// Reductions over a cell's links, only in a kernel for linked cells. `a` may be a value of
-    /// links or of cells.
+    /// links, or a value of cells, which is the same for each link.
     ValueId link_sum(ValueId a) { return apply(Op::link_sum, a); }
     ValueId link_least(ValueId a) { return apply(Op::link_least, a); }
     ValueId link_greatest(ValueId a) { return apply(Op::link_greatest, a); }
@@ -60,9 +62,9 @@ public:
     ValueId cell_row();
     ValueId cell_slice();
 
-    /// Emits any instruction of the table.
+    /// Emits an instruction with any operation of ir/operations.def.
     ValueId emit(Instruction instruction);
-    /// Emits any operation of the table without payload.
+    /// Emits an operation without payload.
     ValueId apply(Op op, ValueId a);
     ValueId apply(Op op, ValueId a, ValueId b);
     ValueId apply(Op op, ValueId a, ValueId b, ValueId c);
@@ -76,9 +78,9 @@ public:
     ValueId divide(ValueId a, ValueId b) { return apply(Op::divide, a, b); }
 
     // Composed operations. `minimum` and `maximum` propagate NaN: the result is a if a is NaN, else
-    // b if b is NaN, else the smaller (larger), b if they are equal. `clamp_below(x, bound)`
-    // enforces x >= bound: it is bound if x < bound, else x (so NaN stays NaN). `clamp_above`
-    // likewise.
+    // b if b is NaN, else the smaller (larger) number, or b if they are equal. `clamp_below(x,
+    // bound)` enforces x >= bound: the result is bound if x < bound, else x, so NaN stays NaN.
+    // `clamp_above(x, bound)` enforces x <= bound in the same way.
     ValueId minimum(ValueId a, ValueId b);
     ValueId maximum(ValueId a, ValueId b);
     ValueId clamp_below(ValueId x, ValueId bound);
@@ -93,7 +95,7 @@ public:
     ValueId tangent(ValueId x);
     ValueId arc_sine(ValueId x);
     ValueId arc_cosine(ValueId x);
-    /// The angle of the point (x, y), −π … π. The arc tangent of y is the angle of (1, y).
+    /// The angle of the point (x, y), −π … π. So the arc tangent of y is arc_tangent(y, 1).
     ValueId arc_tangent(ValueId y, ValueId x);
     ValueId hyperbolic_sine(ValueId x);
     ValueId hyperbolic_cosine(ValueId x);
@@ -104,48 +106,53 @@ public:
     ValueId round_to_even(ValueId x);  ///< The nearest integer, ties to even.
     ValueId round_down(ValueId x);
     ValueId round_up(ValueId x);
-    /// x − y · floor(x / y), with the sign of y; NaN if |x / y| is 2^24 (in binary64 2^52) or more.
+    /// x − y · floor(x / y), with the sign of y; NaN if |x / y| is at least 2^24 (in binary64 at
+    /// least 2^52).
     ValueId modulus(ValueId x, ValueId y);
-    /// 0 up to `low`, 1 from `high` on, 3 t² − 2 t³ between them.
+    /// 0 for x up to `low`, 1 from `high` on. Between them 3 t² − 2 t³, where t = (x − low) / (high
+    /// − low).
     ValueId smooth_step(ValueId low, ValueId high, ValueId x);
     /// x^y. A constant integer y of magnitude at most 64 becomes multiplications by repeated
-    /// squaring (in the order of the spec), and 1/x^n if negative. Other y use log and exp.
+    /// squaring (in the order that spec/numerics.md gives), followed by a division 1 / x^|y| if y
+    /// is negative. Any other y uses log and exp.
     ValueId power(ValueId x, ValueId y);
 
     // Random numbers (ir/random_numbers.cpp).
-    /// Makes draws use this cell number, a word, instead of the cell's column and row.
+    /// Later random numbers depend on the word `number` instead of the cell's column and row.
     void set_cell(ValueId number) { cell_ = number; }
-    /// The two words that identify the cell in draws.
+    /// The two words that identify the cell in draws of random numbers.
     std::pair<ValueId, ValueId> cell_of_draws() {
         return cell_ ? std::pair(*cell_, word(0)) : std::pair(cell_column(), cell_row());
     }
-    /// Uniform in (−1, 1), symmetric, with 2^23 different values. In binary64 it has 2^52, whose
-    /// first digits are the same. A pure function of the cell, the `draw` word (the step, or 0) and
-    /// the 64-bit `key` (seed, stage, parameter, occurrence).
+    /// A random number in (−1, 1), uniform and symmetric. There are 2^23 different values in
+    /// binary32. In binary64 there are 2^52, and the first digits of each are those of the binary32
+    /// value. Depends only on the cell, the `draw` word (the step, or 0) and the 64-bit `key`
+    /// (seed, stage, parameter, occurrence).
     ValueId random_symmetric(ValueId draw, std::uint64_t key);
-    /// The 32-bit word in a uniform made by draw_uniform() (ir/draw_of_step.h).
+    /// Reads the 32-bit draw word that draw_uniform() (ir/draw_of_step.h) stored in a uniform.
     ValueId draw_word(ValueId uniform);
-    /// Gaussian with mean 0 and variance 1, of magnitude at most 6.7, with the same arguments.
+    /// A Gaussian random number with mean 0 and variance 1, of magnitude at most 6.7. Depends on
+    /// the same words as random_symmetric().
     ValueId random_normal(ValueId draw, std::uint64_t key);
 
-    /// Excludes this product or quotient from contraction.
+    /// Excludes this product or quotient from contraction (ir/contraction.h).
     void keep(ValueId id) { kernel_.kept.push_back(id); }
-    /// Excludes all values from this one on.
+    /// Excludes `first` and all values after it from contraction.
     void keep_from(ValueId first) {
         for (ValueId id = first; id < next(); ++id) keep(id);
     }
 
-    /// Appends an output.
+    /// Appends an output of the kernel.
     void result(const std::string& name, ValueId value);
 
-    /// The finished kernel, without instructions that no result needs. Unused slots stay.
+    /// The finished kernel, without instructions that no result needs. Unused slots remain.
     CellKernel finish() &&;
 
-    /// The next new value.
+    /// The id that the next new value will get.
     ValueId next() const { return kernel_.code.next(); }
     const Instruction& operator[](ValueId id) const { return kernel_.code[id]; }
     bool is_constant(ValueId id) const { return kernel_.code[id].op == Op::constant; }
-    /// The number that a constant represents.
+    /// The number that the value `id` represents. It must be a constant.
     double constant(ValueId id) const { return number_of(kernel_.code[id].payload, precision()); }
 
 private:
@@ -155,9 +162,11 @@ private:
     ValueId fold(const Instruction& instruction);
 
     CellKernel kernel_;
-    std::optional<ValueId> cell_;  ///< Used for draws if set.
+    std::optional<ValueId> cell_;  ///< If set, random numbers depend on this word instead of the
+                                   ///< cell's column and row.
     EqualProducts products_;
-    std::unordered_map<std::uint64_t, ValueId> numbering_;  ///< By hash, with linear probing.
+    std::unordered_map<std::uint64_t, ValueId> numbering_;  ///< Values by the hash of their
+                                                            ///< instruction, with linear probing.
     std::unordered_map<std::string, FieldSlot> field_slots_;
     std::unordered_map<std::string, MaskSlot> mask_slots_;
     std::unordered_map<std::string, UniformSlot> uniform_slots_;

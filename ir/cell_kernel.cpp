@@ -1,4 +1,4 @@
-// The table of operations, and printing, hashing and verification of kernels.
+// The table of operations. Prints, hashes and verifies kernels.
 #include "ir/cell_kernel.h"
 
 #include "core/check.h"
@@ -19,7 +19,8 @@ constexpr OpInfo table[] = {
 #undef CASCADE_OPERATION
 };
 
-/// One step of a multiplicative hash. The shift moves high bits to the low end, which tables use.
+/// One step of a multiplicative hash. The shift mixes high bits into the low bits, because hash
+/// tables take their index from the low bits.
 std::uint64_t mix(std::uint64_t hash, std::uint64_t value) {
     hash = (hash ^ value) * 0x9e3779b97f4a7c15ULL;
     return hash ^ (hash >> 32);
@@ -143,7 +144,8 @@ IdVector<ValueId, bool> varying(const CellKernel& kernel) {
     varies.reserve(kernel.code.size());
     for (const Instruction& instruction : kernel.code) {
         const auto arity = static_cast<std::size_t>(info(instruction.op).arity);
-        // Cells also differ in the number of their links.
+        // Reductions differ between cells even if their operand does not, because cells differ in
+        // the number of links.
         bool differs =
             is_link_reduction(instruction.op) ||
             (arity == 0 && instruction.op != Op::constant && instruction.op != Op::uniform);

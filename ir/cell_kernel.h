@@ -1,9 +1,11 @@
-// Cell kernels: what a stage computes per cell, as one flat program.
+// Cell kernels. A kernel is the computation that a stage performs in each cell, as a program
+// without loops.
 //
-// A kernel is a list of instructions in static single assignment: an instruction's position names
-// its value, and it only reads earlier values. The only control flow is `select`. A kernel does not
-// know which cells are neighbours (the executor's stencil does) or where fields are in memory
-// (KernelArguments does). It cannot fail: lang/ finds users' errors.
+// A kernel is a list of instructions in static single assignment. An instruction's position
+// identifies its value, and an instruction only reads values of earlier ones. The only control flow
+// is `select`. A kernel does not say which cells are neighbours (the executor's stencil does) or
+// where fields are in memory (KernelArguments does). A kernel cannot fail when it runs, because
+// lang/ reports users' errors before it makes a kernel.
 #pragma once
 
 #include "core/id.h"
@@ -29,7 +31,7 @@ enum class Op : std::uint8_t {
 
 enum class PayloadKind : std::uint8_t { none, bits, field, neighbour, flow, mask, uniform };
 
-/// A row of the table.
+/// A row of ir/operations.def.
 struct OpInfo {
     std::string_view name;
     int arity;
@@ -64,21 +66,21 @@ using UniformSlot = Id<struct UniformSlotTag>;
 
 struct Instruction {
     Op op = Op::constant;
-    std::array<ValueId, 3> operands{};  ///< The first `info(op).arity` count; others are 0.
+    std::array<ValueId, 3> operands{};  ///< The first `info(op).arity` are used. The rest are 0.
     std::uint64_t payload = 0;          ///< Bits of a word, or a slot; 0 if unused.
 
-    /// The payload of an instruction that reads a slot.
+    /// The slot that the instruction reads. Its payload must be a slot.
     std::uint32_t slot() const { return static_cast<std::uint32_t>(payload); }
     FieldSlot field() const { return FieldSlot(payload); }
 
     friend bool operator==(const Instruction&, const Instruction&) = default;
 };
 
-/// The operands of `neighbour`: the field in `slot`, `dx` columns, `dy` rows and `dz` slices away.
-/// Each offset is −1, 0 or 1, and not all are 0. Executors treat an offset along an axis of one
-/// cell as 0.
+/// The payload of the operation `neighbour`: the field in `slot`, read `dx` columns, `dy` rows and
+/// `dz` slices away. Each offset is −1, 0 or 1, and not all are 0. Along an axis that has only one
+/// cell, executors treat the offset as 0.
 struct Neighbour {
-    FieldSlot slot;  ///< Below 2^27.
+    FieldSlot slot;  ///< Below 2^27, so that payload() has 32 bits.
     int dx = 0, dy = 0, dz = 0;
 
     static constexpr std::uint32_t offset_count = 32, last_offset = 26, own_offset = 13;
@@ -95,8 +97,9 @@ struct Neighbour {
     }
 };
 
-/// The operands of `link_flow`: the field `of`, whose differences flow, and the field `factor`,
-/// whose mean over the two cells multiplies them.
+/// The payload of the operation `link_flow`: the field `of`, whose differences are summed, and the
+/// field `factor`. The difference is multiplied by the sum of `factor` in the two cells of the
+/// link.
 struct Flow {
     FieldSlot factor, of;
 
@@ -108,19 +111,20 @@ struct Flow {
     }
 };
 
-/// Whether an operation is a sum over the links of a cell, on a surface.
+/// Whether an operation sums differences over the links of a cell. A Laplacian does this only on
+/// linked cells.
 constexpr bool is_link_sum(Op op) {
     return op == Op::laplacian || op == Op::link_flow || op == Op::link_squares ||
            op == Op::gradient_x || op == Op::gradient_y || op == Op::gradient_z;
 }
 
-/// Whether an operation computes a value of a cell from values of its links.
+/// Whether an operation reduces the values of a cell's links to one value of the cell.
 constexpr bool is_link_reduction(Op op) {
     return op == Op::link_sum || op == Op::link_least || op == Op::link_greatest;
 }
 
-/// The program of one cell. `results[k]` is the value stored in output field k. Slot numbers are
-/// indices into the lists of slot names, which serve dumps and messages.
+/// The program of one cell. `results[k]` is the value stored in output field k. Slots are indices
+/// into the lists of names. Names appear only in dumps and messages.
 struct CellKernel {
     IdVector<ValueId, Instruction> code;
     std::vector<ValueId> results;
@@ -131,27 +135,28 @@ struct CellKernel {
     Precision precision = Precision::single;  ///< The precision of all words.
     std::vector<ValueId> kept = {};  ///< Values excluded from contraction (ir/contraction.h).
 
-    /// Whether some instruction reads this field slot in other cells, which needs the halo on
-    /// grids.
+    /// Whether some instruction reads this field in other cells. If so, the field's halo must be
+    /// filled before the kernel runs on a grid.
     bool reads_neighbours(FieldSlot slot) const;
 };
 
-/// For each value, whether it can differ between cells: whether it depends on more than uniforms.
+/// For each value, whether it can differ between cells, because it depends on more than constants
+/// and uniforms.
 IdVector<ValueId, bool> varying(const CellKernel& kernel);
 
 /// For each field, the only result that is computed from it. That result may overwrite the field.
-/// nullopt if several results are or if the field is read in other cells.
+/// nullopt if several results are computed from the field, or if it is read in other cells.
 IdVector<FieldSlot, std::optional<std::size_t>> sole_results(const CellKernel& kernel);
 
-/// A hash of all properties that determine the generated code, which excludes names.
+/// A hash of everything that determines the generated code, so not of the names.
 std::uint64_t hash(const CellKernel& kernel);
 
 /// The kernel as text, one value per line: `%7 = multiply %3, %5`. The format is stable.
 std::string print(const CellKernel& kernel);
 
-/// Checks that operands precede their users, that slots and results exist, and that no result is of
-/// link level (operations.def). Returns the error or an empty text. Tests and debug builds call it
-/// after every pass that makes a kernel.
+/// Checks that each operand is computed before it is used, that slots and results exist, and that
+/// no result is of link level (ir/operations.def). Returns a description of the error, or an empty
+/// text. Tests and debug builds call it after every pass that makes a kernel.
 std::string verify(const CellKernel& kernel);
 
 }  // namespace cascade

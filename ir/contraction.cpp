@@ -1,5 +1,5 @@
-// Rebuilds the kernel in one pass over the code. A sum of two products fuses the first, unless only
-// the second has a uniform factor.
+// Rebuilds the kernel in one pass over its code. If both operands of a sum are products, the first
+// is fused, unless only the second has a uniform factor.
 #include "ir/contraction.h"
 
 #include "ir/builder.h"
@@ -10,11 +10,12 @@
 namespace cascade {
 namespace {
 
-/// A product that may stay unrounded: its factors in the new kernel, a uniform one first.
+/// A product that may be fused. Its factors are values of the new kernel. A uniform factor comes
+/// first.
 struct Product {
     ValueId first;
     ValueId second;
-    bool has_coefficient;  ///< The first factor is uniform.
+    bool has_coefficient;  ///< Whether the first factor is uniform.
 };
 
 class Contraction {
@@ -32,7 +33,7 @@ public:
         for (const ValueId id : kernel.kept) is_kept_[id] = true;
     }
 
-    /// finish() drops unused products.
+    /// Fused products that no other value reads are dropped by finish().
     CellKernel contracted() && {
         for (const ValueId id : kernel_.code.ids()) renamed_[id] = rewritten(id);
         for (std::size_t k = 0; k < kernel_.results.size(); ++k) {
@@ -79,7 +80,8 @@ private:
         return products_[a]->has_coefficient && !products_[b]->has_coefficient ? a : b;
     }
 
-    /// Negates the varying factor, because a negated coefficient would need another register.
+    /// For a difference, negates the varying factor of the product. A negated uniform factor would
+    /// need another register.
     ValueId multiply_add(const Instruction& sum, ValueId fused) {
         const bool is_second = sum.operands[1] == fused;
         auto [first, second, has_coefficient] = *products_[fused];
@@ -94,8 +96,9 @@ private:
     const CellKernel& kernel_;
     KernelBuilder builder_;
     IdVector<ValueId, bool> varies_, is_kept_;
-    IdVector<ValueId, std::optional<Product>> products_;  ///< By old value.
-    IdVector<ValueId, ValueId> renamed_;                  ///< By old value: the new value.
+    IdVector<ValueId, std::optional<Product>> products_;  ///< For each value of the old kernel.
+    IdVector<ValueId, ValueId> renamed_;  ///< For each value of the old kernel, its value in the
+                                          ///< new kernel.
 };
 
 }  // namespace

@@ -1,19 +1,21 @@
-// Contraction: faster kernels by multiply-adds, rounded once, and multiplication by reciprocals.
+// Contraction: makes kernels faster by fusing products with sums, which then round once, and by
+// multiplying with reciprocals.
 //
-// The result is a kernel with a new meaning, so that all executors still agree. Whether a sum is
-// contracted depends only on the two values that it adds, so the same formula is contracted the
-// same way everywhere. Algorithms exclude the products that must stay rounded
-// (KernelBuilder::keep). Exact products may be contracted, because that preserves their bits.
+// The contracted kernel may give other results than the original, but all executors still give the
+// same bits for it. Whether a sum is contracted depends only on the two values that it adds, so
+// equal formulas are contracted in the same way everywhere. Code that relies on the rounding of a
+// product excludes that product (KernelBuilder::keep). Exact products need no exclusion, because
+// fusing them changes no bit.
 #pragma once
 
 #include "ir/cell_kernel.h"
 
 namespace cascade {
 
-/// Contracts a kernel. A varying number divided by a uniform one is multiplied by the reciprocal
-/// instead. A sum or difference with a varying product on one side becomes a multiply_add. Of two
-/// such products, the one with a uniform factor is fused, else the second. Requires a processor
-/// with that operation (ir/multiply_add.h).
+/// Contracts a kernel. Division of a varying number by a uniform one becomes multiplication by the
+/// reciprocal. A sum or difference with a varying product as an operand becomes a multiply_add. If
+/// both operands are varying products, the first is fused, unless only the second has a uniform
+/// factor. Requires a processor with multiply_add (ir/multiply_add.h).
 CellKernel contracted(const CellKernel& kernel);
 
 }  // namespace cascade

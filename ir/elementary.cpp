@@ -1,12 +1,13 @@
-// exp, log, sinh, cosh and tanh, expanded into operations of the table.
+// exp, log, sinh, cosh and tanh, expanded into operations of ir/operations.def.
 //
 // The methods are classical (W. J. Cody and W. Waite, "Software Manual for the Elementary
-// Functions", 1980; J.-M. Muller, "Elementary Functions", 3rd ed., 2016): reduce the argument with
-// a constant split into an exact head and a tail, evaluate a polynomial, reconstruct the result.
-// The coefficients are our own weighted minimax fits, rounded to the format one by one with the
-// others refitted each time. No operation fuses, so every executor computes the same bits. An
-// algorithm is the same in binary32 and binary64. Constants that differ are in tables by precision,
-// and comments give values for binary64 in brackets.
+// Functions", 1980; J.-M. Muller, "Elementary Functions", 3rd ed., 2016). They reduce the argument
+// by a constant that is split into an exact head and a tail, evaluate a polynomial, and reconstruct
+// the result. The coefficients are weighted minimax fits made for Cascade. They were rounded to the
+// format one by one, and after each rounding the other coefficients were fitted again. No operation
+// is fused, so every executor computes the same bits. The algorithms are the same in binary32 and
+// binary64. Tables give the constants that differ between the two. Comments give the value for
+// binary32, followed by the value for binary64 in brackets.
 //
 // Largest errors, in units in the last place of the exact value:
 //     exp 1.0    log 0.9               all binary32 arguments
@@ -16,7 +17,7 @@
 //     cbrt 0.6   hypot 1.2             all; see ir/roots.cpp
 //     x^y 1.2                          see ir/power.cpp
 //
-// Denormal arguments count as zeros and denormal results are flushed.
+// Denormal arguments count as zeros, and denormal results are flushed to zero.
 #include "ir/expression.h"
 
 namespace cascade {
@@ -24,8 +25,8 @@ namespace {
 
 constexpr ByPrecision<double> log2_of_e = {0x1.715476p+0, 0x1.71547652b82fep+0};
 
-/// ln 2 as a head of 14 (42) bits, whose product with the exponent of a number is exact, and a
-/// tail.
+/// ln 2 as the sum of a head and a tail. The head has 14 (42) bits, so its product with the
+/// exponent of a number is exact.
 struct SplitNumber {
     double head;
     double tail;
@@ -33,10 +34,10 @@ struct SplitNumber {
 constexpr ByPrecision<SplitNumber> ln2 = {
     {{0x1.62e8p-1, -0x1.e8082ep-16}, {0x1.62e42fefa38p-1, 0x1.ef35793c7673p-45}}};
 
-/// Beyond this magnitude of the argument, exp is infinite or 0.
+/// exp(x) is infinite if x is above this number, and 0 if x is below the negative of this number.
 constexpr ByPrecision<double> exp_reach = {100, 750};
 
-// (e^r − 1 − r) / r² for |r| ≤ 0.347; error 2^−33 (2^−63) of e^r.
+// Coefficients of (e^r − 1 − r) / r² for |r| ≤ 0.347, with an error of 2^−33 (2^−63) of e^r.
 constexpr double exp_single[] = {0x1.000000p-1, 0x1.555554p-3,  0x1.5554e0p-5,
                                  0x1.11130ap-7, 0x1.6d5826p-10, 0x1.9e15e8p-13};
 constexpr double exp_double[] = {
@@ -45,14 +46,16 @@ constexpr double exp_double[] = {
     0x1.27e56b7283b64p-22, 0x1.af6b445dfd100p-26, 0x1.1e99cba9a8d4ap-29};
 constexpr ByPrecision<std::span<const double>> exp_coefficients = {exp_single, exp_double};
 
-// (2 artanh(s)/s − 2) / s² in s², for |s| ≤ 0.172; error 2^−35 (2^−67) of the logarithm.
+// Coefficients of (2 artanh(s)/s − 2) / s² as a polynomial of s², for |s| ≤ 0.172, with an error of
+// 2^−35 (2^−67) of the logarithm.
 constexpr double log_single[] = {0x1.555554p-1, 0x1.999c24p-2, 0x1.23d4dcp-2, 0x1.f103dep-3};
 constexpr double log_double[] = {0x1.5555555555555p-1, 0x1.9999999999c71p-2, 0x1.2492492450090p-2,
                                  0x1.c71c722476616p-3, 0x1.745cf2f046de4p-3, 0x1.3b1be82892b24p-3,
                                  0x1.0fff3b75b16f1p-3, 0x1.03c1bff31ad59p-3, 0x1.626c8a3d50bc8p-5};
 constexpr ByPrecision<std::span<const double>> log_coefficients = {log_single, log_double};
 
-// (sinh(a)/a − 1) / a² in a², for a ≤ 1; error 2^−31 (2^−62) of sinh.
+// Coefficients of (sinh(a)/a − 1) / a² as a polynomial of a², for a ≤ 1, with an error of 2^−31
+// (2^−62) of sinh.
 constexpr double sinh_single[] = {0x1.555556p-3, 0x1.1110d8p-7, 0x1.a02800p-13, 0x1.749762p-19};
 constexpr double sinh_double[] = {0x1.5555555555555p-3,  0x1.111111111119ap-7,
                                   0x1.a01a01a0076ffp-13, 0x1.71de3a6884e07p-19,
@@ -60,7 +63,8 @@ constexpr double sinh_double[] = {0x1.5555555555555p-3,  0x1.111111111119ap-7,
                                   0x1.a68cd14262705p-41, 0x1.cd84bf4ddefa3p-48};
 constexpr ByPrecision<std::span<const double>> sinh_coefficients = {sinh_single, sinh_double};
 
-// (tanh(a)/a − 1) / a² in a², for a ≤ 0.55; error 2^−29 (2^−60) of tanh.
+// Coefficients of (tanh(a)/a − 1) / a² as a polynomial of a², for a ≤ 0.55, with an error of 2^−29
+// (2^−60) of tanh.
 constexpr double tanh_single[] = {-0x1.55554cp-2, 0x1.110d6ap-3, -0x1.b931fep-5, 0x1.5982a4p-6,
                                   -0x1.9c9668p-8};
 constexpr double tanh_double[] = {
@@ -70,13 +74,13 @@ constexpr double tanh_double[] = {
 constexpr ByPrecision<std::span<const double>> tanh_coefficients = {tanh_single, tanh_double};
 constexpr ByPrecision<double> tanh_border = {0x1.19999ap-1, 0.55};
 
-/// A number as m · 2^n with m about 1.
+/// A number factor · 2^n, with a factor of about 1.
 struct Scaled {
     Expression factor;
     Expression exponent;
 };
 
-/// e^x. Clamping the argument leaves the result infinite or 0.
+/// e^x. The argument is clamped to ± exp_reach, where the result is already infinite or 0.
 Scaled scaled_exponential(Expression argument) {
     const Expression x = argument.clamped(-argument.pick(exp_reach), argument.pick(exp_reach));
     const Expression n = (x * x.pick(log2_of_e)).rounded();
@@ -85,7 +89,7 @@ Scaled scaled_exponential(Expression argument) {
     return {(r + curved) + 1, n};
 }
 
-/// e^x / 2, which is finite wherever sinh and cosh are.
+/// e^x / 2, which is finite wherever sinh(x) and cosh(x) are.
 Expression half_exponential(Expression x) {
     const Scaled power = scaled_exponential(x);
     return power.factor.scaled(power.exponent - 1);
@@ -117,8 +121,8 @@ ValueId KernelBuilder::hyperbolic_cosine(ValueId argument) {
 ValueId KernelBuilder::logarithm(ValueId argument) {
     const Expression x(*this, argument);
     const auto [m, e] = decompose(x);
-    // With s = f / (2 + f): ln(1 + f) = 2 artanh(s), and 2 s = f − h + s h for h = f²/2. In this
-    // form the large part, f, is exact.
+    // With s = f / (2 + f) and h = f²/2: ln(1 + f) = 2 artanh(s), and 2 s = f − h + s h. In the
+    // second form the largest term, f, is exact.
     const Expression f = m - 1;
     const Expression s = f / (f + 2);
     const Expression z = s * s;
@@ -134,7 +138,7 @@ ValueId KernelBuilder::logarithm(ValueId argument) {
 ValueId KernelBuilder::hyperbolic_tangent(ValueId argument) {
     const Expression x(*this, argument);
     const Expression a = x.absolute();
-    // Near 0 the difference below would cancel.
+    // Near 0 the difference below would lose digits by cancellation.
     const Expression z = a * a;
     const Expression near = a + a * (z * polynomial(z, x.pick(tanh_coefficients)));
     const Expression growth(*this, exponential((a + a).id()));

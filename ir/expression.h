@@ -1,7 +1,8 @@
-// Formulas over values of a builder, in infix notation.
+// Writes formulas over values of a KernelBuilder in infix notation.
 //
-// Internal to ir/. An Expression is a value and its builder, and operators emit instructions. Each
-// operator is one operation of the table, rounded once, in the order that C++ gives the formula.
+// Internal to ir/. An Expression is a value with its builder. Each of its operators emits one
+// operation of ir/operations.def, which rounds once. The operations are emitted in the order in
+// which C++ evaluates the formula.
 #pragma once
 
 #include "ir/builder.h"
@@ -15,8 +16,8 @@ namespace cascade {
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// Constants of an algorithm that depend on the number format: a row for binary32 and one for
-/// binary64. The first row has binary32 numbers, so that reading them rounds none.
+/// Constants of an algorithm that depend on the number format: a row for binary32 and a row for
+/// binary64. The numbers of the first row are exact in binary32.
 template <typename Constants>
 using ByPrecision = std::array<Constants, 2>;
 
@@ -39,7 +40,7 @@ public:
         return {*builder_, builder_->apply(op, id_, other.id_)};
     }
 
-    /// The same product or quotient, excluded from contraction.
+    /// Excludes this product or quotient from contraction, and returns it.
     Expression kept() const {
         builder_->keep(id_);
         return *this;
@@ -48,15 +49,16 @@ public:
     Expression absolute() const { return unary(Op::absolute); }
     /// The nearest integer, ties to even.
     Expression rounded() const { return unary(Op::round_to_even); }
-    /// Times 2^n, for an integer n of −252 … 252 (−2044 … 2044). Exact, flushed, or infinite.
+    /// This number times 2^n, for an integer n of −252 … 252 (in binary64 −2044 … 2044). The result
+    /// is exact, or flushed to 0, or infinite.
     Expression scaled(Expression n) const { return binary(Op::scale_by_power, n); }
     Expression clamped(double low, double high) const {
         const ValueId below = builder_->clamp_below(id_, builder_->number(low));
         return {*builder_, builder_->clamp_above(below, builder_->number(high))};
     }
 
-    /// `then` if this value is true, else `otherwise`. Words as conditions are a trap: small
-    /// integers are denormal numbers, which are false.
+    /// `then` if this value is true, else `otherwise`. Do not use words that are integers as
+    /// conditions: small integers are denormal numbers, which count as false.
     Expression choose(Expression then, Expression otherwise) const {
         return {*builder_, builder_->select(id_, then.id_, otherwise.id_)};
     }
@@ -75,14 +77,14 @@ public:
     }
     Expression to_number() const { return unary(Op::bits_to_number); }
 
-    /// The sign bit as a word, and the number with the sign of another.
+    /// The sign bit as a word.
     Expression sign_word() const { return and_word(format().sign()); }
     Expression with_sign_of(Expression other) const {
         return binary(Op::bits_or, other.sign_word());
     }
 
-    /// The number without the lower half of its significand. This leaves 12 (26) bits, so that
-    /// products of two such numbers are exact.
+    /// The number without the lower half of its significand. The remaining 12 bits (26 in binary64)
+    /// are few enough that products of two such numbers are exact.
     Expression head() const { return and_word(format().all() << (format().fraction_bits / 2 + 1)); }
 
     /// A word modulo 2^32, so that formulas of 32-bit words are the same in both formats.
@@ -115,17 +117,17 @@ inline Expression operator!(Expression a) { return a.unary(Op::logical_not); }
 /// c[0] + x (c[1] + x (c[2] + …)), by Horner's rule.
 Expression polynomial(Expression x, std::span<const double> coefficients);
 
-/// A number rounded to the nearest integer, ties to even, for |x| < 2^22 (2^51).
+/// A number rounded to the nearest integer, ties to even. Valid for |x| < 2^22 (2^51 in binary64).
 struct Rounded {
-    Expression number;  ///< As a number.
-    Expression word;    ///< The integer in two's complement.
+    Expression number;  ///< The integer, as a number.
+    Expression word;    ///< The same integer, in two's complement.
 };
 Rounded round_to_whole(Expression x);
 
-/// A positive normal number as m · 2^e with m in [√½, √2).
+/// A positive normal number, written as significand · 2^exponent with the significand in [√½, √2).
 struct Decomposed {
     Expression significand;
-    Expression exponent;  ///< As a number.
+    Expression exponent;  ///< An integer, as a number.
 };
 Decomposed decompose(Expression x);
 

@@ -1,6 +1,6 @@
-// Runs the plans of kernels (ir/block_plan.h) block by block. Fields are read in place. Values of
-// links are computed for the first links of all cells of a block, then for the second ones, and so
-// on.
+// Runs the plans of kernels (ir/block_plan.h) block by block. Fields are read from memory without
+// copying them. Values of links are computed for the first link of every cell of a block, then for
+// the second link of every cell, and so on.
 #include "ir/interpreter.h"
 
 #include "core/check.h"
@@ -123,7 +123,8 @@ private:
         }
     }
 
-    /// Includes one more value of a link. NaN stays NaN.
+    /// Reduces `before`, the result for earlier links, and the value `a` of one more link. The
+    /// result is NaN if either is NaN.
     static Number reduced(Op op, Number before, Number a) {
         const Number value = keeps_denormals() ? a : flushed(a);
         if (op == Op::link_sum) return before + value;
@@ -131,7 +132,8 @@ private:
         return std::isnan(before) || is_farther ? before : value;
     }
 
-    /// Finds the entries of this number in the slices of the block. False if there are none.
+    /// Finds link number `number` of each cell of the block. Returns false if no cell has so many
+    /// links.
     bool find_links(std::int64_t number) {
         constexpr std::int64_t slice_cells = LinkTable<Number>::slice_cells;
         const LinkTable<Number>& links = arguments_.links;
@@ -149,7 +151,7 @@ private:
         return has_entries;
     }
 
-    /// The slice of the block's first cell.
+    /// The slice that contains the block's first cell.
     std::int64_t first_slice() const {
         constexpr std::int64_t slice_cells = LinkTable<Number>::slice_cells;
         const std::int64_t slices = (arguments_.layout.width + slice_cells - 1) / slice_cells;
@@ -193,9 +195,9 @@ private:
         }
     }
 
-    /// sum − times · c with one rounding, for times = 2 or 4, whose multiples are exact unless they
-    /// overflow. If the multiple would overflow, c is subtracted from sum / times instead. The loss
-    /// of a denormal sum / times is far below the last place of such numbers.
+    /// sum − times · c with one rounding, for times = 2 or 4. The product times · c is exact unless
+    /// it overflows. If it would overflow, computes (sum / times − c) · times. Even if sum / times
+    /// is denormal and flushed, the result is the same, because c is so large.
     template <int times>
     static Number minus_multiple(Number sum, Number c) {
         constexpr Number largest = std::numeric_limits<Number>::max() / 4;
@@ -204,7 +206,7 @@ private:
         return std::abs(c) > largest ? far : near;
     }
 
-    // The specification gives the order of the sums: ((((N + S) + E) + W) + U) + D.
+    // Adds in the order of the specification: ((((N + S) + E) + W) + U) + D.
     void laplacian(Number* __restrict out, const Number* c) const {
         const std::int64_t count = count_;
         if (stencil_ == Stencil::plane) {
@@ -215,7 +217,7 @@ private:
             }
             return;
         }
-        // Other stencils: one pair after the other.
+        // All other stencils: adds one pair of opposite neighbours after the other.
         bool is_first = true;
         const auto add_pair = [&](const Number* first, const Number* second) {
             for (std::int64_t i = 0; i < count; ++i) {
@@ -265,7 +267,8 @@ private:
         }
     }
 
-    /// `term(link, f_j − f_i, i, j)` is what the link from cell i to cell j adds.
+    /// `term(link, f_j − f_i, i, j)` is the number that the link from cell i to cell j adds to the
+    /// sum.
     template <typename Term>
     void sum_over_links(Number* __restrict out, const Number* f, const Term& term) const {
         constexpr std::int64_t slice_cells = LinkTable<Number>::slice_cells;
@@ -302,7 +305,7 @@ private:
         if (keeps_denormals()) flush(out);
     }
 
-    /// As kernels of WebAssembly do. Zeros keep their sign, and so do numbers that become zero.
+    /// Flushes denormal results to zeros of the same sign, as WebAssembly kernels do.
     void flush(Number* out) const {
         for (std::int64_t i = 0; i < count_; ++i) out[i] = flushed(out[i]);
     }
@@ -317,15 +320,16 @@ private:
     const KernelArgumentsOf<Number>& arguments_;
     std::vector<Number> scalars_;
     std::vector<Number> registers_;
-    std::int64_t row_ = 0;  ///< The block's row in its slice.
+    std::int64_t row_ = 0;  ///< The row of the block in its slice.
     std::int64_t slice_ = 0;
-    std::int64_t column_ = 0;  ///< The block's first cell.
-    std::int64_t count_ = 0;   ///< The cells in the block.
-    std::int64_t offset_ = 0;  ///< The block's first element, from cell (0, 0, 0).
-    // By cell of the block, for the links being reduced.
+    std::int64_t column_ = 0;  ///< The column of the block's first cell.
+    std::int64_t count_ = 0;   ///< The number of cells in the block.
+    std::int64_t offset_ = 0;  ///< The index of the block's first element, counted from cell (0, 0,
+                               ///< 0).
+    // The link that is being reduced, for each cell of the block.
     std::array<bool, block_cells> has_link_{};
-    std::array<std::int64_t, block_cells>
-        targets_{};  ///< Elements; a cell's own if it has no link.
+    /// The index of the element to which the link leads; the cell's own if it has no link.
+    std::array<std::int64_t, block_cells> targets_{};
 };
 
 template <typename Number>
@@ -353,7 +357,8 @@ private:
     std::size_t field_count_, mask_count_, uniform_count_;
 };
 
-/// Planning costs about as much as the hash that a cache would need, so plans are not cached.
+/// Plans are not cached, because making a plan takes about as long as the hash that a cache would
+/// need.
 class Interpreter : public Backend {
 public:
     std::string_view name() const override { return "interp"; }

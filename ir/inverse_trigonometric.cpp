@@ -1,14 +1,16 @@
-// asin, acos and the angle of a point, expanded into operations of the table.
+// asin, acos and the angle of a point, expanded into operations of ir/operations.def.
 //
-// Arguments are reduced to a short interval around 0 by the identities of the functions (W. J. Cody
-// and W. Waite, "Software Manual for the Elementary Functions", 1980). The difference, a multiple
-// of π/4, is added as a head and a tail. Coefficients are as in ir/elementary.cpp.
+// Identities of the functions reduce the argument to a short interval around 0 (W. J. Cody and W.
+// Waite, "Software Manual for the Elementary Functions", 1980). The identities change the angle by
+// a multiple of π/4, which is added at the end as a head and a tail. ir/elementary.cpp explains the
+// coefficients.
 #include "ir/expression.h"
 
 namespace cascade {
 namespace {
 
-// (atan(t)/t − 1) / t² in t², for |t| ≤ tan(π/8); error 2^−30 (2^−63) of the angle.
+// Coefficients of (atan(t)/t − 1) / t² as a polynomial of t², for |t| ≤ tan(π/8), with an error of
+// 2^−30 (2^−63) of the angle.
 constexpr double atan_single[] = {-0x1.55554cp-2, 0x1.99929cp-3, -0x1.23c4f2p-3, 0x1.b2b4cep-4,
                                   -0x1.f57118p-5};
 constexpr double atan_double[] = {
@@ -18,7 +20,8 @@ constexpr double atan_double[] = {
 constexpr ByPrecision<std::span<const double>> atan_coefficients = {atan_single, atan_double};
 constexpr ByPrecision<double> tan_of_eighth = {0x1.a8279ap-2, 0x1.a827999fcef32p-2};  // tan(π/8)
 
-// (asin(s)/s − 1) / s² in s², for |s| ≤ ½; error 2^−31 (2^−63) of the angle.
+// Coefficients of (asin(s)/s − 1) / s² as a polynomial of s², for |s| ≤ ½, with an error of 2^−31
+// (2^−63) of the angle.
 constexpr double asin_single[] = {0x1.555550p-3, 0x1.333734p-4, 0x1.6cd7c4p-5,
                                   0x1.0367ccp-5, 0x1.e8e968p-7, 0x1.2e435cp-5};
 constexpr double asin_double[] = {
@@ -28,10 +31,11 @@ constexpr double asin_double[] = {
     -0x1.ab1153c532dfap-6, 0x1.133ac6097cf2fp-5};
 constexpr ByPrecision<std::span<const double>> asin_coefficients = {asin_single, asin_double};
 
-/// Coordinates above this, or below its inverse, are scaled before they are added.
+/// Coordinates above this number, or below the reciprocal of this number, are scaled before they
+/// are added.
 constexpr ByPrecision<double> far_away = {0x1p64, 0x1p512};
 
-/// A multiple of π/4 as a rounded number and its rounding error.
+/// A multiple of π/4: the rounded number, and its rounding error.
 struct Angle {
     double head;
     double tail;
@@ -49,13 +53,14 @@ constexpr ByPrecision<Angles> eighths = {{{{0x1.921fb6p-1, -0x1.777a5cp-26},
                                            {0x1.2d97c7f3321d2p+1, 0x1.a79394c9e8a0ap-54},
                                            {0x1.921fb54442d18p+1, 0x1.1a62633145c07p-53}}}};
 
-/// The angle of a point in the upper half plane, reduced at the diagonal and at tan(π/8).
+/// The angle of a point in the upper half plane. Reflections in the diagonal and in the line of
+/// slope tan(π/8) reduce the angle.
 Expression upper_angle(Expression y, Expression x) {
     const Expression width = x.absolute();
     const Expression steep = width < y;
     const Expression longer = steep.choose(y, width);
     const Expression shorter = steep.choose(width, y);
-    // Prevents overflow of the sum of the two and underflow of their difference.
+    // Prevents overflow of the sum of both coordinates and underflow of their difference.
     const double reach = x.pick(far_away);
     const Expression factor =
         (reach < longer).choose(1 / reach, (longer < 1 / reach).choose(reach, x.number(1)));
@@ -84,9 +89,9 @@ Expression upper_angle(Expression y, Expression x) {
     return taken_off(&Angle::head) + (rest + taken_off(&Angle::tail));
 }
 
-/// asin of a number from 0 to ½, or half of acos of one from ½ to 1: head + tail.
+/// asin(a) for a from 0 to ½, or acos(a) / 2 for a from ½ to 1. The value is head + tail.
 struct Arc {
-    Expression near;  ///< A truth value: the number is at most ½.
+    Expression near;  ///< Whether a is at most ½.
     Expression head;
     Expression tail;
 };
@@ -96,7 +101,8 @@ Arc arc_of(Expression a) {
     const Expression z = near.choose(a * a, (1 - a) * 0.5);
     const Expression s = near.choose(a, z.unary(Op::square_root));
     const Expression curved = s * (z * polynomial(z, a.pick(asin_coefficients)));
-    // The rounding error of the square root: z − h² is exact for a head h of 12 bits (26).
+    // The rounding error of the square root is (z − h²) / (s + h). For a head h of 12 (26) bits,
+    // the difference z − h² is exact.
     const Expression h = near.choose(s, s.head());
     const Expression lacking = (z - h * h) / (s + h);
     const Expression has_rest = both(!near, 0 < s);
@@ -115,7 +121,7 @@ ValueId KernelBuilder::arc_tangent(ValueId first, ValueId second) {
 ValueId KernelBuilder::arc_sine(ValueId argument) {
     const Expression x(*this, argument);
     const auto [near, head, tail] = arc_of(x.absolute());
-    // π/2 − 2 (head + tail)
+    // asin(a) = π/2 − 2 (head + tail).
     const Angle& quarter = x.pick(eighths).quarter;
     const Expression far = (quarter.head - head * 2) - (tail * 2 - quarter.tail);
     return near.choose(head + tail, far).with_sign_of(x).id();

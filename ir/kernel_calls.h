@@ -10,13 +10,14 @@
 
 namespace cascade {
 
-/// Do kernels fill columns of the halo? In space, rows of other slices take most of the time.
+/// Whether kernels copy columns to the halo. In volumes they do not, because most of the time goes
+/// into rows of other slices.
 constexpr bool kernels_fill_columns(Stencil stencil) {
     return stencil.x && !stencil.z && !stencil.links;
 }
 
-/// The columns that a call copies to columns −1 and `width` of its rows: {-1, -1}, no copy, unless
-/// it computes whole rows and is told which.
+/// The columns that a call copies to halo columns −1 and `width` of its rows. The result is {-1,
+/// -1}, which means no copy, unless the call computes whole rows and `arguments` names the columns.
 template <typename Number>
 HaloColumns columns_to_fill(const KernelArgumentsOf<Number>& arguments, ColumnRange columns) {
     const bool is_whole = columns.begin == 0 && columns.end == arguments.layout.width;
@@ -24,8 +25,8 @@ HaloColumns columns_to_fill(const KernelArgumentsOf<Number>& arguments, ColumnRa
     return is_whole ? arguments.columns.value_or(none) : none;
 }
 
-/// Calls `call(rows, slice)` for each slice that has some of the rows. The rows are numbered as
-/// they lie in memory, including halo rows.
+/// Calls `call(rows, slice)` for each slice that contains some of the rows. The rows passed to
+/// `call` are numbered by their position in memory, which counts halo rows, too.
 template <typename Call>
 void for_each_slice(const PlaneLayout& layout, RowRange rows, const Call& call) {
     while (!rows.empty()) {

@@ -1,4 +1,5 @@
-// Counts instruction by instruction. Repeated loads of a neighbour, mask or link table count once.
+// Counts the cost instruction by instruction. A neighbour, mask or link table that is loaded
+// several times counts once.
 #include "ir/kernel_cost.h"
 
 #include "ir/loop_levels.h"
@@ -15,7 +16,8 @@ namespace cascade {
 
 namespace {
 
-/// For each value, whether it is a negation that is used only by multiply-adds, which include it.
+/// For each value, whether it is a negation that only multiply-adds use. Such a negation costs
+/// nothing, because it is part of the multiply-add.
 IdVector<ValueId, bool> signs_of_multiply_adds(const CellKernel& kernel) {
     IdVector<ValueId, bool> is_sign;
     for (const Instruction& instruction : kernel.code) {
@@ -58,7 +60,7 @@ public:
 private:
     using Read = std::tuple<FieldSlot, int, int, int>;
 
-    /// Adds a value that is computed `times` times in a cell.
+    /// Adds the cost of a value that is computed `times` times per cell.
     void add(ValueId id, double times) {
         if (!varies_[id] || is_folded_[id]) return;
         const Instruction& instruction = kernel_.code[id];
@@ -94,7 +96,7 @@ private:
         }
     }
 
-    /// Along an axis of one cell, the neighbour is the cell itself.
+    /// Along an axis that has only one cell, the neighbour is the cell itself.
     Read within_stencil(const Neighbour& at) const {
         return {at.slot, stencil_.x ? at.dx : 0, stencil_.y ? at.dy : 0, stencil_.z ? at.dz : 0};
     }
@@ -119,11 +121,12 @@ private:
             if (stencil_.y) load({slot, 0, side, 0});
             if (stencil_.z) load({slot, 0, 0, side});
         }
-        // 2 n − 1 sums of 2 n neighbours, then a product and a difference.
+        // n pairs of neighbours take 2 n − 1 sums. A product and a difference follow.
         cost_.operations += 2 * stencil_.axes() + 1;
     }
 
-    /// `weights` names the table of weights: for Laplacians or for a component of gradients.
+    /// Adds a sum over links. `weights` identifies the table of weights that the sum reads: the
+    /// table of Laplacians, or of one component of gradients.
     void add_link_sum(std::initializer_list<FieldSlot> slots, Op weights, double operations) {
         cost_.operations += operations * links_;
         for (const FieldSlot slot : slots) {
@@ -157,7 +160,7 @@ private:
     const CellKernel& kernel_;
     Stencil stencil_;
     double links_;
-    double word_;  ///< Bytes.
+    double word_;  ///< The size of a word in bytes.
     IdVector<ValueId, bool> varies_, is_folded_;
     std::set<Read> loaded_;
     std::set<MaskSlot> masks_;

@@ -1,11 +1,12 @@
 // The cost of a kernel, counted from its instructions.
 //
 // An operation is one instruction of arithmetic, comparison, logic or selection on the word of a
-// cell. Uniform values are computed once and not counted, nor are negations that a multiply-add
-// includes. A Laplacian counts the operations of its sum: in two dimensions three sums of
-// neighbours, a product and a difference. A load is a value from memory, counted once if it
-// repeats: a Laplacian has five loads, and also reading the cell's own value adds none. Values
-// computed for links count once for each link and loop over them.
+// cell. Two kinds of values are not counted: uniform values, which are computed once per call, and
+// negations that are part of a multiply-add. A Laplacian counts the operations of its sum: in two
+// dimensions three sums of neighbours, a product and a difference. A load is a value read from
+// memory. A value that is read several times counts once: a Laplacian has five loads, and if the
+// kernel also reads the cell's own value, this adds no load. Values of links count once for each
+// link in each loop over links.
 #pragma once
 
 #include "core/grid.h"
@@ -13,11 +14,11 @@
 
 namespace cascade {
 
-/// The cost per cell.
+/// The cost of computing one cell.
 struct KernelCost {
     double operations = 0;  ///< Includes divisions and roots.
     double divisions = 0;   ///< The divisions and square roots, which take longer.
-    double loads = 0;       ///< Values, bytes of masks, indices and weights of links.
+    double loads = 0;       ///< Loaded values, masks, and indices and weights of links.
     double stores = 0;
     double load_bytes = 0;  ///< The bytes of all loads.
     double store_bytes = 0;
@@ -26,7 +27,8 @@ struct KernelCost {
     KernelCost& operator+=(const KernelCost& other);
 };
 
-/// `links` is the average number of links per cell, including padding. Ignored on grids.
+/// The cost per cell. `links` is the average number of links per cell, including padding. On grids
+/// it is ignored.
 KernelCost cost_of(const CellKernel& kernel, Stencil stencil, double links);
 
 }  // namespace cascade

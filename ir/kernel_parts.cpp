@@ -1,5 +1,5 @@
-// Orders results so that results with common operations are neighbours, and cuts them into parts of
-// equal numbers.
+// Orders the results so that results with common operations are adjacent, and cuts this list into
+// parts of equal length.
 #include "ir/kernel_parts.h"
 
 #include "ir/loop_levels.h"
@@ -11,16 +11,17 @@
 namespace cascade {
 namespace {
 
-// A kernel stays whole if its parts would take more than this many tenths of its time.
+// A kernel is not divided if its parts together would take more than this many tenths of the time
+// of the whole kernel.
 constexpr std::size_t most_growth = 12;
 
-/// Calls `visit` with the values that results are computed from, each once.
+/// Visits the values from which results are computed, each value once.
 class Walk {
 public:
     explicit Walk(const CellKernel& kernel) : kernel_(kernel), is_met_(kernel.code.size(), false) {}
 
-    /// Visits the values needed by `root` but by no earlier root, in no particular order, and calls
-    /// `meet` with the values of earlier roots at which the walk ends.
+    /// Visits the values that `root` needs and that no earlier root needs, in no particular order.
+    /// Calls `meet` with each value that the walk reaches and that has been visited before.
     template <typename Visit, typename Meet>
     void from(ValueId root, Visit visit, Meet meet) {
         open_.push_back(root);
@@ -46,8 +47,10 @@ private:
     std::vector<ValueId> open_;
 };
 
-/// The results, each moved after the earlier one with which it shares the last operation, such as a
-/// rate that is stored besides the new value.
+/// The results in an order in which related results follow each other. A result may share
+/// operations with earlier results: for example, a rate is stored, and the new value is computed
+/// from the same rate. Such a result is moved behind the result that owns the last shared
+/// operation.
 std::vector<std::size_t> in_families(const CellKernel& kernel) {
     const std::size_t count = kernel.results.size();
     Walk walk(kernel);
@@ -75,7 +78,7 @@ std::vector<std::size_t> in_families(const CellKernel& kernel) {
     return order;
 }
 
-/// The part of a kernel that computes these results.
+/// The part of a kernel that computes the given results.
 KernelPart part_of(const CellKernel& kernel, std::vector<std::size_t> results) {
     KernelPart part{{}, std::move(results), true};
     part.kernel.precision = kernel.precision;
@@ -105,8 +108,8 @@ KernelPart part_of(const CellKernel& kernel, std::vector<std::size_t> results) {
     return part;
 }
 
-/// The size of a kernel by its run time: values computed for links count as often as crowded cells
-/// have neighbours.
+/// The size of a kernel, as a measure of its run time. Values of links count `links` times, which
+/// is a typical number of neighbours of a cell.
 std::size_t time_of(const CellKernel& kernel) {
     constexpr std::size_t links = 12;
     constexpr std::size_t operations_of_gather = 8;
@@ -123,7 +126,7 @@ std::size_t time_of(const CellKernel& kernel) {
 }  // namespace
 
 std::size_t size_of(const CellKernel& kernel) {
-    constexpr std::size_t loads_of_laplacian = 10;  // By their time.
+    constexpr std::size_t loads_of_laplacian = 10;  // In units of one instruction's time.
     constexpr std::size_t loads_of_neighbour = 2;
     std::size_t size = kernel.code.size();
     for (const Instruction& instruction : kernel.code) {

@@ -1,9 +1,9 @@
-// Divides kernels of many results into parts, each of which becomes a function of a few results.
+// Divides a kernel of many results into parts of a few results. Each part becomes a function.
 //
-// A step of 64 species in one loop needs 64 rates, own values and addresses at once, far more than
-// there are registers, and walks through hundreds of rows side by side. Parts of 8 results take
-// half to two thirds of its time. Values needed by results of several parts are computed in each of
-// these parts, so a kernel stays whole if they are most of its work.
+// A single loop for 64 species needs 64 rates, values and addresses at once, far more than there
+// are registers, and reads hundreds of rows side by side. Loops for parts of 8 results together
+// take half to two thirds of that time. A value that several parts need is computed in each of
+// them. So a kernel is not divided if computing such values is most of its work.
 #pragma once
 
 #include "ir/cell_kernel.h"
@@ -13,24 +13,26 @@
 
 namespace cascade {
 
-/// Kernels with at most this number of results are never divided.
+/// The largest number of results of a part. A kernel with at most this number of results is never
+/// divided.
 inline constexpr std::size_t most_results_of_a_part = 8;
 
 struct KernelPart {
-    CellKernel kernel;                 ///< Has the slots of the whole kernel.
-    std::vector<std::size_t> results;  ///< By result of the part: its number in the whole kernel.
-    /// The instructions of each result precede those of the next one, so that it can be stored at
-    /// once.
+    CellKernel kernel;                 ///< Has all slots of the whole kernel.
+    std::vector<std::size_t> results;  ///< For each result of the part, its index in the whole
+                                       ///< kernel.
+    /// Whether the instructions of each result precede those of the next one, so that each result
+    /// can be stored before the next one is computed.
     bool is_in_order = false;
 };
 
-/// The parts of a kernel, at least one, with each result in one of them. In parallel or in any
-/// order, they compute the results of the kernel, since no result overwrites inputs of another one
+/// The parts of a kernel, at least one. Each result is in exactly one part. The parts may run in
+/// any order or in parallel, because no result overwrites inputs of another result
 /// (KernelArgumentsOf).
 std::vector<KernelPart> parts_of(const CellKernel& kernel);
 
-/// The size of a kernel by its compile time: the number of its instructions and of the loads of its
-/// neighbours.
+/// The size of a kernel, as a measure of its compile time: the number of its instructions, plus the
+/// number of neighbours that they load.
 std::size_t size_of(const CellKernel& kernel);
 
 }  // namespace cascade

@@ -1,5 +1,6 @@
-// Periodic axes take an integral number of lattice cells. The hash of a point is a sum of three
-// parts, one for each axis and shared by all points with that index, mixed with the key.
+// A periodic axis has a whole number of lattice cells. The hash of a point is a sum of three parts,
+// mixed with the key. Each part belongs to an axis, and all points with the same index along the
+// axis share it.
 #include "ir/lattice.h"
 
 #include "core/hash.h"
@@ -36,7 +37,7 @@ Expression lattice_word(const LatticeAxis& axis, Expression index) {
     return round_to_whole(inside).word;
 }
 
-// The keys are mixed once here, so that keys that differ in one bit share no bits of their hashes.
+// Mixes the keys, so that keys that differ in one bit give unrelated hashes.
 LatticeHash::LatticeHash(KernelBuilder& builder, const Draw& draw, std::uint32_t stream)
     : start_(builder, draw.word), second_key_(0) {
     const auto keys = pcg4d({static_cast<std::uint32_t>(draw.key),
@@ -63,7 +64,8 @@ Expression LatticeHash::mixed(Expression h) const {
 Expression signed_fraction(Expression word, std::size_t which) {
     if (which == 1) word = word.shifted_left(16);
     if (which == 2) word = word.binary(Op::bits_multiply, word.word(0x2545f491));
-    // The upper bits of a word are read as a signed number.
+    // Moves the lower 32 bits of a word to its upper end, because the result is read as a signed
+    // number.
     const int bits = word.format().bits;
     if (bits > 32) word = word.shifted_left(bits - 32);
     return word.to_number() * std::ldexp(1.0, 1 - bits);

@@ -1,4 +1,5 @@
-// The common base of noise and seed lattices: a lattice over the domain, and a hash of its points.
+// A lattice over the domain, and a hash of its points. Smooth noise and seed lattices are made from
+// them.
 //
 // Internal to ir/.
 #pragma once
@@ -10,32 +11,35 @@ namespace cascade {
 
 /// The lattice along one axis.
 struct LatticeAxis {
-    Expression side;      ///< A lattice cell's side, as a coordinate.
-    Expression count;     ///< Lattice cells along a periodic axis: an integer.
-    Expression position;  ///< The cell's position in the lattice: coordinate / side.
+    Expression side;      ///< The width of a lattice cell, in the unit of coordinates.
+    Expression count;     ///< The number of lattice cells along a periodic axis: an integer.
+    Expression position;  ///< The coordinate of the domain's cell, divided by `side`.
     bool is_periodic;
 };
 
-/// A lattice with cells of width `side`, at most 2^20 along the axis. Along a periodic axis the
-/// width is adjusted so that their number is an integer, at least 1.
+/// A lattice with cells of width `side`, at most 2^20 of them along the axis. Along a periodic axis
+/// the width is adjusted so that the number of lattice cells is an integer of at least 1.
 LatticeAxis lattice_axis(KernelBuilder& builder, const SpaceAxis& axis, Expression side);
 
-/// The largest integer not above the position. At an integral position, possibly the previous one.
+/// The largest integer that is not above the position. If the position is itself an integer,
+/// rounding may give the integer before it.
 Expression lattice_floor(Expression position);
 
-/// An index along an axis, −1 … count, as a word. Beyond a periodic side, it wraps around.
+/// Converts an index along an axis, −1 … count, to a word. Along a periodic axis, indices beyond
+/// the ends wrap around.
 Expression lattice_word(const LatticeAxis& axis, Expression index);
 
-/// The hash of lattice points: sums of products, mixed by lowbias32 (C. Wellons, "Hash function
-/// prospector", 2018, public domain) with a second key between its two products.
+/// The hash of a lattice point: a sum of products of its indices, mixed by lowbias32 (C. Wellons,
+/// "Hash function prospector", 2018, public domain), with a second key added between the two
+/// products of lowbias32.
 class LatticeHash {
 public:
     /// `stream` distinguishes several hashes of one draw.
     LatticeHash(KernelBuilder& builder, const Draw& draw, std::uint32_t stream);
 
-    /// The contribution of an index along axis 0, 1 or 2.
+    /// The contribution of `word`, the point's index along axis 0, 1 or 2.
     Expression part(std::size_t axis, Expression word) const;
-    /// The hash of the sum of all parts.
+    /// The hash, given the sum of the contributions of all axes.
     Expression mixed(Expression parts) const;
 
 private:
@@ -43,7 +47,8 @@ private:
     std::uint32_t second_key_;
 };
 
-/// A random word as a number in [−1, 1). `which` selects one of three numbers from the same word.
+/// A random number in [−1, 1), made from bits of a random word. `which` selects one of three
+/// numbers that the same word gives.
 Expression signed_fraction(Expression word, std::size_t which);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// The loops around a kernel's code in which compiling executors compute its values.
+// The nested loops around a kernel's code, and the loop in which compiled code computes each value.
 #pragma once
 
 #include "ir/cell_kernel.h"
@@ -9,7 +9,8 @@ namespace cascade {
 
 /// The loop in which a value is computed.
 enum class LoopLevel : std::uint8_t {
-    call,  ///< Outside all loops, once per call, from constants and uniforms alone.
+    call,  ///< Outside all loops, once per call. For values that depend on constants and uniforms
+           ///< alone.
     row,   ///< Once per row.
     cell,  ///< Once per vector of cells.
     link,  ///< Once per link of these cells.
@@ -18,16 +19,17 @@ enum class LoopLevel : std::uint8_t {
 /// The loop level of every instruction of a kernel.
 IdVector<ValueId, LoopLevel> loop_levels_of(const CellKernel& kernel);
 
-/// A loop over the links of cells: all reductions that need the same number of earlier loops.
-/// Values shared with another loop are computed in both.
+/// One loop over the links of cells. Loop k, counted from 0, computes the reductions that need the
+/// results of k earlier loops. A value of links that several loops need is computed in each of
+/// them.
 struct LinkLoop {
-    std::vector<ValueId> before;      ///< Values of cells that it needs first.
-    std::vector<ValueId> values;      ///< Values of links.
-    std::vector<ValueId> reductions;  ///< Reductions of these or other values.
+    std::vector<ValueId> before;      ///< Values of cells that the loop needs, computed before it.
+    std::vector<ValueId> values;      ///< Values of links, computed in the loop.
+    std::vector<ValueId> reductions;  ///< Reductions of values of links or of cells.
 };
 
-/// The values computed for cells, in this order: each loop, then all other values of cells. Each
-/// list is in ascending order.
+/// The order in which values of cells are computed: first loop by loop, then all values of cells
+/// that no loop needs (`after`). Each list is in ascending order.
 struct CellSchedule {
     std::vector<LinkLoop> loops;
     std::vector<ValueId> after;

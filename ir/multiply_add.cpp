@@ -1,4 +1,5 @@
-// A loop for each choice of scalar operands, compiled for AVX2 and FMA by a function attribute.
+// One loop for each set of operands that may be scalars. A function attribute compiles the loops
+// for AVX2 and FMA.
 #include "ir/multiply_add.h"
 
 #include <algorithm>
@@ -15,7 +16,7 @@
 namespace cascade {
 namespace {
 
-/// All choices except scalars alone.
+/// The number of sets of scalar operands, without the set of all three operands.
 constexpr unsigned varying_choices = 7;
 
 template <unsigned scalars, typename Number>

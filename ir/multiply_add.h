@@ -1,7 +1,8 @@
-// a · b + c with one rounding: whether the processor has it, and loops that use it.
+// a · b + c with one rounding: whether the processor has an instruction for it, and loops that use
+// it.
 //
-// A build for any x86-64 would call the C library for each number. These loops are compiled for
-// processors with the instruction, and used if it is present.
+// Code that runs on every x86-64 processor would have to call the C library for each number. So
+// these loops are compiled for processors with the instruction and used only on such processors.
 #pragma once
 
 #include "ir/block_loops.h"
@@ -9,14 +10,14 @@
 
 namespace cascade {
 
-/// Whether this processor computes a · b + c with one rounding in one instruction. Other processors
-/// get no kernels with a multiply_add.
+/// Whether this processor has an instruction that computes a · b + c with one rounding. Without it,
+/// no kernel may contain a multiply_add.
 bool has_multiply_add();
 
 /// Whether the kernel has a multiply_add.
 bool multiplies_and_adds(const CellKernel& kernel);
 
-/// block_loop() of a multiply_add, by that instruction. Internal to ir/.
+/// The loop for multiply_add. block_loop() returns the loops for other operations. Internal to ir/.
 template <typename Number>
 BlockLoop<Number> multiply_add_loop(unsigned scalar_operands);
 

@@ -1,5 +1,6 @@
-// Gradient noise. Every lattice point has a random gradient with independent components, uniform in
-// (−1, 1), which defines a linear function. The functions are blended between the points.
+// Gradient noise. Every lattice point has a random gradient, whose components are independent and
+// uniform in (−1, 1). The gradient defines a linear function that is 0 at the point. Between the
+// lattice points these functions are blended.
 #include "ir/lattice.h"
 
 #include "core/check.h"
@@ -12,12 +13,12 @@ namespace {
 /// The two lattice points around a cell along one axis.
 struct Pair {
     std::size_t axis;                 ///< 0, 1 or 2.
-    std::array<Expression, 2> parts;  ///< Parts of the points' hashes.
-    std::array<Expression, 2> away;   ///< From each point to the cell: 0 … 1 and −1 … 0.
-    Expression blend;                 ///< 0 at the first, 1 at the second.
+    std::array<Expression, 2> parts;  ///< The points' contributions to hashes.
+    std::array<Expression, 2> away;   ///< From the points to the cell: 0 … 1 and −1 … 0.
+    Expression blend;                 ///< 0 at the first point, 1 at the second.
 };
 
-/// 6 t^5 − 15 t^4 + 10 t³.
+/// Blends smoothly from 0 to 1: 6 t^5 − 15 t^4 + 10 t³.
 Expression fade(Expression t) { return ((t * t) * t) * (t * (t * 6 - 15) + 10); }
 
 Pair pair_along(const LatticeHash& hash, std::size_t axis, const LatticeAxis& lattice) {
@@ -30,7 +31,8 @@ Pair pair_along(const LatticeHash& hash, std::size_t axis, const LatticeAxis& la
             fade(t)};
 }
 
-/// A lattice point's linear function at the cell. Bit k of `corner` selects in the k-th pair.
+/// The value that the linear function of one lattice point has at the cell. Bit k of `corner`
+/// selects the point of the k-th pair.
 Expression plane_of(const LatticeHash& hash, const std::vector<Pair>& pairs, std::size_t corner) {
     const auto side = [corner](std::size_t k) { return (corner >> k) & 1; };
     Expression parts = pairs[0].parts[side(0)];
@@ -65,7 +67,8 @@ Expression octave(KernelBuilder& builder, const Space& space, Expression side, c
         }
         values.resize(values.size() / 2, side);
     }
-    // If all gradients point to the middle, the sum reaches half the number of axes.
+    // The sum is largest if all gradients point to the middle. Then the sum is half the number of
+    // axes.
     return values[0] * (2.0 / static_cast<double>(pairs.size()));
 }
 

@@ -1,13 +1,13 @@
-// x^y, expanded into operations of the table.
+// x^y, expanded into operations of ir/operations.def.
 //
-// Constant integer exponents up to 64 are expanded into products. Other powers are 2^(y · log2|x|).
-// The head and tail of the logarithm have some 36 bits together (in binary64 66), because the
-// product may be as large as 128 (1024), and its error is the relative error of the result.
-// Products of heads of 12 bits (26) are exact (G. W. Veltkamp and T. J. Dekker, Numerische
-// Mathematik 18, 1971), so no fused operation is needed.
+// Constant integer exponents up to 64 are expanded into products. Other powers are computed as 2^(y
+// · log2|x|). The logarithm is a head and a tail, which have 36 bits together (66 in binary64). So
+// many bits are needed because y · log2|x| may be as large as 128 (1024), and its absolute error
+// becomes the relative error of the result. Products of heads of 12 (26) bits are exact (G. W.
+// Veltkamp and T. J. Dekker, Numerische Mathematik 18, 1971), so no fused operation is needed.
 //
-// Special cases are as in C's pow(): 1 for y = 0 or x = 1, even if the other is NaN; NaN for a
-// finite x < 0 and a y that is not an integer; the sign of x for odd y.
+// The special cases are the same as in C's pow(): 1 for y = 0 or x = 1, even if the other argument
+// is NaN; NaN for a finite x < 0 and a y that is not an integer; the sign of x for odd y.
 #include "ir/expression.h"
 
 #include <cmath>
@@ -18,12 +18,14 @@ namespace {
 
 constexpr double largest_multiplied = 64;
 
-// Beyond this the result is infinite or 0 if x ≠ 1, because |log2 x| is at least 2^−25 (2^−53).
+// For exponents of a magnitude above this number, the result is infinite or 0 unless |x| = 1,
+// because |log2 x| is at least 2^−25 (2^−53).
 constexpr ByPrecision<double> large_exponent = {0x1p40, 0x1p70};
-// 2 to this power is infinite, and 2 to its negative is 0.
+// 2 to the power of this number is infinite, and 2 to the power of its negative is 0.
 constexpr ByPrecision<double> large_logarithm = {200, 1200};
 
-/// 2 / (3 ln 2): rounded, and as a head of 11 bits (26) and a tail.
+/// 2 / (3 ln 2), as one rounded number and as the sum of a head and a tail. The head has 11 bits in
+/// single precision and 26 in double precision.
 struct Factor {
     double rounded;
     double head;
@@ -33,7 +35,8 @@ constexpr ByPrecision<Factor> log2_factor = {
     {{0x1.ec709ep-1, 0x1.ec8p-1, -0x1.ec478cp-14},
      {0x1.ec709dc3a03fdp-1, 0x1.ec709ep-1, -0x1.e2fe0145b01f5p-28}}};
 
-// (3 artanh(s)/s − 3 − s²) / s⁴ in s², for |s| ≤ 0.172; error 2^−44 (2^−77) of the logarithm.
+// Coefficients of (3 artanh(s)/s − 3 − s²) / s⁴ as a polynomial of s², for |s| ≤ 0.172, with an
+// error of 2^−44 (2^−77) of the logarithm.
 constexpr double log2_single[] = {0x1.333334p-1, 0x1.b6d9e6p-2, 0x1.55d65cp-2, 0x1.056c74p-2,
                                   0x1.d51992p-2};
 constexpr double log2_double[] = {0x1.3333333333333p-1, 0x1.b6db6db6db7f4p-2, 0x1.5555555542fafp-2,
@@ -41,7 +44,7 @@ constexpr double log2_double[] = {0x1.3333333333333p-1, 0x1.b6db6db6db7f4p-2, 0x
                                   0x1.69548ac328237p-3, 0x1.4390f257aea23p-3, 0x1.3ab87b29f334dp-3};
 constexpr ByPrecision<std::span<const double>> log2_coefficients = {log2_single, log2_double};
 
-// (2^f − 1) / f for |f| ≤ 0.51; error 2^−32 (2^−59) of 2^f.
+// Coefficients of (2^f − 1) / f for |f| ≤ 0.51, with an error of 2^−32 (2^−59) of 2^f.
 constexpr double exp2_single[] = {0x1.62e430p-1,  0x1.ebfbe0p-3,  0x1.c6b070p-5, 0x1.3b2a54p-7,
                                   0x1.5da228p-10, 0x1.4419cap-13, 0x1.e5b8e2p-17};
 constexpr double exp2_double[] = {
@@ -50,13 +53,13 @@ constexpr double exp2_double[] = {
     0x1.b5234335b9904p-24, 0x1.e4bcc117d7c51p-28, 0x1.ec533db49a12bp-32, 0x1.def3528c7368ap-36};
 constexpr ByPrecision<std::span<const double>> exp2_coefficients = {exp2_single, exp2_double};
 
-/// The sum of a head of 12 bits (26) and a tail.
+/// A number as the sum of a head of 12 (26) bits and a tail.
 struct Split {
     Expression head;
     Expression tail;
 };
 
-/// s = (m − 1) / (m + 1), rounded, and as two parts.
+/// s = (m − 1) / (m + 1), both as a rounded number and in two parts.
 struct Quotient {
     Expression rounded;
     Split parts;
@@ -68,13 +71,14 @@ Quotient quotient_of(Expression m) {
     const Expression inverse = 1 / d;
     const Expression s = f * inverse;
     const Expression d_head = d.head();
-    const Expression d_tail = m - (d_head - 1);  // The rest of the exact m + 1.
+    const Expression d_tail = m - (d_head - 1);  // The remaining bits of m + 1, exact.
     const Expression s_head = s.head();
     const Expression rest = (f - s_head * d_head) - s_head * d_tail;
     return {s, {s_head, rest * inverse}};
 }
 
-/// log2(x) of a positive normal x. With s as above, ln m = 2 artanh(s) = s · ⅔ · (3 + s² + …).
+/// log2(x) of a positive normal number x. With Quotient's s, ln m = 2 artanh(s) = s · ⅔ · (3 + s² +
+/// …).
 Split logarithm_to_base_2(Expression x) {
     const auto [m, e] = decompose(x);
     const auto [s, parts] = quotient_of(m);
@@ -97,14 +101,14 @@ Split logarithm_to_base_2(Expression x) {
     return {head, little - ((head - e) - large)};
 }
 
-/// 2^(p + q), where q is small compared with p or with 1, and |p| is at most the largest logarithm.
+/// 2^(p + q). q is small compared with p or with 1, and |p| is at most `large_logarithm`.
 Expression exponential_to_base_2(Expression p, Expression q) {
     const Expression n = (p + q).rounded();
     const Expression f = (p - n) + q;
     return (f * polynomial(f, f.pick(exp2_coefficients)) + 1).scaled(n);
 }
 
-/// |x|^y, for any words.
+/// a^y for a = |x| and any words a and y.
 Expression power_of_magnitude(Expression a, Expression exponent) {
     const Expression y = exponent.clamped(-a.pick(large_exponent), a.pick(large_exponent));
     const Split logarithm = logarithm_to_base_2(a);
@@ -112,8 +116,8 @@ Expression power_of_magnitude(Expression a, Expression exponent) {
     const Expression y_tail = y - y_head;
     const Expression large = y_head * logarithm.head;  // Exact.
     const Expression little = y_tail * logarithm.head + y * logarithm.tail;
-    // Zero, infinity and NaN have no significand with a logarithm, and the head of a NaN may be the
-    // word of an infinity.
+    // Zero, infinity and NaN are handled separately, because decompose() works only for normal
+    // numbers, and because the head of a NaN may be the word of an infinity.
     const Expression is_ordinary = both(both(0 < a, a < infinity), equals(y, y));
     const Expression extreme = y * equals(a, 0).choose(-infinity, a);
     const Expression p = is_ordinary.choose(large, extreme);
@@ -124,14 +128,14 @@ Expression power_of_magnitude(Expression a, Expression exponent) {
 }
 
 struct Parity {
-    Expression is_whole;  ///< A truth value.
-    Expression odd_bit;   ///< The word 1 for an odd integer, else 0.
+    Expression is_whole;  ///< Whether the number is an integer.
+    Expression odd_bit;   ///< The word 1 for an odd integer, the word 0 for others.
 };
 
 Parity parity_of(Expression y) {
-    // 2^23 + a has no fractional digits for a < 2^23, and its last bit is a's. From 2^23 to 2^24
-    // the last bit of a itself is worth 1, and all larger numbers are even. In binary64 the bounds
-    // are 2^52 and 2^53.
+    // For a < 2^23, the sum 2^23 + a has no fractional digits, and its last bit is that of the
+    // integer. From 2^23 to 2^24, the last bit of a is the last bit of the integer. All larger
+    // numbers are even. In binary64 the bounds are 2^52 and 2^53.
     const double all_whole = std::ldexp(1.0, y.format().fraction_bits);
     const double all_even = 2 * all_whole;
     const Expression a = y.absolute();
@@ -152,8 +156,9 @@ std::optional<int> small_whole(const KernelBuilder& builder, ValueId y) {
     return static_cast<int>(value);
 }
 
-/// x^n for n > 0. From the lowest bit of n on, the squares of x that belong to set bits are
-/// multiplied to the left of the product: x^3 = x · (x·x), x^7 = (x · x²) · x⁴.
+/// x^n for n > 0. Goes through the bits of n from the lowest, and squares the base after each. For
+/// each bit that is set, multiplies the product by the present base: x^3 = x · (x·x), x^7 = (x ·
+/// x²) · x⁴.
 Expression repeated_product(Expression x, unsigned n) {
     std::optional<Expression> product;
     Expression square = x;

@@ -1,5 +1,6 @@
 // Random numbers: the hash pcg4d (core/hash.h) of cell, draw and key, expanded into operations.
-// Both formats use words of 32 bits, so both draw the same numbers, with more digits in binary64.
+// Both precisions use words of 32 bits, so both draw the same numbers, with more digits in
+// binary64.
 #include "ir/expression.h"
 
 #include <array>
@@ -21,7 +22,7 @@ void mix(Words& words) {
     w = sum(w, product(y, z));
 }
 
-/// The first two words of pcg4d.
+/// The first two words of the result of pcg4d.
 struct Hash {
     Expression first;
     Expression second;
@@ -36,13 +37,13 @@ Hash hash_of(Words words) {
         const Expression low = word.low_word();
         word = low.binary(Op::bits_xor, low.shifted_right(16));
     }
-    // The second mixing emits only what these two words need.
+    // The second round of mixing emits only the instructions that these two words need.
     const auto [x, y, z, w] = words;
     const Expression first = sum(x, product(y, w));
     return {first.low_word(), sum(y, product(z, first)).low_word()};
 }
 
-/// The hash of the cell.
+/// The hash of cell, draw and key.
 Hash hash_of_cell(KernelBuilder& builder, ValueId draw, std::uint64_t key) {
     const auto [first, second] = builder.cell_of_draws();
     const Expression column(builder, first), row(builder, second);
@@ -56,7 +57,7 @@ Hash hash_of_cell(KernelBuilder& builder, ValueId draw, std::uint64_t key) {
 
 ValueId KernelBuilder::random_symmetric(ValueId draw, std::uint64_t key) {
     const auto [first, second] = hash_of_cell(*this, draw, key);
-    // If k is the upper 23 (52) bits, (k + ½) · 2^−22 − 1 is (2k + 1 − 2^23) · 2^−23, exactly.
+    // With k the upper 23 (52) bits, (k + ½) · 2^−22 − 1 equals (2k + 1 − 2^23) · 2^−23 exactly.
     const int digits = format().fraction_bits;
     const Expression k = digits < 32 ? first.shifted_right(32 - digits)
                                      : first.shifted_left(digits - 32)
@@ -70,14 +71,15 @@ ValueId KernelBuilder::draw_word(ValueId uniform) {
     return precision() == Precision::single ? uniform : Expression(*this, uniform).low_word().id();
 }
 
-/// √(−2 ln a) cos(2π b) of two uniform numbers a and b (G. E. P. Box, M. E. Muller, "A note on the
-/// generation of random normal deviates", Annals of Mathematical Statistics 29, 1958). a has 31
-/// bits, so that large numbers are as rare as they should be.
+/// √(−2 ln a) cos(2π b) for two uniform random numbers a and b (G. E. P. Box, M. E. Muller, "A note
+/// on the generation of random normal deviates", Annals of Mathematical Statistics 29, 1958). a has
+/// 31 bits, so that large results are as rare as in a Gaussian distribution.
 ValueId KernelBuilder::random_normal(ValueId draw, std::uint64_t key) {
     const auto [first, second] = hash_of_cell(*this, draw, key);
     constexpr ByPrecision<double> two_pi = {0x1.921fb6p+2, 0x1.921fb54442d18p+2};
     const Expression a = (first.shifted_right(1).to_number() + 0.5) * 0x1p-31;
-    // The upper bits of a word are read as a signed number.
+    // Moves the lower 32 bits of a word to its upper end, because the word is read as a signed
+    // number.
     const int bits = format().bits;
     const Expression signed_word = bits == 32 ? second : second.shifted_left(bits - 32);
     const Expression angle = signed_word.to_number() * std::ldexp(a.pick(two_pi), -bits);

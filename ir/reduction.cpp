@@ -1,4 +1,5 @@
-// Rows are reduced to eight partial results, the lanes of a vector, then combined in pairs.
+// Reduces a row to eight partial results, one for each lane of a vector, and then combines these in
+// pairs.
 #include "ir/reduction.h"
 
 #include <array>
@@ -8,7 +9,7 @@
 namespace cascade {
 namespace {
 
-/// Cells i, i + 8, i + 16, … of a row make one partial result.
+/// Partial result i is made from cells i, i + 8, i + 16, … of a row.
 constexpr std::size_t partial_results = 8;
 
 double take_together(ReductionKind kind, double a, double b) {

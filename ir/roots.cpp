@@ -1,14 +1,14 @@
-// Cube root and hypotenuse, expanded into operations of the table.
+// Cube root and hypotenuse, expanded into operations of ir/operations.def.
 //
-// The cube root of m · 2^(3k) is ∛m · 2^k. It starts from a polynomial, improved by one step of
-// Halley's method (W. Kahan, "Computing a real cube root", 1991) in which the residual m − t³ is
-// exact, because t has 12 bits (in binary64 26).
+// The cube root of m · 2^(3k) is ∛m · 2^k. A polynomial approximates ∛m, and one step of Halley's
+// method (W. Kahan, "Computing a real cube root", 1991) improves the result t. The polynomial's t
+// is cut to 12 bits (26 in binary64), so the residual m − t³ is exact.
 #include "ir/expression.h"
 
 namespace cascade {
 namespace {
 
-// ∛m for m in [√½, √2); error 2^−16 (2^−22).
+// Coefficients of ∛m for m in [√½, √2), with an error of 2^−16 (2^−22).
 constexpr double cube_root_single[] = {0x1.ce7218p-2, 0x1.cf6544p-1, -0x1.127106p-1, 0x1.bcd31ap-3,
                                        -0x1.36184ap-5};
 constexpr double cube_root_double[] = {0x1.97ecf6b6e5344p-2,  0x1.326f1282751bep+0,
@@ -21,7 +21,9 @@ constexpr ByPrecision<double> cube_root_of_2 = {0x1.428a30p+0, 0x1.428a2f98d728b
 constexpr ByPrecision<double> cube_root_of_half = {0x1.965feap-1, 0x1.965fea53d6e3dp-1};
 constexpr ByPrecision<double> third_of_one = {0x1.555556p-2, 0x1.5555555555555p-2};
 
-/// The numbers beyond which squares would overflow or vanish, and powers of two to scale them.
+/// Squares of numbers above `large` may overflow, and squares of numbers below `small` may vanish.
+/// The factors `reduce` and `enlarge`, powers of two, bring such numbers into the range between
+/// them.
 struct Reach {
     double large, reduce;
     double small, enlarge;
@@ -29,12 +31,12 @@ struct Reach {
 constexpr ByPrecision<Reach> square_reach = {
     {{0x1p60, 0x1p-70, 0x1p-50, 0x1p75}, {0x1p500, 0x1p-600, 0x1p-450, 0x1p600}}};
 
-/// One of three numbers, by the sign of n.
+/// Selects one of three numbers by the sign of n.
 Expression by_sign(Expression n, double below, double at, double above) {
     return (n < 0).choose(below, (0 < n).choose(above, n.number(at)));
 }
 
-/// t improved towards ∛y, where t has 12 bits (26).
+/// One step of Halley's method from t, which has 12 (26) bits, towards ∛y.
 Expression halley_step(Expression t, Expression y) {
     const Expression square = t * t;  // Exact.
     const Expression square_head = square.head();
@@ -56,11 +58,11 @@ ValueId KernelBuilder::cube_root(ValueId argument) {
                              by_sign(left, x.pick(cube_root_of_half), 1, x.pick(cube_root_of_2));
     const Expression magnitude = halley_step(guess.head(), y).scaled(third);
     const Expression root = magnitude.with_sign_of(x);
-    // Zero, infinity and NaN are their own roots. The sum flushes a denormal number.
+    // Zero, infinity and NaN are their own roots. x + x returns them and flushes denormal numbers.
     return both(0 < a, a < infinity).choose(root, x + x).id();
 }
 
-/// √(x² + y²), both scaled so that squares neither overflow nor vanish.
+/// √(x² + y²). Both numbers are scaled so that squares neither overflow nor vanish.
 ValueId KernelBuilder::hypotenuse(ValueId first, ValueId second) {
     const Expression x = Expression(*this, first).absolute();
     const Expression y = Expression(*this, second).absolute();

@@ -1,12 +1,12 @@
-// Rounding to integers, signs and steps, expanded into operations of the table. All are
-// exact except `modulus`, which rounds once, and `smooth_step`, which rounds several times.
+// Rounding to integers, signs and steps, expanded into operations of ir/operations.def. All results
+// are exact, except that `modulus` rounds once and `smooth_step` several times.
 #include "ir/expression.h"
 
 namespace cascade {
 namespace {
 
-// For larger quotients the remainder cannot be found. Below this, both halves of an integral
-// quotient have few enough bits for their products to be exact.
+// The remainder of a quotient of this size or larger cannot be computed. Each half of a smaller
+// integral quotient has few enough bits that its products are exact.
 constexpr ByPrecision<double> largest_quotient = {0x1p24, 0x1p52};
 
 Expression whole_below(Expression x) {
@@ -14,8 +14,8 @@ Expression whole_below(Expression x) {
     return (x < nearest).choose(nearest - 1, nearest);
 }
 
-/// The difference between the rounded product q · b and the exact one (T. J. Dekker, Numerische
-/// Mathematik 18, 1971).
+/// The rounding error of a product: the rounded product minus the exact q · b (T. J. Dekker,
+/// Numerische Mathematik 18, 1971).
 Expression product_error(Expression q, Expression b, Expression product) {
     const Expression q_head = q.head();
     const Expression q_tail = q - q_head;
@@ -47,7 +47,7 @@ ValueId KernelBuilder::round_up(ValueId argument) {
 
 ValueId KernelBuilder::sign_of(ValueId argument) {
     const Expression x(*this, argument);
-    // The product turns a denormal number into zero.
+    // The multiplication by 1 flushes a denormal number to zero.
     const Expression zero_or_nan = x * 1;
     return (x < 0).choose(-1, (0 < x).choose(1, zero_or_nan)).id();
 }
@@ -59,7 +59,7 @@ ValueId KernelBuilder::modulus(ValueId x, ValueId y) {
     const Expression q = whole_below(quotient);
     const Expression product = (q * b).kept();
     const Expression rest = (a - product) - product_error(q, b, product);
-    // A quotient that was rounded up to an integer leaves a small remainder of the other sign.
+    // If the quotient was rounded up to an integer, the remainder has the wrong sign and is small.
     const Expression moved = differ_in_sign(rest, b).choose(rest + b, rest);
     const Expression is_meaningful = quotient.absolute() < a.pick(largest_quotient);
     const Expression finite = is_meaningful.choose(moved, a.number(nan));

@@ -1,4 +1,4 @@
-// Seed lattices: a cell considers the two nearest rows of seeds along each axis.
+// Seed lattices. For each cell, checks the two nearest seeds along each axis.
 #include "ir/lattice.h"
 
 #include <optional>
@@ -9,8 +9,9 @@ namespace {
 
 /// One of two neighbouring seeds along an axis.
 struct Candidate {
-    Expression part;  ///< The seed's part of the hash.
-    Expression away;  ///< From the cell to the seed without jitter, as a coordinate.
+    Expression part;  ///< The seed's contribution to the hash.
+    Expression away;  ///< The distance from the cell to the seed before its random displacement, as
+                      ///< a coordinate.
 };
 
 struct Candidates {
@@ -18,7 +19,8 @@ struct Candidates {
     std::vector<Candidate> both;
 };
 
-/// The nearest two seed positions, which are integers + offset.
+/// The two seed positions nearest to the cell. In units of the lattice, each position is an integer
+/// plus `offset`.
 Candidates candidates_along(const LatticeHash& hash, std::size_t axis, const LatticeAxis& lattice,
                             double offset) {
     Candidates found{axis, {}};
@@ -32,7 +34,8 @@ Candidates candidates_along(const LatticeHash& hash, std::size_t axis, const Lat
     return found;
 }
 
-/// Whether the cell is within the radius of one seed. Bit k of `corner` selects along axis k.
+/// Whether the cell is within the radius of one seed. Bit k of `corner` selects the candidate along
+/// axis k.
 Expression is_near(const LatticeHash& hash, const std::vector<Candidates>& axes, std::size_t corner,
                    Expression squared_radius, Expression jitter) {
     const auto chosen = [&](std::size_t k) { return axes[k].both[(corner >> k) & 1]; };

@@ -1,4 +1,4 @@
-// Shapes, computed from the distances along the axes.
+// Shapes, computed from the cell's distances to their centres along the axes.
 #include "ir/expression.h"
 #include "ir/space.h"
 
@@ -8,8 +8,8 @@
 namespace cascade {
 namespace {
 
-/// The signed distance from `centre` to the cell along one axis. Across periodic sides it is the
-/// shortest one: the nearest integral number of periods is subtracted.
+/// The signed distance from `centre` to the cell along one axis. Along a periodic axis it is the
+/// shortest one: the nearest multiple of the period is subtracted.
 Expression distance_along(KernelBuilder& builder, const SpaceAxis& axis, ValueId centre) {
     const Expression distance = Expression(builder, axis.coordinate) - Expression(builder, centre);
     if (!axis.is_periodic) return distance;

@@ -53,12 +53,13 @@ int order_of(Solver solver) { return row(solver).order; }
 
 int order_of_estimate(Solver solver) {
     if (is_adaptive(solver)) return order_of(solver);
-    if (is_locally_implicit(solver)) return 2;  // The embedded method is of first order.
+    if (is_locally_implicit(solver)) return 2;  // The embedded method has order 1.
     return std::min(order_of(solver) + 1, 3);
 }
 
-/// Meyer, Balsara and Aslam 2014, equations 15 and 24: (s² + s) / 2 and (s² + s − 2) / 4 Euler
-/// steps, each of which is stable down to −2.
+/// Stabilised solvers with s stages take (s² + s) / 2 (rkl1) or (s² + s − 2) / 4 (rkl2) steps of
+/// Euler at once, each of which is stable down to −2 (Meyer, Balsara and Aslam 2014, equations 15
+/// and 24).
 double stability_interval(Solver solver, std::uint32_t stages) {
     const double s = stages;
     if (solver == Solver::rkl1) return s * s + s;
@@ -71,7 +72,7 @@ std::uint32_t least_stages(Solver solver) { return solver == Solver::rkl1 ? 1 : 
 std::uint32_t stages_for(Solver solver, double ratio) {
     CHECK(is_stabilised(solver), "only stabilised solvers choose their stages");
     std::uint32_t stages = least_stages(solver);
-    // The negation makes NaN continue to the end.
+    // Written with a negation so that a NaN gives the largest number of stages.
     while (stages < most_stages && !(stability_interval(solver, stages) >= 2 * ratio)) stages += 2;
     return stages;
 }

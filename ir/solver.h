@@ -15,22 +15,22 @@ enum class Solver : std::uint8_t {
 #include "ir/solvers.def"
 };
 
-/// What a solver needs and promises, as bits.
+/// The properties of a solver, as bits.
 enum class SolverTrait : std::uint8_t {
     none = 0,
     speed_by_cell = 1 << 0,     ///< The time step may vary by cell.
     in_turn = 1 << 1,           ///< Species are changed one after the other.
-    adaptive = 1 << 2,          ///< It chooses its steps by an error estimate.
-    stabilised = 1 << 3,        ///< It takes more stages for longer steps (Runge-Kutta-Legendre).
-    semi_implicit = 1 << 4,     ///< It takes diffusion implicitly or exactly, and only the rest by
-                                ///< its rate at the old step.
-    locally_implicit = 1 << 5,  ///< It takes the reaction in each cell implicitly, and diffusion by
-                                ///< its rate.
+    adaptive = 1 << 2,          ///< Chooses its steps by an error estimate.
+    stabilised = 1 << 3,        ///< Uses more stages for longer steps (Runge-Kutta-Legendre).
+    semi_implicit = 1 << 4,     ///< Treats diffusion implicitly or exactly, and all other terms by
+                                ///< their rates at the old step.
+    locally_implicit = 1 << 5,  ///< Treats the reaction in each cell implicitly, and diffusion
+                                ///< explicitly.
 };
 bool has(Solver solver, SolverTrait trait);
 
 std::string_view name_of(Solver solver);
-/// `imex2`, which `etdrk4` replaced, is another name of it.
+/// The solver of this name. `imex2`, which no longer exists, gives its successor `etdrk4`.
 std::optional<Solver> solver_of(std::string_view name);
 std::vector<std::string> solver_names();
 
@@ -40,30 +40,34 @@ inline bool is_semi_implicit(Solver solver) { return has(solver, SolverTrait::se
 inline bool is_locally_implicit(Solver solver) {
     return has(solver, SolverTrait::locally_implicit);
 }
-/// Whether a part of the rates limits no step by its stability.
+/// Whether the solver treats some terms of the rates implicitly, so that they do not limit the
+/// step.
 inline bool is_partly_implicit(Solver solver) {
     return is_semi_implicit(solver) || is_locally_implicit(solver);
 }
-/// Whether its steps may be many times as long as those of explicit Euler: as long as the reaction
-/// allows, however fast diffusion is, or the other way round.
+/// Whether steps may be many times as long as those of explicit Euler, because diffusion or the
+/// reaction does not limit them.
 inline bool takes_long_steps(Solver solver) {
     return is_stabilised(solver) || is_partly_implicit(solver);
 }
 inline bool takes_speed_by_cell(Solver solver) { return has(solver, SolverTrait::speed_by_cell); }
 inline bool changes_in_turn(Solver solver) { return has(solver, SolverTrait::in_turn); }
-/// The order p: the error of a whole run is proportional to step^p.
+/// The order p: the error of a whole run is proportional to (step length)^p.
 int order_of(Solver solver);
-/// The p for which the estimated error of a step is proportional to step^p: the embedded pair of an
-/// adaptive solver or of `ros2`, for others as in solvers/error_estimate.h.
+/// The p for which the estimated error of one step is proportional to (step length)^p. For adaptive
+/// solvers and `ros2` the estimate comes from the embedded pair. For other solvers, see
+/// solvers/error_estimate.h.
 int order_of_estimate(Solver solver);
-/// The solver is stable if −λ · step is below this for every negative eigenvalue λ of the rates'
-/// Jacobian, or of the part that is taken explicitly. `stages` is that of a stabilised solver.
+/// The solver is stable if −λ · step is below this number for every negative eigenvalue λ of the
+/// Jacobian of the rates, or of the part of the rates that is treated explicitly. `stages` is the
+/// number of stages of a stabilised solver.
 double stability_interval(Solver solver, std::uint32_t stages = 1);
 
-/// The smallest odd number of stages with which a stabilised solver is stable for steps `ratio`
-/// times as long as the longest of explicit Euler; `most_stages` if there is none.
+/// The smallest odd number of stages with which a stabilised solver can take stable steps `ratio`
+/// times as long as explicit Euler. At most `most_stages`.
 std::uint32_t stages_for(Solver solver, double ratio);
-/// The smallest number of stages of a stabilised solver: `rkl1` with one stage is explicit Euler.
+/// The smallest number of stages of a stabilised solver: 1 for `rkl1`, which with one stage is
+/// explicit Euler, and 3 for `rkl2`.
 std::uint32_t least_stages(Solver solver);
 inline constexpr std::uint32_t most_stages = 99;
 

@@ -1,8 +1,7 @@
 // Shapes, smooth noise and seed lattices as functions of a cell's position.
 //
-// A position has a coordinate along each axis, in a unit in which the longest side of the domain
-// has length 1. Along a periodic axis these functions are periodic. An axis of one cell has no
-// extent and is left out.
+// A position has a coordinate along each axis. The unit is the longest side of the domain. Along a
+// periodic axis these functions are periodic. An axis that has only one cell is left out.
 #pragma once
 
 #include "ir/builder.h"
@@ -13,19 +12,19 @@
 
 namespace cascade {
 
-/// One axis of the domain, and the coordinate of the cell along it.
+/// One axis of the domain, and the cell's coordinate along it.
 struct SpaceAxis {
     ValueId coordinate;  ///< 0 … length.
-    double length = 1;   ///< The whole axis.
+    double length = 1;   ///< The length of the whole axis, in the same unit.
     bool is_periodic = false;
-    bool has_extent = false;  ///< More than one cell.
+    bool has_extent = false;  ///< Whether the axis has more than one cell.
 };
 
-/// x, y, z.
+/// The axes x, y, z.
 using Space = std::array<SpaceAxis, 3>;
 
-// Shapes (ir/shapes.cpp). Positions and sizes may have fewer values than there are axes. The shape
-// then extends through the whole domain along the others. Distances wrap around periodic sides.
+// Shapes (ir/shapes.cpp). A position or size may have fewer values than there are axes. Along the
+// remaining axes the shape extends through the whole domain. Distances wrap around periodic sides.
 
 /// 1 if the distance to `centre` is less than |radius|, else 0.
 ValueId disc(KernelBuilder& builder, const Space& space, std::span<const ValueId> centre,
@@ -41,12 +40,12 @@ ValueId gauss(KernelBuilder& builder, const Space& space, std::span<const ValueI
               ValueId width);
 /// 1 if x differs from `position` by less than half of `width`, else 0.
 ValueId stripe(KernelBuilder& builder, const Space& space, ValueId position, ValueId width);
-/// The same for x cos(angle) + y sin(angle): a straight band that does not wrap around.
+/// 1 if x cos(angle) + y sin(angle) differs from `position` by less than half of `width`, else 0.
+/// This is a straight band that does not wrap around.
 ValueId turned_stripe(KernelBuilder& builder, const Space& space, ValueId position, ValueId width,
                       ValueId angle);
 
-/// The source of a position's random numbers: a word that changes when they are drawn anew, and the
-/// key of one occurrence in a script.
+/// The source of random numbers that depend on a position.
 struct Draw {
     ValueId word;
     std::uint64_t key = 0;
@@ -54,23 +53,24 @@ struct Draw {
 
 inline constexpr int most_octaves = 12;
 
-/// Gradient noise (ir/noise.cpp; K. Perlin, "An image synthesizer", SIGGRAPH 1985, with the fade of
-/// his "Improving noise", SIGGRAPH 2002) on a square lattice of side `scale`, in −1 … 1, with mean
-/// 0. Each of `octaves` (1 … most_octaves) has half the scale and half the amplitude of the
-/// previous one. Their sum is scaled to −1 … 1. Along periodic axes the side of the lattice is the
-/// nearest one that divides the axis.
+/// Gradient noise (ir/noise.cpp) in −1 … 1 with mean 0, on a lattice of cubes of side `scale`.
+/// Sources: K. Perlin, "An image synthesizer", SIGGRAPH 1985, with the fade of his "Improving
+/// noise", SIGGRAPH 2002. Each of `octaves` (1 … most_octaves) has half the scale and half the
+/// amplitude of the previous one. Their sum is scaled to −1 … 1. Along a periodic axis, `scale` is
+/// replaced by the nearest number that divides the length of the axis.
 ValueId smooth_noise(KernelBuilder& builder, const Space& space, ValueId scale, int octaves,
                      const Draw& draw);
 
-/// The positions of the seeds of a lattice.
+/// Where a lattice has its seeds.
 enum class LatticeKind {
-    square,   ///< One in the middle of each square of side `spacing`.
-    diamond,  ///< Two: at a quarter and at three quarters of both sides (a quincunx).
+    square,   ///< One seed in the middle of each square of side `spacing`.
+    diamond,  ///< Two seeds: at a quarter and at three quarters of both sides (a quincunx).
 };
 
-/// Seed lattices (ir/seeds.cpp): 1 within `radius` of a seed, else 0. Each seed is displaced along
-/// every axis by a random distance of at most `jitter`. Correct if radius + jitter is at most the
-/// spacing. Along periodic axes the spacing is the nearest one that divides the axis.
+/// Seed lattices (ir/seeds.cpp): 1 where the distance to a seed is less than `radius`, else 0. Each
+/// seed is displaced along every axis by a random distance of at most `jitter`. The result is
+/// correct only if radius + jitter is at most the spacing. Along a periodic axis, `spacing` is
+/// replaced by the nearest number that divides the length of the axis.
 ValueId seed_lattice(KernelBuilder& builder, const Space& space, LatticeKind kind, ValueId spacing,
                      ValueId radius, ValueId jitter, const Draw& draw);
 

@@ -1,5 +1,5 @@
-// One worker thread compiles the wanted kernels, in order, and then the expected ones. A kernel
-// switches to native code by one atomic pointer.
+// One worker thread compiles the wanted kernels in order, and then the expected ones. One atomic
+// pointer switches a kernel to native code.
 #include "ir/tiered_backend.h"
 
 #include "ir/interpreter.h"
@@ -22,12 +22,13 @@
 namespace cascade {
 namespace {
 
-/// A row costs about as much as this number of cells, besides its cells.
+/// The overhead of interpreting a row, in addition to its cells: it takes as long as interpreting
+/// this number of cells.
 constexpr std::int64_t cells_per_row = 64;
 
-/// The number of cells without links that take as long to interpret as one of this kernel. Its
-/// loops over links are compiled once and run for each link, which gathers values and so counts
-/// twice.
+/// The number of cells without links whose interpretation takes as long as one cell of this kernel.
+/// An instruction inside a loop over links is compiled once but runs for each link. It counts twice
+/// per link, because it gathers values from other cells.
 std::int64_t weight_of(const CellKernel& kernel, Stencil stencil) {
     constexpr double links = 12;
     const double once = cost_of(kernel, stencil, 1).operations;
@@ -44,17 +45,19 @@ public:
 
     explicit Worker(Backend& native) : native_(native) {}
 
-    /// Starts the thread unless it runs. Returns false if it cannot be started.
+    /// Starts the thread if it does not run yet. Returns false if it cannot be started.
     bool start();
-    /// Compiles the wanted kernels and ends the thread.
+    /// Compiles the kernels that are wanted now, then ends the thread.
     void stop();
     void settle();
     void abandon();
     void add(const std::shared_ptr<TieredKernel>& kernel);
     void expect(const CellKernel& kernel, Stencil stencil);
-    /// Signals new wanted kernels. Allocates nothing, because computing threads call it.
+    /// Tells the thread that more kernels are wanted. Allocates no memory, because computing
+    /// threads call it.
     void wake();
-    /// Waits until the kernel is settled or can no longer be. Called by computing threads.
+    /// Waits until the kernel is compiled or refused, or will never be compiled. Called by
+    /// computing threads.
     void wait_for(const TieredKernel& kernel);
 
 private:
@@ -66,21 +69,24 @@ private:
     void work();
     bool has_wanted() const;
     std::shared_ptr<TieredKernel> next_wanted();
-    /// Whether it is being compiled or waits for that.
+    /// Whether the kernel is being compiled or waits for compilation.
     bool is_coming(const TieredKernel& kernel) const;
 
-    Backend& native_;  ///< Used only by the thread, which ends before the backend does.
+    Backend& native_;  ///< Used only by the thread, which ends before `native_` is destroyed.
     std::thread thread_;
     std::mutex mutex_;
     std::condition_variable changed_;
     bool is_stopping_ = false;
-    std::condition_variable settled_;                   ///< Notified when a kernel settles.
-    std::vector<std::shared_ptr<TieredKernel>> begun_;  ///< Waiting kernels, in order.
-    const TieredKernel* in_work_ = nullptr;  ///< The kernel being compiled, if it is wanted.
+    std::condition_variable settled_;                   ///< Notified when a kernel is compiled or
+                                                        ///< refused.
+    std::vector<std::shared_ptr<TieredKernel>> begun_;  ///< Kernels that wait for compilation, in
+                                                        ///< the order of begin().
+    const TieredKernel* in_work_ = nullptr;  ///< The wanted kernel that is being compiled; else
+                                             ///< null.
     std::deque<Source> expected_;
 };
 
-/// A kernel that is interpreted at first, native later.
+/// A kernel that is interpreted at first and native later.
 class TieredBackend::Worker::TieredKernel final : public Kernel {
 public:
     TieredKernel(const CellKernel& kernel, Stencil stencil, KernelPointer interpreted,
@@ -135,7 +141,8 @@ private:
         present_.load(std::memory_order_acquire)->run(arguments, cells);
     }
 
-    /// Called before interpreting this number of cells. Requests compilation, or waits for it.
+    /// Counts `cells` cells that are about to be interpreted. Once the kernel has been used often
+    /// enough, requests its compilation or waits for it.
     void count(std::int64_t cells) const {
         const std::int64_t before = interpreted_cells_.fetch_add(cells, std::memory_order_relaxed);
         if (before + cells < cells_worth_compiling) return;
@@ -146,13 +153,13 @@ private:
         worker->wake();
     }
 
-    std::unique_ptr<Source> source_;  ///< Until it is compiled.
+    std::unique_ptr<Source> source_;  ///< Null once the kernel is compiled.
     std::int64_t weight_;
     KernelPointer interpreted_, native_;
     std::optional<Failure> refusal_;
     std::weak_ptr<Worker> worker_;
     std::atomic<const Kernel*> present_;
-    std::atomic<bool> is_settled_{false};  ///< Compiled, or refused.
+    std::atomic<bool> is_settled_{false};  ///< Whether the kernel is compiled or refused.
     mutable std::atomic<bool> is_wanted_;
     mutable std::atomic<std::int64_t> interpreted_cells_{0};
 };
@@ -190,7 +197,7 @@ bool TieredBackend::Worker::has_wanted() const {
 }
 
 void TieredBackend::Worker::abandon() {
-    std::vector<std::shared_ptr<TieredKernel>> kernels;  // Destroyed without holding the lock.
+    std::vector<std::shared_ptr<TieredKernel>> kernels;  // Destroyed after the lock is released.
     {
         const std::lock_guard lock(mutex_);
         kernels.swap(begun_);
@@ -202,7 +209,7 @@ void TieredBackend::Worker::abandon() {
 void TieredBackend::Worker::add(const std::shared_ptr<TieredKernel>& kernel) {
     {
         const std::lock_guard lock(mutex_);
-        // No other object refers to them, and they have hardly been used.
+        // Drops kernels that no other object refers to and that have hardly been used.
         std::erase_if(begun_, [](const auto& known) {
             return known.use_count() == 1 && !known->is_wanted();
         });
@@ -220,8 +227,8 @@ void TieredBackend::Worker::expect(const CellKernel& kernel, Stencil stencil) {
 }
 
 void TieredBackend::Worker::wake() {
-    // With the lock taken once, the thread is either about to check or waiting, so no signal is
-    // lost.
+    // Taking the lock once ensures that the thread is either about to check for wanted kernels or
+    // already waiting, so the signal cannot be lost.
     { const std::lock_guard lock(mutex_); }
     changed_.notify_all();
 }
@@ -247,7 +254,8 @@ std::shared_ptr<TieredBackend::Worker::TieredKernel> TieredBackend::Worker::next
 }
 
 void TieredBackend::Worker::work() {
-    // Threads inherit their creator's floating-point environment. Compilers expect the default one.
+    // A thread inherits its creator's floating-point environment, but compilers expect the default
+    // one.
     std::fesetenv(FE_DFL_ENV);
     std::unique_lock lock(mutex_);
     while (true) {
@@ -255,7 +263,8 @@ void TieredBackend::Worker::work() {
             in_work_ = kernel.get();
             lock.unlock();
             kernel->compile(native_);
-            kernel.reset();  // If this is the last reference, it is destroyed without the lock.
+            kernel.reset();  // This may destroy the kernel, so it happens while the lock is not
+                             // held.
             lock.lock();
             in_work_ = nullptr;
             settled_.notify_all();
@@ -264,7 +273,8 @@ void TieredBackend::Worker::work() {
             expected_.pop_front();
             lock.unlock();
             try {
-                // A kernel that is refused here is refused again when it is requested.
+                // The result is not needed: a kernel that is refused now is refused again when it
+                // is requested.
                 (void)native_.compile(source.kernel, source.stencil);
             } catch (const std::bad_alloc&) {
             }

@@ -1,10 +1,10 @@
-// Kernels that run at once and switch to native code when it is ready.
+// Kernels that are interpreted at once and switch to native code when it is ready.
 //
 // Loading a code generator takes longer than a small run. So begin() returns an interpreted kernel.
-// A thread of the backend compiles it, and later calls run native code. Both give the same bits, so
-// results do not depend on the moment of the switch. A kernel that has been interpreted for about
-// as long as compilation takes waits for its code, because further interpretation would only slow
-// the compiler down.
+// A thread of the backend compiles the kernel meanwhile, and later calls run native code. Both give
+// the same bits, so results do not depend on the moment of the switch. Once a kernel has been
+// interpreted for about as long as its compilation takes, calls wait for its code, because further
+// interpretation would only slow the compiler down.
 #pragma once
 
 #include "ir/backend.h"
@@ -16,16 +16,19 @@
 
 namespace cascade {
 
-/// Interpreting this number of cells takes about as long as compiling their kernel: both grow with
-/// the number of operations. With twenty, a cell takes 4 ns and compiling about ten milliseconds.
+/// Interpreting this number of cells takes about as long as compiling their kernel. Both times grow
+/// with the number of operations. With twenty operations, interpreting a cell takes 4 ns and
+/// compiling about ten milliseconds.
 inline constexpr std::int64_t cells_worth_compiling = 262144;
 
-/// Wraps another backend, whose kernels compile() returns. Thread-safe. Kernels outlive the backend
-/// in their last state.
+/// Wraps another backend. compile() returns that backend's kernels. Thread-safe. Kernels may
+/// outlive this backend. A kernel that is not compiled when this backend is destroyed stays
+/// interpreted.
 class TieredBackend final : public Backend {
 public:
     explicit TieredBackend(std::unique_ptr<Backend> native);
-    /// Compiles waiting kernels that have been used enough, so that later processes find them.
+    /// Compiles the kernels that still wait for compilation and have been used often enough to be
+    /// worth it, so that later processes find the compiled code on disk.
     ~TieredBackend() override;
     TieredBackend(const TieredBackend&) = delete;
     TieredBackend& operator=(const TieredBackend&) = delete;
@@ -33,27 +36,31 @@ public:
     std::string_view name() const override;
     Result<KernelPointer> compile(const CellKernel& kernel, Stencil stencil) override;
     KernelPointer find(const CellKernel& kernel, Stencil stencil) override;
-    /// For kernels that run too rarely to be worth compiling. Thread-safe.
+    /// A backend for kernels that run too rarely to be worth compiling. Thread-safe.
     Backend& interpreter() const { return *interpreter_; }
     KernelCounts counts() const override;
     std::string code_identity() const override;
 
-    /// When a kernel that is interpreted meanwhile is compiled.
+    /// When to compile a kernel. Until it is compiled, it is interpreted.
     enum class When : std::uint8_t {
-        now,        ///< It will run for long.
-        when_used,  ///< Once it has run over `cells_worth_compiling` cells, fewer with links.
+        now,        ///< At once: the kernel will run for long.
+        when_used,  ///< Once it has interpreted `cells_worth_compiling` cells. A linked cell counts
+                    ///< more than one.
     };
-    /// A kernel that can run now: the result of find(), or a kernel that is interpreted until it is
-    /// compiled (Kernel::is_provisional), or for good if compilation fails (Kernel::refusal). After
-    /// interpreting `cells_worth_compiling` cells, calls wait for code that is wanted. Kernels are
-    /// compiled in the order of their begin().
+    /// Returns a kernel that can run at once: the result of find(), or else an interpreted kernel
+    /// that switches to native code once it is compiled (Kernel::is_provisional). If compilation
+    /// fails, the kernel is always interpreted (Kernel::refusal). After the kernel has interpreted
+    /// `cells_worth_compiling` cells, its calls wait until it is compiled. Kernels are compiled in
+    /// the order of their begin().
     KernelPointer begin(const CellKernel& kernel, Stencil stencil, When when);
-    /// Announces a kernel that will be begun or compiled later. It is compiled after all others.
+    /// Announces a kernel that will be passed to begin() or compile() later. It is compiled after
+    /// all kernels that have begun.
     void expect(const CellKernel& kernel, Stencil stencil);
-    /// Waits until all kernels that have been used enough by now are compiled or refused.
+    /// Waits until every kernel that has already been used often enough to be compiled is compiled
+    /// or has failed to compile.
     void settle();
-    /// Drops the waiting kernels, which then stay interpreted. Finishes the present one, because
-    /// compilation cannot be interrupted.
+    /// Drops the waiting kernels, which then stay interpreted. Waits for the kernel that is being
+    /// compiled, because compilation cannot be interrupted.
     void abandon();
 
 private:

@@ -1,14 +1,14 @@
-// sin, cos and tan, expanded into operations of the table.
+// sin, cos and tan, expanded into operations of ir/operations.def.
 //
 // The angle is reduced to |r| ≤ π/4 by subtracting n quarter turns. π/2 is split into four parts of
-// 11 bits (in binary64 26), whose products with n are exact, and a rest. Rounding errors are
-// carried along as a tail. So r is correct to its last bit for every angle up to 8192 (2^27), even
+// 11 bits (26 in binary64), whose products with n are exact, and a rest. The rounding errors are
+// collected in a tail of r. So r is correct to its last bit for every angle up to 8192 (2^27), even
 // next to multiples of π/2.
 //
-// Angles from 8192 to 2^24 (2^27 to 2^53) are first reduced below 3217 (2^26) by subtracting
-// multiples of 4096 (2^26) quarter turns in the same way. Then r has an absolute error of at most
-// 2^−33 (2^−77). Beyond 2^24 (2^53), where adjacent numbers are at least 2 apart, an angle has no
-// meaning and the result is NaN, as for infinities. The sine of −0 is −0.
+// Angles from 8192 to 2^24 (2^27 to 2^53) are first reduced to less than 3217 (2^26), by
+// subtracting multiples of 4096 (2^26) quarter turns. Then r has an absolute error of at most 2^−33
+// (2^−77). Beyond 2^24 (2^53) adjacent numbers are at least 2 apart, so an angle has no meaning.
+// The result is then NaN, and it is NaN for infinities, too. The sine of −0 is −0.
 #include "ir/expression.h"
 
 #include <array>
@@ -20,7 +20,8 @@ namespace {
 struct AngleReduction {
     double largest_angle;
     double largest_direct_angle;
-    double many;                         ///< Quarter turns subtracted from large angles at once.
+    double many;  ///< Multiples of this number of quarter turns are first subtracted from large
+                  ///< angles.
     std::array<double, 5> quarter_turn;  ///< Four parts and the rest.
 };
 constexpr ByPrecision<AngleReduction> angle_reductions = {
@@ -33,7 +34,8 @@ constexpr ByPrecision<AngleReduction> angle_reductions = {
 constexpr ByPrecision<double> quarter_turns_per_radian = {0x1.45f306p-1,  // 2/π
                                                           0x1.45f306dc9c883p-1};
 
-// (sin(r)/r − 1) / r² in r², for |r| ≤ 0.79; error 2^−32 (2^−63) of the sine.
+// Coefficients of (sin(r)/r − 1) / r² as a polynomial of r², for |r| ≤ 0.79, with an error of 2^−32
+// (2^−63) of the sine.
 constexpr double sin_single[] = {-0x1.555556p-3, 0x1.111174p-7, -0x1.a05904p-13, 0x1.7c0226p-19};
 constexpr double sin_double[] = {-0x1.5555555555555p-3,  0x1.1111111111069p-7,
                                  -0x1.a01a019ffe538p-13, 0x1.71de3a33a9ca5p-19,
@@ -41,7 +43,8 @@ constexpr double sin_double[] = {-0x1.5555555555555p-3,  0x1.1111111111069p-7,
                                  -0x1.a001da9aec246p-41};
 constexpr ByPrecision<std::span<const double>> sin_coefficients = {sin_single, sin_double};
 
-// (cos(r) − 1 + r²/2) / r⁴ in r², for |r| ≤ 0.79; error 2^−32 (2^−69) of the cosine.
+// Coefficients of (cos(r) − 1 + r²/2) / r⁴ as a polynomial of r², for |r| ≤ 0.79, with an error of
+// 2^−32 (2^−69) of the cosine.
 constexpr double cos_single[] = {0x1.55554ap-5, -0x1.6c0c20p-10, 0x1.99e42cp-16};
 constexpr double cos_double[] = {0x1.5555555555555p-5,  -0x1.6c16c16c16b31p-10,
                                  0x1.a01a019ffcf6fp-16, -0x1.27e4fb5a7a892p-22,
@@ -49,14 +52,15 @@ constexpr double cos_double[] = {0x1.5555555555555p-5,  -0x1.6c16c16c16b31p-10,
                                  0x1.9dfa0de9af30ap-45};
 constexpr ByPrecision<std::span<const double>> cos_coefficients = {cos_single, cos_double};
 
-/// A number as a sum. The tail is about 2^−24 (2^−53) of the head.
+/// A number as head + tail. The tail is about 2^−24 (2^−53) times the head.
 struct Sum {
     Expression head;
     Expression tail;
 };
 
-/// a − b with its rounding error, if that is a number: T. J. Dekker, "A floating-point technique
-/// for extending the available precision", Numerische Mathematik 18, 1971.
+/// a − b as the rounded difference and its rounding error, if that error is a number of the format
+/// (T. J. Dekker, "A floating-point technique for extending the available precision", Numerische
+/// Mathematik 18, 1971).
 Sum exact_difference(Expression a, Expression b) {
     const Expression difference = a - b;
     return {difference, (a - difference) - b};
@@ -91,13 +95,13 @@ SineAndCosine of_small_angle(Sum r) {
     return {sine, cosine};
 }
 
-/// Sine and cosine of the reduced angle, and the quarter turns subtracted.
+/// Sine and cosine of the reduced angle, and the number of quarter turns that were subtracted.
 struct Reduced {
     SineAndCosine rest;
     Expression quarter_turns;  ///< An integer in two's complement.
 };
 
-/// Reduces an angle that is not negative.
+/// Reduces an angle of at least 0.
 Reduced reduce(Expression angle) {
     const AngleReduction& by = angle.pick(angle_reductions);
     const double per_radian = angle.pick(quarter_turns_per_radian);
@@ -117,7 +121,8 @@ Expression nan_if_too_large(Expression angle, Expression value) {
     return is_angle.choose(value, angle.number(nan));
 }
 
-/// The sine of a non-negative angle plus `turned` quarter turns: its sine (0) or its cosine (1).
+/// The sine of the sum of an angle ≥ 0 and `turned` quarter turns: 0 gives the angle's sine, 1 its
+/// cosine.
 Expression sine_of(Expression angle, std::uint64_t turned) {
     const auto [rest, quarter_turns] = reduce(angle);
     const Expression quadrant = quarter_turns.plus_word(turned);
@@ -139,7 +144,7 @@ ValueId KernelBuilder::cosine(ValueId argument) {
     return sine_of(Expression(*this, argument).absolute(), 1).id();
 }
 
-/// sin / cos, and −cos / sin after an odd number of quarter turns.
+/// sin / cos of the reduced angle, or −cos / sin after an odd number of quarter turns.
 ValueId KernelBuilder::tangent(ValueId argument) {
     const Expression x(*this, argument);
     const Expression angle = x.absolute();

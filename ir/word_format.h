@@ -1,4 +1,4 @@
-// The bit layout of words, for algorithms on them.
+// The bit layout of words, for algorithms that work on bits.
 #pragma once
 
 #include "core/precision.h"
@@ -10,7 +10,8 @@
 
 namespace cascade {
 
-/// IEEE 754 binary32 or binary64. A word is the lower `bits` of a 64-bit integer. The others are 0.
+/// IEEE 754 binary32 or binary64. A word is in the lower `bits` of a 64-bit integer, whose upper
+/// bits are 0.
 struct WordFormat {
     int bits;           ///< 32 or 64.
     int fraction_bits;  ///< Bits of the significand without the leading one: 23 or 52.
@@ -23,7 +24,7 @@ struct WordFormat {
     constexpr std::uint64_t one() const {
         return static_cast<std::uint64_t>(bias) << fraction_bits;
     }
-    /// The only NaN.
+    /// The word that represents all NaNs.
     constexpr std::uint64_t nan() const { return exponent() | (fraction() ^ (fraction() >> 1)); }
 
     constexpr bool is_denormal(std::uint64_t word) const {
@@ -43,7 +44,7 @@ using WordOf = std::conditional_t<std::is_same_v<Number, double>, std::uint64_t,
 inline std::uint32_t to_bits(float number) { return std::bit_cast<std::uint32_t>(number); }
 inline float to_number(std::uint32_t bits) { return std::bit_cast<float>(bits); }
 
-/// A number, rounded to a precision, as a word, and exactly back.
+/// A number, rounded to a precision, as a word.
 inline std::uint64_t word_of(double number, Precision precision) {
     if (precision == Precision::binary64) return std::bit_cast<std::uint64_t>(number);
     return to_bits(static_cast<float>(number));

@@ -1,7 +1,7 @@
-// The effect of every operation of the table on words: the definition shared by constant folding
-// and the interpreter. `Number` is float or double, the type of the words.
+// The effect of every operation of ir/operations.def on words. Constant folding and the interpreter
+// share this definition. `Number` is float or double, the type of the words.
 //
-// Internal to ir/. The processor flushes denormals, so this is only correct inside a
+// Internal to ir/. Processors must flush denormals, so call these functions inside a
 // FlushDenormals. The functions are written so that compilers vectorise loops over them.
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace cascade {
 
-/// True for the operations that only depend on their operands in one cell or link.
+/// Whether the result depends only on the operands in one cell or link.
 constexpr bool is_function_of_operands(Op op) { return op >= Op::add; }
 static_assert(static_cast<int>(Op::add) == static_cast<int>(Op::cell_slice) + 1,
               "the sources come first in the table");
@@ -32,8 +32,9 @@ template <typename Number>
 inline constexpr auto sign_bit =
     static_cast<WordOf<Number>>(format_of(precision_of<Number>).sign());
 
-/// Whether a word is a number other than zero. Tests the word, because compilers that see a number
-/// made from a word and compared with 0 may test its bits, and take a denormal for true.
+/// Whether a word is a number other than zero. Compares the word as an integer: a compiler that
+/// sees a number made from a word and compared with 0 may test the bits instead, and take a
+/// denormal for true.
 template <typename Number>
 bool is_true(WordOf<Number> word) {
     constexpr WordFormat format = format_of(precision_of<Number>);
@@ -49,7 +50,8 @@ Number arithmetic(Number a, Number b) {
     if constexpr (op == Op::divide) return a / b;
 }
 
-/// The nearest integer: the sum of 2^23 (2^52) and a smaller number has no fractional digits.
+/// The nearest integer. Adding 2^23 (2^52 in binary64) to a smaller number removes all fractional
+/// digits.
 template <typename Number>
 Number round_to_even(Number a) {
     constexpr auto all_whole =
@@ -58,9 +60,9 @@ Number round_to_even(Number a) {
     return size < all_whole ? std::copysign((size + all_whole) - all_whole, a) : a;
 }
 
-/// a · 2^b. One factor 2^b may be out of range although the product is not, so there are two of
-/// about the same size. Their biased exponents are the two halves of b + 2 · bias, which is in the
-/// last bits of a sum. Shifts remove its other bits.
+/// a · 2^b. A single factor 2^b may be out of range although the product is in range, so a is
+/// multiplied by two factors of about the same size. Their biased exponents are the two halves of b
+/// + 2 · bias. This integer is in the last bits of `sum`. Shifts remove the other bits.
 template <typename Number>
 Number scale_by_power(Number a, Number b) {
     using Word = WordOf<Number>;
@@ -105,7 +107,7 @@ Word integer(Word a, Word b) {
     }
 }
 
-/// The result of `op`. Ignores operands beyond its arity.
+/// The result of `op`. Operands beyond the arity of `op` are ignored.
 template <Op op, typename Number, typename Word = WordOf<Number>>
 inline Word word_operation(Word a, Word b, Word c) {
     const auto x = std::bit_cast<Number>(a);

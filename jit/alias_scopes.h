@@ -1,8 +1,9 @@
-// Metadata that tells LLVM which accesses cannot overlap.
+// Metadata that tells LLVM which accesses to memory cannot overlap.
 //
 // Internal to jit/. Results overlap neither each other nor inputs that are read at neighbours. An
-// input that is only read in the cell itself may be a result, too, so its accesses are not marked.
-// Pointers to planes come from tables, so no attribute of an argument can tell LLVM this.
+// input that is read only in the cell itself may also be a result, so accesses to such an input are
+// not marked. Pointers to planes are loaded from tables, so attributes of arguments cannot express
+// this.
 #pragma once
 
 #include <llvm/IR/LLVMContext.h>
@@ -31,7 +32,8 @@ public:
         }
     }
 
-    /// Marks an access to an input (plane 0) or to result k (plane k + 1).
+    /// Marks an access to an input that is read at neighbours (plane 0), or to result k (plane k +
+    /// 1).
     template <typename Access>
     Access* mark(Access* access, std::size_t plane) const {
         access->setMetadata(llvm::LLVMContext::MD_alias_scope, own_[plane]);

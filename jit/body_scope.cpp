@@ -9,7 +9,7 @@
 namespace cascade {
 namespace {
 
-/// Is `value` the constant `magnitude`, or minus that, in all lanes?
+/// Whether all lanes of `value` are the constant `magnitude` or −`magnitude`.
 bool is_plus_or_minus(llvm::Value* value, double magnitude) {
     const auto* constant = llvm::dyn_cast<llvm::Constant>(value);
     if (!constant) return false;
@@ -57,7 +57,7 @@ BodyScope& BodyScope::owner(ValueId id) {
     return *scope;
 }
 
-// A form is made in the scope that owns the value, so that inner loops do not make it again.
+// The form is made in the scope that owns the value, so that inner loops do not make it again.
 llvm::Value* BodyScope::number(ValueId id) {
     BodyScope& scope = owner(id);
     Forms& value = scope.values_[id];
@@ -88,7 +88,8 @@ llvm::Value* BodyScope::truth(ValueId id) {
     return value.truth;
 }
 
-// The number, or zero of its sign if it is denormal. Uses integers, which LLVM does not alter.
+// The number, or zero of the same sign if the number is denormal. Uses integer operations, which
+// LLVM does not alter.
 llvm::Value* BodyScope::flushed(ValueId id) {
     llvm::Value* word = bits(id);
     llvm::Value* exponent = builder_.CreateAnd(word, body_.bits(body_.format.exponent()));
@@ -122,12 +123,13 @@ std::optional<std::uint64_t> BodyScope::constant_word(ValueId id) {
     return std::nullopt;
 }
 
-// LLVM does not always flush constants.
+// LLVM may evaluate operations on constants without flushing.
 llvm::Value* BodyScope::operand(ValueId id) {
     return forms(id).may_be_denormal && constant_word(id) ? flushed(id) : number(id);
 }
 
-// LLVM drops operations that would only flush, also in one branch of a choice.
+// LLVM drops an operation whose only effect is to flush. It also does this if the operation has no
+// other effect in just one branch of a choice.
 llvm::Value* BodyScope::operand(ValueId id, ValueId partner, double neutral) {
     if (!forms(id).may_be_denormal) return number(id);
     const bool may_be_neutral =
@@ -135,8 +137,8 @@ llvm::Value* BodyScope::operand(ValueId id, ValueId partner, double neutral) {
     return may_be_neutral ? flushed(id) : operand(id);
 }
 
-// Constants are hidden if the other branch is one, too. A constant beside a variable stays, so that
-// a clamp becomes the processor's max.
+// A constant is hidden if the other branch is a constant, too. If the other branch is a variable,
+// the constant is not hidden, so that a clamp becomes the processor's max.
 llvm::Value* BodyScope::branch(ValueId id, ValueId other) {
     const auto word = constant_word(id);
     return word && forms(other).is_choice ? hidden(*word) : number(id);

@@ -1,7 +1,7 @@
-// The values of a kernel's body while LLVM's instructions for them are written.
+// The values of a kernel's body, and LLVM's instructions for them.
 //
-// Internal to jit/. Scopes are nested like the levels of loops, so that values that are equal in
-// all cells, or in a row, are computed outside the loop without any pass that moves code.
+// Internal to jit/. Scopes are nested like loops. So a value that is the same in all cells, or in
+// all cells of a row, is computed outside the inner loops, and no LLVM pass has to move its code.
 #pragma once
 
 #include "jit/kernel_shape.h"
@@ -23,12 +23,12 @@ inline llvm::Type* word_type(llvm::IRBuilderBase& builder, Precision precision) 
 /// A word as an LLVM constant.
 llvm::APFloat number_constant(std::uint64_t word, Precision precision);
 
-/// The data shared by all scopes of a kernel.
+/// Facts that all scopes of a kernel share.
 struct Body {
     const CellKernel& kernel;
     const KernelShape& shape;
     WordFormat format;
-    IdVector<ValueId, LoopLevel> levels;  ///< By value.
+    IdVector<ValueId, LoopLevel> levels;  ///< The level of each value.
     llvm::VectorType* number_type;        ///< <N x float>
     llvm::VectorType* bits_type;          ///< <N x i32>
 
@@ -37,25 +37,26 @@ struct Body {
     llvm::Constant* bits(std::uint64_t word) const;
 };
 
-/// Refers to `kernel` and `shape`.
+/// The result refers to `kernel` and `shape`.
 Body body_of(const CellKernel& kernel, const KernelShape& shape, Builder& builder);
 
-/// One value in up to three forms, which are made on request.
+/// One value in up to three forms. A form is made when it is first requested.
 struct Forms {
     llvm::Value* number = nullptr;  ///< <N x float>
     llvm::Value* bits = nullptr;    ///< <N x i32>
     llvm::Value* truth = nullptr;   ///< <N x i1>
-    bool is_boolean = false;        ///< It is 1 or 0, and `truth` says which.
+    bool is_boolean = false;        ///< The value is 1 or 0; `truth` says which.
     bool may_be_denormal = false;
-    bool is_choice = false;       ///< A constant, or a choice between constants only.
-    bool may_be_neutral = false;  ///< LLVM may find a constant in it, as in a branch of a choice.
+    bool is_choice = false;       ///< A constant, or a choice among constants only.
+    bool may_be_neutral = false;  ///< In some context, such as a branch of a choice, LLVM may find
+                                  ///< out that the value is a constant.
 };
 
 /// The values of one loop level. Values of outer levels are looked up in the enclosing scopes,
-/// which must outlive it.
+/// which must live longer than this one.
 class BodyScope {
 public:
-    /// `builder` writes at the end of this level's block, which has no terminator yet.
+    /// `builder` writes at the end of this level's block, which must not have a terminator yet.
     BodyScope(const Body& body, LoopLevel level, Builder& builder, Sources& sources,
               BodyScope* outer)
         : body_(body),
@@ -78,21 +79,23 @@ public:
     llvm::Value* bits(ValueId id);
     llvm::Value* truth(ValueId id);
 
-    /// A value as an operand of arithmetic, flushed where LLVM would not flush it.
+    /// A value as an operand of arithmetic. Flushes the value if LLVM might not flush it in the
+    /// operation.
     llvm::Value* operand(ValueId id);
-    /// The same if the operation is the identity when `partner`, the other operand, is the constant
-    /// `neutral` or minus that.
+    /// A value as an operand of an operation that returns it unchanged if `partner`, the other
+    /// operand, is `neutral` or −`neutral`. Flushes the value if LLVM might drop such an operation.
     llvm::Value* operand(ValueId id, ValueId partner, double neutral);
-    /// A value as a flushed number, however LLVM transforms its uses.
+    /// A value as a flushed number, whatever LLVM does with its uses.
     llvm::Value* flushed_number(ValueId id) {
         return forms(id).may_be_denormal ? flushed(id) : number(id);
     }
-    /// A value as one branch of a choice. `other` is the other branch.
+    /// A value as one branch of a choice. `other` is the value of the other branch.
     llvm::Value* branch(ValueId id, ValueId other);
 
-    /// The word of a value that is the same constant in all cells, also if only LLVM knows that.
+    /// The word of a value that is the same constant in all cells, even if only LLVM has found that
+    /// out.
     std::optional<std::uint64_t> constant_word(ValueId id);
-    /// A constant that all of LLVM takes for a variable.
+    /// A constant that LLVM treats as a variable in all its passes.
     llvm::Value* hidden(std::uint64_t word);
 
 private:
@@ -104,8 +107,9 @@ private:
     Builder& builder_;
     Sources& sources_;
     BodyScope* outer_;
-    std::map<std::uint64_t, llvm::Value*> hidden_;  ///< By word; only in the outermost scope.
-    IdVector<ValueId, Forms> values_;               ///< By value; only this level's.
+    std::map<std::uint64_t, llvm::Value*> hidden_;  ///< The variable for each word. Used only in
+                                                    ///< the outermost scope.
+    IdVector<ValueId, Forms> values_;               ///< The forms of each value of this level.
 };
 
 }  // namespace cascade

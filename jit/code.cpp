@@ -1,4 +1,4 @@
-// Builds modules and generates machine code.
+// Builds LLVM modules and generates machine code from them.
 #include "jit/code.h"
 
 #include "ir/multiply_add.h"
@@ -36,7 +36,7 @@ private:
     std::string& text_;
 };
 
-/// A function that calls others in order with its own arguments.
+/// A function that calls `functions` in order and passes its own arguments to each.
 llvm::Function* build_calls(llvm::Module& module, const std::vector<llvm::Function*>& functions,
                             const std::string& name) {
     auto* function = llvm::Function::Create(functions[0]->getFunctionType(),
@@ -50,7 +50,7 @@ llvm::Function* build_calls(llvm::Module& module, const std::vector<llvm::Functi
     return function;
 }
 
-/// Sets a machine's optimisation level and restores it in its destructor.
+/// Sets the optimisation level of a machine. The destructor restores the old level.
 class ScopedOptLevel {
 public:
     ScopedOptLevel(llvm::TargetMachine& machine, llvm::CodeGenOptLevel level)

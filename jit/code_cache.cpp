@@ -1,4 +1,5 @@
-// A stored kernel consists of its entry, a word, and its bytes.
+// The file of a kernel contains the offset of the kernel's function (CodeImage::entry) as a word,
+// followed by the bytes of the image.
 #include "jit/code_cache.h"
 
 #include <cstring>

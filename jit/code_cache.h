@@ -1,7 +1,6 @@
-// Compiled kernels stored on disk for later processes.
+// Stores compiled kernels on disk, so that later processes need not compile them.
 //
-// Internal to jit/. If anything is wrong with a file, the kernel counts as unknown
-// (core/kept_files.h).
+// Internal to jit/. A file that is damaged or cannot be read counts as absent (core/kept_files.h).
 #pragma once
 
 #include "core/kept_files.h"
@@ -16,17 +15,18 @@ namespace cascade {
 
 class CodeCache {
 public:
-    /// Above this number of bytes, the oldest files are removed.
+    /// The usual limit, in bytes. If all files together are larger than the limit, the oldest are
+    /// removed.
     static constexpr std::uint64_t usual_limit = std::uint64_t{64} << 20;
 
-    /// With an empty folder, stores and finds no kernels.
+    /// If `folder` is empty, find() finds no kernels and keep() does nothing.
     explicit CodeCache(std::filesystem::path folder, std::uint64_t limit = usual_limit)
         : files_(std::move(folder), {".kernel", "CascKrn2", limit}) {}
 
-    /// The image stored under this key. Thread-safe, as is `keep`.
+    /// The image stored under this key. Thread-safe, as is keep().
     std::optional<CodeImage> find(std::string_view key) const;
 
-    /// Stores an image if possible. Creates missing folders.
+    /// Stores an image if possible. Creates folders that do not exist.
     void keep(std::string_view key, const CodeImage& image);
 
 private:

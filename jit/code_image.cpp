@@ -1,4 +1,4 @@
-// Puts images into memory.
+// Loads images into executable memory.
 #include "jit/code_image.h"
 
 #include <fmt/format.h>
@@ -24,8 +24,8 @@ Result<std::unique_ptr<LoadedFunction>> LoadedFunction::load(const CodeImage& im
     char* pages = static_cast<char*>(memory);
     std::unique_ptr<LoadedFunction> function(new LoadedFunction(pages, image));
     std::memcpy(pages, image.bytes.data(), size);
-    // Processors other than x86 may still have the old content of this memory among their
-    // instructions.
+    // Processors other than x86 may still have the old content of this memory in their instruction
+    // cache.
     __builtin___clear_cache(pages, pages + size);
     if (::mprotect(pages, size, PROT_READ | PROT_EXEC) != 0) return refused();
     return function;

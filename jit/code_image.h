@@ -1,9 +1,8 @@
-// Machine code as bytes that run at any address.
+// Machine code as bytes that may be loaded at any address.
 //
-// Internal to jit/. Kernels call no functions and read only constants of their own, so LLVM's code
-// for them can be linked once (jit/link_image.h), into an image whose parts address each other
-// relative to themselves. An image can be stored in a file and run by another process, without a
-// linker and without LLVM.
+// Internal to jit/. Kernels call no functions and read only constants of their own. So their code
+// can be linked once (jit/link_image.h) into an image in which all addresses are relative. An image
+// can be stored in a file and run by another process, without a linker and without LLVM.
 #pragma once
 
 #include "core/result.h"
@@ -14,7 +13,8 @@
 
 namespace cascade {
 
-/// The function of kernels of float or double that fill columns; see jit/skeleton_grid.h.
+/// The type of the function of a kernel that fills columns of the halo. jit/skeleton_grid.h
+/// explains the arguments.
 template <typename Number>
 using GridFunction = void(const Number* const* fields, const std::uint8_t* const* masks,
                           const Number* uniforms, Number* const* results, std::int64_t column_begin,
@@ -22,7 +22,8 @@ using GridFunction = void(const Number* const* fields, const std::uint8_t* const
                           std::int64_t row_end, std::int64_t is_near, std::int64_t left_column,
                           std::int64_t right_column);
 
-/// The function for grids of several slices, which fills no columns.
+/// The type of the function of a kernel for grids of several slices. Such a kernel fills no
+/// columns.
 template <typename Number>
 using VolumeFunction = void(const Number* const* fields, const std::uint8_t* const* masks,
                             const Number* uniforms, Number* const* results,
@@ -30,7 +31,8 @@ using VolumeFunction = void(const Number* const* fields, const std::uint8_t* con
                             std::int64_t row_begin, std::int64_t row_end, std::int64_t is_near,
                             std::int64_t slice_rows, std::int64_t slice);
 
-/// The function for linked cells; see jit/skeleton_linked.h.
+/// The type of the function of a kernel for linked cells. jit/skeleton_linked.h explains the
+/// arguments.
 template <typename Number>
 using LinkedFunction = void(const Number* const* fields, const std::uint8_t* const* masks,
                             const Number* uniforms, Number* const* results,
@@ -42,16 +44,17 @@ using LinkedFunction = void(const Number* const* fields, const std::uint8_t* con
                             const Number* gradient_z, const std::uint16_t* filled, Number* pairs,
                             std::int64_t first_of_pairs, std::int64_t end_of_pairs);
 
-/// Code and constants of one function.
+/// The code and constants of one function.
 struct CodeImage {
-    std::string bytes;        ///< Must lie at a multiple of `alignment`.
-    std::uint64_t entry = 0;  ///< The offset of the function in the bytes.
+    std::string bytes;        ///< Must be loaded at a multiple of `alignment`.
+    std::uint64_t entry = 0;  ///< The offset of the function in `bytes`.
 
-    /// A page: AArch64 instructions split an address into its page and its offset in the page.
+    /// The size of a page, because AArch64 instructions split an address into a page and an offset
+    /// in the page.
     static constexpr std::uint64_t alignment = 4096;
 };
 
-/// A function in memory that may be executed but not written. Freed with this object.
+/// A function in memory that may be executed but not written. The destructor frees the memory.
 class LoadedFunction {
 public:
     static Result<std::unique_ptr<LoadedFunction>> load(const CodeImage& image);
@@ -60,7 +63,7 @@ public:
     LoadedFunction(const LoadedFunction&) = delete;
     LoadedFunction& operator=(const LoadedFunction&) = delete;
 
-    /// The function, cast to the type that the caller knows.
+    /// The function, cast to `Function`, which must be its type.
     template <typename Function>
     Function* as() const {
         return reinterpret_cast<Function*>(pages_ + entry_);

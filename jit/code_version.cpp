@@ -1,4 +1,4 @@
-// Part of both the program and the module, so that they can be compared.
+// Compiled into both the program and the module, so that their versions can be compared.
 #include "jit/code_version.h"
 
 #include "jit/generator.h"

@@ -1,4 +1,4 @@
-// The meaning of every operation of ir/operations.def in LLVM's instructions.
+// Translates every operation of ir/operations.def to LLVM's instructions.
 #include "jit/emit_body.h"
 
 #include "core/check.h"
@@ -17,11 +17,9 @@ namespace cascade {
 
 namespace {
 
-// Operations that only some processors have as an instruction.
-//
-// Internal to jit/.
+// Operations for which only some processors have an instruction.
 
-/// In all lanes, with the rounding of the environment.
+/// a · 2^b in all lanes, by an instruction that rounds as the environment says.
 llvm::Value* scaled_by_instruction(BodyScope& scope, llvm::Value* a, llvm::Value* b) {
     const Body& body = scope.body();
     Builder& builder = scope.builder();
@@ -35,8 +33,9 @@ llvm::Value* scaled_by_instruction(BodyScope& scope, llvm::Value* a, llvm::Value
                                    {a, b, a, all, builder.getInt32(current_rounding)});
 }
 
-/// The operations `round_to_even` and `scale_by_power`: an instruction if the processor has one,
-/// otherwise the sequence of ir/word_operations.h, with the same bits.
+/// The operation `round_to_even`. It uses a single instruction if the processor has one, otherwise
+/// the algorithm of ir/word_operations.h, which gives the same bits. `scale_by_power` below does
+/// the same.
 llvm::Value* rounded_to_even(BodyScope& scope, ValueId a) {
     const Body& body = scope.body();
     Builder& builder = scope.builder();
@@ -53,8 +52,8 @@ llvm::Value* rounded_to_even(BodyScope& scope, ValueId a) {
     return builder.CreateSelect(builder.CreateFCmpOLT(size, all_whole), with_sign, number);
 }
 
-// The added number is hidden: LLVM would drop a factor of 1, which flushes, and compute a product
-// of known factors without flushing it.
+// The added number is hidden, because LLVM would drop a factor of 1, which flushes, and would
+// evaluate a product of known factors without flushing.
 llvm::Value* scaled_by_power(BodyScope& scope, ValueId a, ValueId b) {
     const Body& body = scope.body();
     const WordFormat format = body.format;
@@ -100,7 +99,7 @@ private:
     Builder& builder_;
 };
 
-// Evaluates an operation on constants as the interpreter does.
+// The result of an operation on constants, computed by the interpreter's function evaluate().
 std::optional<Forms> BodyEmitter::evaluated(const Instruction& instruction) {
     std::array<std::uint64_t, 3> words{};
     const auto arity = static_cast<std::size_t>(info(instruction.op).arity);
@@ -252,7 +251,7 @@ Forms BodyEmitter::emit_arithmetic(const Instruction& instruction) {
     return value;
 }
 
-// LLVM drops a factor of ±1, and then an added 0.
+// LLVM drops a factor of ±1. It then treats the rest as a sum, and drops an added 0.
 Forms BodyEmitter::emit_multiply_add(const Instruction& instruction) {
     const auto [a, b, c] = instruction.operands;
     Forms value;
@@ -294,8 +293,8 @@ Forms BodyEmitter::emit_logic(const Instruction& instruction) {
     return value;
 }
 
-// A choice between numbers by their comparison would become the processor's min or max, which flush
-// denormals. Such words are chosen as integers.
+// LLVM would turn a choice between two compared numbers into the processor's min or max, which
+// flush denormals. So words that may be denormal are chosen as integers.
 Forms BodyEmitter::emit_select(const Instruction& instruction) {
     const auto [condition, then, otherwise] = instruction.operands;
     llvm::Value* choice = scope_.truth(condition);
@@ -327,13 +326,14 @@ Forms BodyEmitter::emit_word(const Instruction& instruction) {
     Forms value;
     if (instruction.op == Op::bits_to_number) {
         value.number = builder_.CreateSIToFP(a, body_.number_type);
-        // A tested bit needs no conversion.
+        // The number is true if the word is not 0. Testing the word avoids the conversion.
         value.truth = builder_.CreateICmpNE(a, body_.bits(0));
         return value;
     }
     llvm::Value* b = scope_.bits(instruction.operands[1]);
-    // Amounts above 31 (63) do not occur. The mask stops LLVM from drawing conclusions from that,
-    // and vanishes if the amount is a constant.
+    // Amounts above 31 (63) do not occur, but LLVM does not know this. In LLVM the result of such a
+    // shift is undefined, so LLVM might change other code that depends on it. The mask excludes
+    // such amounts. If the amount is a constant, LLVM removes the mask.
     const auto amount = [&] {
         return builder_.CreateAnd(b, body_.bits(static_cast<std::uint64_t>(body_.format.bits - 1)));
     };

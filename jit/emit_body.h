@@ -1,20 +1,23 @@
-// Translates cell kernels to LLVM instructions: the body of the loops that a skeleton builds.
+// Translates a cell kernel to LLVM's instructions, which form the body of the loops that a skeleton
+// builds.
 //
-// Internal to jit/. The kernel runs with denormal inputs and results flushed, and LLVM takes two
-// liberties there. It drops operations such as x * 1, which flush. So words that may be denormal
-// numbers are flushed by integer operations. And it computes with constants, also in the branches
-// of a choice between them, without flushing (or, LLVM 19, wrongly: 0 / (c ? 1 : 0) was NaN for
-// both). So operations on constants are evaluated here, by the interpreter's own definition, and
-// constants to choose from are loaded from memory that is opaque to LLVM.
+// Internal to jit/. While kernels run, the processor flushes denormal inputs and results. LLVM does
+// not respect this in two cases. First, it drops operations such as x * 1, which flush. So words
+// that may be denormal numbers are flushed by integer operations. Second, it evaluates operations
+// on constants without flushing, also if the constants are branches of a choice. (LLVM 19 also got
+// such a choice wrong: 0 / (c ? 1 : 0) was NaN for both values of c.) So operations on constants
+// are evaluated here, as the interpreter evaluates them, and constants that are branches of a
+// choice are loaded from a variable whose value LLVM cannot assume.
 #pragma once
 
 #include "jit/body_scope.h"
 
 namespace cascade {
 
-/// Writes all instructions of the scope's loop level, after the instructions of enclosing levels.
+/// Writes all instructions of the scope's loop level. Instructions of enclosing levels must have
+/// been written.
 void emit_body(BodyScope& scope);
-/// Writes some of them, in this order, and calls `after` after each.
+/// Writes the instructions of the given values, in this order, and calls `after` after each value.
 void emit_values(
     BodyScope& scope, llvm::ArrayRef<ValueId> values,
     llvm::function_ref<void(ValueId)> after = [](ValueId) {});

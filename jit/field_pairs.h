@@ -1,8 +1,9 @@
-// Pairs of the fields that a kernel reads over links.
+// Pairs of fields that a kernel reads over links.
 //
 // Internal to jit/. Before native code computes rows of linked cells, it copies the rows to which
-// their links lead and puts each pair's numbers side by side, so that one access of 64 bits reads
-// the numbers of both fields at a neighbour. Such accesses bound the loop over links.
+// their links lead. The copy has the numbers of both fields of a pair side by side, so one access
+// of 64 bits reads both at a neighbour. The loop over links is limited by the number of such
+// accesses.
 #pragma once
 
 #include "ir/cell_kernel.h"
@@ -15,8 +16,8 @@ namespace cascade {
 
 using FieldPair = std::array<FieldSlot, 2>;
 
-/// In ascending order of slots. If their number is odd, the last one has no pair. Only kernels of
-/// binary32 have pairs.
+/// The pairs, in ascending order of slots. If the number of fields is odd, the last field has no
+/// pair. Only kernels of binary32 have pairs.
 inline std::vector<FieldPair> field_pairs(const CellKernel& kernel) {
     if (kernel.precision != Precision::single) return {};
     std::set<FieldSlot> slots;

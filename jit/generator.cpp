@@ -11,7 +11,7 @@ namespace cascade {
 namespace {
 
 Result<const CodeGenerator*> load_generator() {
-    // Never unloaded, because threads may compile until the program ends.
+    // The module is never unloaded, because threads may compile until the program ends.
     void* module = ::dlopen(CASCADE_LLVM_MODULE, RTLD_LAZY | RTLD_LOCAL);
     if (!module) {
         const char* reason = ::dlerror();

@@ -1,8 +1,9 @@
-// The code generator: LLVM hidden by a table of functions.
+// The code generator: a table of functions behind which LLVM is hidden.
 //
-// Internal to jit/. Loading libLLVM takes longer than a small run, so all code that needs it is in
-// a module, `libcascade_llvm.so`, loaded at the first request for a kernel that no cache has. It is
-// found like a shared library, by the paths that the program, or libcascade, was linked with.
+// Internal to jit/. Loading libLLVM takes longer than a small run. So all code that needs LLVM is
+// in a module, `libcascade_llvm.so`, which is loaded only when a kernel is requested that is in no
+// cache. The module is searched for like a shared library, in the paths with which the program or
+// libcascade was linked.
 #pragma once
 
 #include "jit/code_image.h"
@@ -13,11 +14,12 @@
 
 namespace cascade {
 
-/// The functions of the module. Several threads may call them. Options have been checked.
+/// The functions of the module. Several threads may call them at once. Callers check the options
+/// first.
 struct CodeGenerator {
-    /// Machine code of a kernel for this processor.
+    /// The machine code of a kernel for this processor.
     Result<CodeImage> (*compile)(const CellKernel& kernel, const KernelShape& shape, int optimise);
-    // The functions of jit/jit.h.
+    // The functions of the same names in jit/jit.h.
     Result<std::string> (*dump_llvm)(const CellKernel&, Stencil, const JitOptions&);
     Result<std::string> (*dump_assembly)(const CellKernel&, Stencil, const JitOptions&);
     Result<std::vector<std::uint8_t>> (*compile_object)(const ObjectContent&, Stencil,
@@ -25,22 +27,23 @@ struct CodeGenerator {
     std::vector<std::string> (*known_targets)();
 };
 
-/// Loads the module at the first call. Fails if there is none, or if it is of another build.
+/// The table. The first call loads the module. Fails if there is no module, or if it belongs to
+/// another build.
 Result<const CodeGenerator*> code_generator();
 
-/// The name of the module's only symbol: a function that takes the caller's `code_version` and
+/// The name of the module's only symbol, a function. It takes the caller's `code_version` and
 /// returns the table, or null if the module's own version differs.
 inline constexpr const char* generator_symbol = "cascade_code_generator";
 using GeneratorEntry = const CodeGenerator*(const char* version);
 
-/// Differs between builds that may make different code of the same kernel: a hash of the sources of
-/// this room and of ir/, and of LLVM's version.
+/// A text that differs between two builds if they may generate different code for the same kernel:
+/// a hash of the sources of jit/ and ir/ and of LLVM's version.
 const char* code_version();
 
-/// Fails on options that are out of range.
+/// Fails if options are out of range.
 Result<void> check_options(const JitOptions& options);
 
-/// Changes when the machine's LLVM library is replaced. Empty if unknown.
+/// A text that changes when the machine's LLVM library is replaced. Empty if unknown.
 std::string llvm_identity();
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// The backend: compiles kernels, stores and returns them.
+// The backend: compiles kernels, stores them, and returns stored ones.
 #include "jit/jit.h"
 
 #include "core/check.h"
@@ -63,7 +63,7 @@ public:
     bool fills_columns() const override { return kernels_fill_columns(stencil_); }
 
 private:
-    /// One call for each slice that has some of the rows.
+    /// Calls the function once for each slice that contains some of the rows.
     void run_slices(const KernelArgumentsOf<Number>& arguments, RowRange rows,
                     ColumnRange columns) const {
         const PlaneLayout& layout = arguments.layout;
@@ -93,7 +93,8 @@ private:
                 copied.begin * layout.stride, copied.end * layout.stride);
         };
         if (pairs_ == 0) return run(rows, nullptr, {0, 0});
-        // Pairs for this many cells and their surroundings stay in a second-level cache.
+        // For this many cells, the copies of the pairs of fields in the cells and around them fit
+        // into a second-level cache.
         constexpr std::int64_t cells_of_part = 16384;
         const std::int64_t height = std::max(cells_of_part / layout.width, links.reach);
         static thread_local AlignedArray<Number> pairs;
@@ -112,7 +113,7 @@ private:
         }
     }
 
-    /// The rows to which links lead from these cells of a row, and that row.
+    /// The row of these cells, and all rows to which their links lead.
     static RowRange rows_around(const LinkTable<Number>& links, const PlaneLayout& layout,
                                 std::int64_t row, ColumnRange columns) {
         constexpr std::int64_t lanes = LinkTable<Number>::slice_cells;
@@ -137,8 +138,8 @@ private:
 /// A kernel that was compiled or is being compiled.
 using Compiling = std::shared_future<Result<KernelPointer>>;
 
-/// Above this number of kernels all are forgotten, so that a day at the prompt does not fill
-/// memory. Kernels in use live on.
+/// The largest number of stored kernels. If there are more, all are dropped, so that a long session
+/// does not fill the memory. Kernels that are in use are not destroyed.
 constexpr std::size_t most_known = 1024;
 
 class JitBackend final : public Backend {
@@ -159,7 +160,7 @@ public:
         Result<KernelPointer> made = failure("not compiled");
         try {
             made = make(kernel, shape, key);
-        } catch (...) {  // Out of memory. Waiting threads learn of it, too.
+        } catch (...) {  // Out of memory. Threads that wait get the exception, too.
             forget(key);
             promise.set_exception(std::current_exception());
             throw;
@@ -197,7 +198,8 @@ private:
         return shape;
     }
 
-    /// A known result for a kernel, without waiting; null while it is being made.
+    /// The result of compiling a kernel, without waiting. nullopt if the kernel is not known, and a
+    /// null pointer if it is still being compiled.
     std::optional<Result<KernelPointer>> find_known(const std::string& key) {
         const std::lock_guard lock(mutex_);
         const auto found = known_.find(key);
@@ -211,8 +213,8 @@ private:
         if (known_.size() >= most_known) known_.clear();
     }
 
-    /// The kernel that another thread has made or is making. If there is none, others wait for
-    /// `promise` from now on.
+    /// The kernel that another thread has compiled or is compiling. If no thread has, other threads
+    /// that request this kernel wait for `promise` from now on.
     std::optional<Compiling> find_or_announce(const std::string& key,
                                               std::promise<Result<KernelPointer>>& promise) {
         const std::lock_guard lock(mutex_);
@@ -243,7 +245,7 @@ private:
         });
     }
 
-    /// Code from an earlier process; null if there is none.
+    /// Loads the code that an earlier process stored on disk. Null if there is none.
     std::unique_ptr<LoadedFunction> load_kept(const std::string& file_key) {
         const auto image = cache_.find(file_key);
         if (!image) return nullptr;
@@ -272,7 +274,7 @@ private:
     CodeCache cache_;
     std::atomic<std::int64_t> compiled_{0}, found_{0};
     std::mutex mutex_;
-    std::unordered_map<std::string, Compiling> known_;  ///< By kernel_key.
+    std::unordered_map<std::string, Compiling> known_;  ///< The kernels by their kernel_key().
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Keys of compiled kernels.
+// Builds the keys of compiled kernels.
 #include "jit/kernel_key.h"
 
 #include "jit/generator.h"

@@ -1,4 +1,4 @@
-// The facts besides a kernel that determine its code.
+// Facts that determine the code of a kernel in addition to the kernel itself.
 //
 // Internal to jit/.
 #pragma once
@@ -11,16 +11,16 @@ namespace cascade {
 struct KernelShape {
     Stencil stencil = Stencil::plane;
     int lanes = 16;              ///< Cells per vector: 4, 8 or 16; half as many in binary64.
-    bool fills_columns = false;  ///< See HaloColumns.
-    // Features and strengths of the processor: see tuned() in jit/target_machine.h.
-    bool has_multiply_add = false;  ///< With one rounding, in one instruction.
+    bool fills_columns = false;  ///< Whether the kernel copies columns to the halo.
+    // Features of the processor, and what is fast on it. tuned() in jit/target_machine.h sets them.
+    bool has_multiply_add = false;  ///< One instruction computes a · b + c with one rounding.
     bool is_short_of_loads = false;
     bool has_fast_gathers = false;
-    bool has_rounding = false;  ///< Rounds to whole numbers in one instruction.
-    bool has_scaling = false;   ///< Scales vectors of 64 bytes by powers of two in one instruction.
+    bool has_rounding = false;  ///< One instruction rounds to whole numbers.
+    bool has_scaling = false;   ///< One instruction scales vectors of 64 bytes by powers of two.
 };
 
-/// The shape with vectors as wide as `lanes` cells of binary32.
+/// The shape for vectors of `lanes` cells of binary32, or of half as many cells of binary64.
 inline KernelShape shape_for(const CellKernel& kernel, Stencil stencil, int lanes) {
     return {stencil, kernel.precision == Precision::single ? lanes : lanes / 2};
 }

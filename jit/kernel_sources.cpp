@@ -1,4 +1,4 @@
-// Answers of sources that are asked at the wrong loop level.
+// Reports requests for sources at the wrong loop level, which are bugs.
 #include "jit/kernel_sources.h"
 
 #include "core/check.h"

@@ -1,7 +1,7 @@
-// The sources of ir/operations.def: the operations of a kernel without operands.
+// The sources of a kernel: its operations without operands (ir/operations.def).
 //
-// Internal to jit/. The emitter of a kernel's body knows no grids or links. It asks Sources for all
-// values that depend on where the cells lie.
+// Internal to jit/. The code that emits a kernel's body is the same for all kinds of cells. All
+// values that depend on the cells' positions or neighbours come from Sources.
 #pragma once
 
 #include "ir/loop_levels.h"
@@ -13,17 +13,18 @@
 
 namespace cascade {
 
-/// The folder knows LLVM's algebra and does not fold if a denormal is involved.
+/// A builder of instructions. InstSimplifyFolder simplifies them by algebraic rules, but evaluates
+/// no operation in which a denormal number is involved.
 using Builder = llvm::IRBuilder<llvm::InstSimplifyFolder>;
 
-/// The sources of one loop level. Asking for a source of another level is a bug. N is the number of
+/// The sources of one loop level. Only sources of this level may be requested. N is the number of
 /// lanes. In kernels of binary64, read double for float and i64 for i32, here and below.
 class Sources {
 public:
     virtual ~Sources() = default;
     // Sources of the call.
     virtual llvm::Value* uniform(UniformSlot slot);   ///< <N x float>
-    virtual llvm::Value* hidden(std::uint64_t word);  ///< <N x float>; see BodyScope::hidden
+    virtual llvm::Value* hidden(std::uint64_t word);  ///< <N x float>; see BodyScope::hidden.
     // Sources of the row.
     virtual llvm::Value* cell_row();    ///< <N x i32>
     virtual llvm::Value* cell_slice();  ///< <N x i32>
@@ -31,7 +32,8 @@ public:
     virtual llvm::Value* field(FieldSlot slot);             ///< <N x float>
     virtual llvm::Value* laplacian(FieldSlot slot);         ///< <N x float>
     virtual llvm::Value* neighbour(Neighbour at);           ///< <N x float>
-    virtual llvm::Value* link_sum(const Instruction& sum);  ///< <N x float>; all but `laplacian`
+    virtual llvm::Value* link_sum(const Instruction& sum);  ///< <N x float>; all sums except
+                                                            ///< `laplacian`.
     virtual llvm::Value* mask(MaskSlot slot);               ///< <N x i1>
     virtual llvm::Value* cell_column();                     ///< <N x i32>
     // Sources of the links.

@@ -1,7 +1,8 @@
-// One entry of a slice of links for a vector of cells, and the copies of fields that it reads.
+// Writes the code that reads one entry of a slice of links (core/links.h) for a vector of cells,
+// and the code that makes the copies of fields which it reads.
 //
-// Internal to jit/. Offsets and weights are loaded once, and a field's values at the targets are
-// read once, for any number of uses.
+// Internal to jit/. Offsets, weights and the fields' values at the targets are loaded once, however
+// often they are used.
 #pragma once
 
 #include "core/links.h"
@@ -16,13 +17,14 @@
 
 namespace cascade {
 
-/// Identifies a sum of a kernel.
+/// Identifies a sum over links by its operation and payload.
 using SumKey = std::pair<Op, std::uint64_t>;
 inline SumKey key_of(const Instruction& instruction) {
     return {instruction.op, instruction.payload};
 }
 
-/// The positions of a LinkTable's arrays among the extra arguments, and what pairs need.
+/// The positions of the extra arguments: the arrays of a LinkTable, followed by the arguments for
+/// pairs of fields.
 struct LinkArgument {
     enum Number : unsigned {
         starts,
@@ -42,13 +44,13 @@ struct LinkArgument {
 
 inline constexpr auto links_of_entry = static_cast<std::uint64_t>(LinkTable<float>::slice_cells);
 
-/// Copies of fields whose numbers are side by side.
+/// Copies of pairs of fields, in which the numbers of both fields are side by side.
 class PairedFields {
 public:
-    /// Writes the loop that makes the copies, and continues after it.
+    /// Writes the loop that makes the copies. `builder` continues after that loop.
     PairedFields(KernelFrame& frame, Builder& builder);
 
-    /// The pair with this field, if any.
+    /// The index of the pair that contains this field, if any.
     std::optional<std::size_t> with(FieldSlot slot) const;
     const FieldPair& slots(std::size_t pair) const { return pairs_[pair]; }
     bool empty() const { return pairs_.empty(); }
@@ -57,20 +59,20 @@ public:
         llvm::Value* number = builder.CreateSub(element, first_);
         return builder.CreateInBoundsGEP(both(builder), copies_[pair], number);
     }
-    /// Both numbers of a cell, as loads and gathers take them.
+    /// The type of a load or gather of both numbers of a cell.
     static llvm::Type* both(Builder& builder) { return builder.getDoubleTy(); }
 
 private:
     std::vector<FieldPair> pairs_;
     llvm::Value* first_;
-    std::vector<llvm::Value*> copies_;  ///< By pair.
+    std::vector<llvm::Value*> copies_;  ///< The copy of each pair.
 };
 
-/// The content of one entry of a slice for a vector of cells.
+/// The data of one entry of a slice for a vector of cells, as LLVM values.
 class LinkEntry final : public Sources {
 public:
-    /// `link` is the number of the vector's first link. Own values of `cells` are loaded where
-    /// these write.
+    /// `link` is the index of the vector's first link. The fields' values in the cells themselves
+    /// are taken from `cells`, whose code is outside the loop over entries.
     LinkEntry(KernelFrame& frame, Builder& builder, llvm::Value* link, CellSources& cells,
               const PairedFields& paired)
         : frame_(frame),
@@ -83,16 +85,16 @@ public:
         std::iota(lanes_.begin(), lanes_.end(), 0);
     }
 
-    /// The entry's term in a sum.
+    /// The term that the entry adds to a sum.
     llvm::Value* term(SumKey sum);
     llvm::Value* theirs(FieldSlot slot) override { return at_targets(slot); }
-    /// <N x i1>: whether a lane has a link instead of padding.
+    /// <N x i1>: whether each lane has a link, or only padding.
     llvm::Value* is_link();
-    /// Prefetches offsets and weights of later entries.
+    /// Prefetches the offsets and weights of later entries.
     void prefetch_ahead();
 
 private:
-    /// f_j − f_i.
+    /// The difference f_j − f_i of a field's values at the target and in the cell.
     llvm::Value* difference(FieldSlot slot);
     llvm::Value* at_targets(FieldSlot slot);
     void fetch_pair(std::size_t pair);
@@ -100,7 +102,7 @@ private:
     llvm::Value* loaded(llvm::Type* element, llvm::Value* base, llvm::ArrayRef<int> lanes);
     void load_offsets();
     llvm::Value* base();
-    /// The address of an array's element for each entry.
+    /// The address of this entry's element of an array that has one element for each entry.
     llvm::Value* address_of_entry(unsigned array, llvm::Type* element);
     llvm::Value* numbers(unsigned array);
     template <typename Load>
@@ -117,12 +119,13 @@ private:
     llvm::Value* link_;
     CellSources& cells_;
     const PairedFields& paired_;
-    std::vector<int> lanes_;                    ///< In order.
-    bool gathers_;                              ///< Uses vectors, by one instruction or two.
-    std::map<unsigned, llvm::Value*> numbers_;  ///< By array.
+    std::vector<int> lanes_;  ///< The numbers 0, 1, 2, ….
+    bool gathers_;  ///< Whether targets are read by gather instructions, one or two per vector.
+    std::map<unsigned, llvm::Value*> numbers_;  ///< The vector loaded from each array.
     std::map<FieldSlot, llvm::Value*> fields_, differences_;  ///< By slot.
     llvm::Value *base_ = nullptr, *is_link_ = nullptr;
-    std::vector<llvm::Value*> offsets_;  ///< By lane, or one vector of all lanes if gathered.
+    std::vector<llvm::Value*> offsets_;  ///< One for each lane, or if targets are gathered, one
+                                         ///< vector for all lanes.
 };
 
 }  // namespace cascade

@@ -1,4 +1,5 @@
-// A client of JITLink, which asks it for memory, symbols of other objects, and symbols to link.
+// A client of JITLink, which gives JITLink memory, symbols of other objects, and the list of
+// symbols to link.
 #include "jit/link_image.h"
 
 #include <fmt/format.h>
@@ -21,17 +22,18 @@ Failure as_failure(llvm::Error error) {
     return {"native code could not be linked: " + llvm::toString(std::move(error)), ""};
 }
 
-/// Links one object for an image at the address `base`.
+/// Links one object to an image at the address `base`.
 class ImageLink final : public jitlink::JITLinkContext, public jitlink::JITLinkMemoryManager {
 public:
-    /// The end of the link sets `result` and deletes this object.
+    /// At the end of the link, `result` is set and this object is deleted.
     ImageLink(llvm::StringRef name, std::uint64_t base, Result<CodeImage>& result)
         : JITLinkContext(nullptr), name_(name), base_(base), result_(result) {}
 
     jitlink::JITLinkMemoryManager& getMemoryManager() override { return *this; }
 
-    /// A target's own passes make tables: of absolute addresses, which no image may have, and for
-    /// unwinding the stack, which is needless, since kernels never throw.
+    /// Leaves out the usual passes for a target. They would add tables of absolute addresses, which
+    /// an image must not contain, and tables for unwinding the stack, which kernels do not need,
+    /// because they never throw.
     bool shouldAddDefaultTargetPasses(const llvm::Triple&) const override { return false; }
 
     llvm::Error modifyPassConfig(jitlink::LinkGraph&, jitlink::PassConfiguration& passes) override {
@@ -40,7 +42,7 @@ public:
         return llvm::Error::success();
     }
 
-    /// Puts all segments into the image, one after the other, and never two into one cache line.
+    /// Puts all segments into the image, one after another. No two segments share a cache line.
     void allocate(const jitlink::JITLinkDylib*, jitlink::LinkGraph& graph,
                   OnAllocatedFunction done) override {
         jitlink::BasicLayout layout(graph);
@@ -79,13 +81,14 @@ public:
     }
 
 private:
-    /// Memory that belongs to the image.
+    /// Memory inside the image. It is released with the image.
     class InImage final : public InFlightAlloc {
         void abandon(OnAbandonedFunction done) override { done(llvm::Error::success()); }
         void finalize(OnFinalizedFunction done) override { done(FinalizedAlloc()); }
     };
 
-    /// Marks the function. Code that it does not use, directly or indirectly, will not be linked.
+    /// Marks the function as used, so that only the function and the code that it uses, directly or
+    /// indirectly, are linked.
     llvm::Error find_function(jitlink::LinkGraph& graph) {
         for (jitlink::Symbol* symbol : graph.defined_symbols()) {
             if (symbol->hasName() && symbol->getName() == name_) function_ = symbol;
@@ -113,7 +116,9 @@ Result<CodeImage> link_at(std::uint64_t base, std::string_view object, std::stri
 }  // namespace
 
 Result<CodeImage> link_image(std::string_view object, std::string_view name) {
-    // Two addresses that differ in each of the 16 bits that an instruction may take from one.
+    // The object is linked at two addresses. If both images have the same bytes, the bytes do not
+    // depend on the address. The addresses differ in each 16-bit part, because an instruction may
+    // contain 16 bits of an address.
     constexpr std::uint64_t base = 0, other_base = 0x7a5b'3c5d'8e6f'9000;
     auto image = link_at(base, object, name);
     if (!image) return image;

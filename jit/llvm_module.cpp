@@ -1,4 +1,4 @@
-// The module's only symbol, and the target machines that make code.
+// The only symbol of the module, and the target machines that make code.
 #include "jit/llvm_module.h"
 
 #include "jit/code.h"
@@ -16,11 +16,11 @@ namespace cascade {
 namespace llvm_module {
 namespace {
 
-/// Idle target machines. One serves one thread at a time, and making one takes a good part of the
-/// time for compiling a kernel.
+/// Target machines that are not in use. Only one thread at a time may use a machine. They are kept,
+/// because making one takes a good part of the time of compiling a kernel.
 class IdleMachines {
 public:
-    /// Null if none has this optimisation level.
+    /// A machine with this optimisation level; null if none is idle.
     std::unique_ptr<llvm::TargetMachine> take(int optimise) {
         const std::lock_guard lock(mutex_);
         const auto found = std::find_if(machines_.begin(), machines_.end(),

@@ -1,4 +1,4 @@
-// Kernels as object files, and as text for people to read.
+// Writes kernels as object files, as LLVM IR and as assembly.
 #include "jit/code.h"
 #include "jit/llvm_module.h"
 #include "jit/target_machine.h"
@@ -12,7 +12,7 @@
 namespace cascade::llvm_module {
 namespace {
 
-/// Code of one kernel together with the machine it is for.
+/// The code of one kernel, with the machine for which it was made.
 struct Compiled {
     TargetChoice target;
     CodeModule code;

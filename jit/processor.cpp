@@ -1,4 +1,4 @@
-// Asks the processor for its identity and features.
+// Finds the identity and features of the processor by instructions such as CPUID.
 #include "jit/processor.h"
 
 #include <fmt/format.h>
@@ -15,14 +15,15 @@ namespace cascade {
 #if defined(__x86_64__)
 
 int host_lanes() {
-    // As LLVM does, these also check whether the system saves the registers.
+    // These checks, like LLVM's, also ensure that the operating system saves the registers.
     if (__builtin_cpu_supports("avx512f")) return 16;
     return __builtin_cpu_supports("avx") ? 8 : 4;
 }
 
 namespace {
 
-/// The vector registers that the system saves when it switches threads; 0 if unknown.
+/// The vector registers that the operating system saves when it switches threads, as bits; 0 if
+/// unknown.
 std::uint64_t kept_registers() {
     unsigned a = 0, b = 0, c = 0, d = 0;
     constexpr unsigned os_keeps_registers = 1u << 27;
@@ -39,17 +40,17 @@ std::string host_identity() {
     const auto add = [&](unsigned word) {
         identity.append(reinterpret_cast<const char*>(&word), sizeof word);
     };
-    // Maker; family, model and features; extended features; states; key locker; AVX10; AMD's
-    // features.
+    // The leaves of the instruction CPUID: maker; family, model and features; extended features;
+    // states; key locker; AVX10; AMD's features.
     constexpr unsigned leaves[][2] = {{0, 0},          {1, 0},         {7, 0},    {7, 1},
                                       {13, 1},         {0x14, 0},      {0x19, 0}, {0x24, 0},
                                       {0x80000001, 0}, {0x80000008, 0}};
     for (const auto& [leaf, part] : leaves) {
         unsigned a = 0, b = 0, c = 0, d = 0;
         __get_cpuid_count(leaf, part, &a, &b, &c, &d);
-        if (leaf == 1) b = 0;                   // Tells which core asks.
-        if (leaf == 13) b = 0;                  // Tells the current state.
-        if (leaf == 0x80000008) a = c = d = 0;  // Widths of addresses, number of cores.
+        if (leaf == 1) b = 0;                   // Contains the number of the core that runs this.
+        if (leaf == 13) b = 0;                  // Contains the current state.
+        if (leaf == 0x80000008) a = c = d = 0;  // Widths of addresses, and the number of cores.
         for (const unsigned word : {a, b, c, d}) add(word);
     }
     const std::uint64_t registers = kept_registers();
@@ -71,7 +72,7 @@ std::string host_identity() {
 #endif
 
 std::string kinds_of_cores(const std::string& cpuinfo) {
-    std::set<std::string> kinds;  // There are few, for any number of cores.
+    std::set<std::string> kinds;  // Small, because many cores are of the same kind.
     std::istringstream lines(cpuinfo);
     for (std::string line; std::getline(lines, line);) {
         if (line.starts_with("CPU ") || line.starts_with("Features")) kinds.insert(line);

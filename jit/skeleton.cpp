@@ -1,4 +1,4 @@
-// The loops over rows and vectors, loads from the cells themselves, and stores.
+// Writes the loops over rows and vectors, loads of the cells' own values, and stores.
 #include "jit/skeleton.h"
 
 #include "core/check.h"
@@ -29,10 +29,10 @@ Value* KernelFrame::hidden(std::uint64_t word) {
 void KernelFrame::prefetch(Builder& builder, Value* address) const {
     const auto word = [&](unsigned value) { return builder.getInt32(value); };
     builder.CreateIntrinsic(llvm::Intrinsic::prefetch, {builder.getPtrTy()},
-                            {address, word(0), word(3), word(1)});  // Arguments: read, to L1, data.
+                            {address, word(0), word(3), word(1)});  // A read; keep in L1; data.
 }
 
-// `table` is the number of the argument.
+// `table` is the position of the table among the arguments.
 Value* KernelFrame::plane(unsigned table, std::size_t slot) {
     Value*& address = planes_[{table, slot}];
     if (!address) {
@@ -137,8 +137,8 @@ Value* KernelLoops::rows(Builder& builder, Value* first, int together, WriteVect
     builder.CreateBr(test);
 
     builder.SetInsertPoint(test);
-    // The first row is added at once, because LLVM takes a phi node without incoming values for a
-    // number that is not 0.
+    // The node gets its first incoming value at once, because LLVM assumes that a phi node without
+    // incoming values is not 0.
     llvm::PHINode* row = builder.CreatePHI(builder.getInt64Ty(), 2, "row");
     row->addIncoming(first, before);
     Value* last = builder.CreateNSWAdd(row, builder.getInt64(together - 1));
@@ -158,9 +158,9 @@ Value* KernelLoops::rows(Builder& builder, Value* first, int together, WriteVect
     return row;
 }
 
-// `outside` writes the values of the rows to the block before the loop over their vectors. That
-// block gets its terminator last: values are still added to it while the loop is written, and
-// LLVM's folder, which follows jumps, fails at an empty block.
+// `outside` writes values of the rows to the block before the loop over their vectors. Values are
+// added to this block while the loop is written, so it gets its terminator last. Until then it must
+// not be empty, because InstSimplifyFolder follows jumps and fails at an empty block.
 std::vector<Value*> KernelLoops::columns(Value* row, int together, Builder& outside,
                                          llvm::BasicBlock* next, WriteVectors write_vectors) {
     llvm::BasicBlock* loop = frame_.new_block("cells");
@@ -228,8 +228,8 @@ llvm::Function* build_function(
     auto* function = llvm::Function::Create(type, llvm::GlobalValue::ExternalLinkage, name, module);
     function->setDoesNotThrow();
 
-    // Values computed once go to the end of the first block while the later loops are built, so
-    // that block gets its terminator last.
+    // Values that are computed once are added to the end of the first block while the later loops
+    // are built. So this block gets its terminator last.
     llvm::BasicBlock* entry = llvm::BasicBlock::Create(context, "entry", function);
     llvm::BasicBlock* begin = llvm::BasicBlock::Create(context, "begin", function);
     const llvm::InstSimplifyFolder folder(module.getDataLayout());

@@ -1,18 +1,18 @@
-// The common parts of all kernels' functions: their arguments, the loops over rows and over the
-// vectors of a row, loads from the cells themselves, and stores. Reads of other cells are in
-// skeleton_grid.cpp and skeleton_linked.cpp.
+// The parts that the functions of all kernels share: their arguments, the loops over rows and over
+// the vectors of a row, loads of the cells' own values, and stores. Code that reads other cells is
+// in skeleton_grid.cpp and skeleton_linked.cpp.
 //
-// Internal to jit/*.cpp. The first arguments of all functions (double for float in kernels of
-// binary64):
+// Internal to jit/*.cpp. The first arguments of all functions, with double for float in kernels of
+// binary64:
 //
 //     const float *const *fields, const unsigned char *const *masks,
 //     const float *uniforms, float *const *results,
 //     int64_t column_begin, int64_t column_end, int64_t stride, int64_t row_begin, int64_t row_end
 //
-// Pointers are to cell (0, 0, 0) of planes in the layout of PlaneLayout. Rows are rows of memory.
-// Columns [column_begin, column_end) of rows [row_begin, row_end) are computed in vectors of
-// `lanes` cells. `column_begin` is a multiple of PlaneLayout::row_pad. The last vector of a row may
-// run beyond `column_end`, at most to the next multiple.
+// Pointers are to cell (0, 0, 0) of planes in the layout of PlaneLayout. Rows are numbered by their
+// position in memory. The function computes columns [column_begin, column_end) of rows [row_begin,
+// row_end), in vectors of `lanes` cells. `column_begin` is a multiple of PlaneLayout::row_pad. The
+// last vector of a row may extend beyond `column_end`, at most to the next such multiple.
 #pragma once
 
 #include "jit/alias_scopes.h"
@@ -33,9 +33,9 @@ namespace cascade {
 
 inline llvm::Align alignment(int bytes) { return llvm::Align(static_cast<std::uint64_t>(bytes)); }
 
-constexpr int cache_line = 64;  ///< Bytes.
+constexpr int cache_line = 64;  ///< In bytes.
 
-/// The data shared by all rows and vectors: the arguments and the addresses of planes.
+/// The values shared by all rows and vectors: the arguments and the addresses of planes.
 class KernelFrame {
 public:
     /// `builder` writes to the block before the loops.
@@ -65,7 +65,7 @@ public:
     llvm::Value* stride() { return function_.getArg(6); }
     llvm::Value* row_begin() { return function_.getArg(7); }
     llvm::Value* row_end() { return function_.getArg(8); }
-    /// An argument after the common ones, counted from 0.
+    /// Argument `number`, counted from 0, of the arguments that follow the common ones.
     llvm::Value* extra_argument(unsigned number) {
         return function_.getArg(shared_arguments + number);
     }
@@ -77,7 +77,7 @@ public:
     llvm::Value* left_column() { return extra_argument(1); }
     llvm::Value* right_column() { return extra_argument(2); }
 
-    // Addresses of planes, loaded once.
+    // Addresses of planes. Each is loaded once.
     llvm::Value* field_plane(FieldSlot slot) { return plane(0, slot.index()); }
     llvm::Value* mask_plane(MaskSlot slot) { return plane(1, slot.index()); }
     llvm::Value* result_plane(std::size_t slot) { return plane(3, part_.results[slot]); }
@@ -89,17 +89,17 @@ public:
         return builder.CreateVectorSplat(static_cast<unsigned>(lanes()), element);
     }
 
-    /// Tells LLVM that no result overlaps the field, if it is read at neighbours.
+    /// If the field is read at neighbours, tells LLVM that no result overlaps it.
     template <typename Load>
     Load* mark(Load* load, FieldSlot slot) const {
         return kernel().reads_neighbours(slot) ? aliases_.mark(load, 0) : load;
     }
 
     llvm::Value* uniform(UniformSlot slot);
-    /// A constant that is loaded from a variable of the module, so that LLVM cannot fold it.
+    /// A constant loaded from a variable of the module, so that LLVM cannot fold it.
     llvm::Value* hidden(std::uint64_t word);
 
-    /// Prefetches a cache line. Any address will do, because a prefetch never faults.
+    /// Prefetches a cache line. The address may be invalid, because a prefetch never faults.
     void prefetch(Builder& builder, llvm::Value* address) const;
 
     llvm::BasicBlock* new_block(const char* name) {
@@ -122,19 +122,19 @@ private:
     std::map<std::pair<unsigned, std::size_t>, llvm::Value*> planes_;
 };
 
-/// The vector of cells that one execution of the innermost loop computes. All planes share one
-/// layout, so an element number serves all of them: an access is a plane's address plus this
-/// number, an addressing mode of the processor.
+/// The vector of cells that one execution of the innermost loop computes. All planes have the same
+/// layout, so the same element number serves all of them. An access adds this number to a plane's
+/// address, which costs nothing, because the processor has an addressing mode for it.
 struct CellVector {
-    llvm::Value* row = nullptr;         ///< Its number.
-    llvm::Value* row_start = nullptr;   ///< Element number of the row's first cell,
-    llvm::Value* first = nullptr;       ///< and of the first computed cell.
-    llvm::Value* element = nullptr;     ///< Element number of the vector's first cell.
-    CarriedVectors* carried = nullptr;  ///< Values from this vector to the next.
-    BodyScope* row_scope = nullptr;     ///< Values common to the row's cells.
+    llvm::Value* row = nullptr;         ///< The number of the row.
+    llvm::Value* row_start = nullptr;   ///< The element number of the row's first cell.
+    llvm::Value* first = nullptr;       ///< The element number of the first computed cell.
+    llvm::Value* element = nullptr;     ///< The element number of the vector's first cell.
+    CarriedVectors* carried = nullptr;  ///< Values passed from this vector to the next.
+    BodyScope* row_scope = nullptr;     ///< Values that all cells of the row share.
 };
 
-/// The values that the cells of a vector read of themselves, and their results.
+/// Loads the values of a vector's own cells, and stores their results.
 class CellSources : public Sources {
 public:
     CellSources(KernelFrame& frame, Builder& builder, const CellVector& vector)
@@ -144,19 +144,21 @@ public:
     llvm::Value* mask(MaskSlot slot) override;
     llvm::Value* cell_column() override;
     void store(std::size_t result, llvm::Value* number);
-    /// Writes a loop over the links of the cells, and defines its reductions in their scope.
+    /// Writes a loop over the links of the cells. Defines the results of its reductions in the
+    /// scope `cells`.
     virtual void reduce_links(BodyScope& cells, const LinkLoop& loop);
 
 protected:
-    // Hides from LLVM's strength reduction how an element number was computed. It would replace
-    // base plus number by one pointer for each plane and row, run out of registers and load the
-    // pointers from the stack again and again (1.2 to 1.5 times slower with five species).
+    // Hides from LLVM's strength reduction how an element number was computed. Otherwise LLVM would
+    // replace "base plus number" by one pointer for each plane and row, run out of registers, and
+    // load the pointers from the stack again and again (1.2 to 1.5 times slower with five species).
     llvm::Value* opaque(llvm::Value* element) { return builder_.CreateFreeze(element); }
 
     KernelFrame& frame_;
     Builder& builder_;
     CellVector vector_;
-    llvm::Value* element_;  ///< The vector's first element, made opaque.
+    llvm::Value* element_;  ///< The element number of the vector's first cell, hidden from LLVM by
+                            ///< opaque().
 
 private:
     std::map<FieldSlot, llvm::Value*> loads_;
@@ -165,25 +167,26 @@ private:
 /// Builds the loops around the body of a kernel.
 class KernelLoops {
 public:
-    /// Writes the computations for a vector of each of the rows that are computed together. Leaves
-    /// `builder` in a block without a terminator.
+    /// Writes the computation of one vector in each of the rows that are computed together. Must
+    /// leave `builder` in a block without a terminator.
     using WriteVectors =
         llvm::function_ref<void(llvm::ArrayRef<CellVector> vectors, Builder& builder)>;
-    /// Writes the code after the last vector of a row. `builder` as above.
+    /// Writes the code after the last vector of a row. Must also leave `builder` in a block without
+    /// a terminator.
     using WriteRowEnd = llvm::function_ref<void(llvm::Value* row_start, Builder& builder)>;
 
     explicit KernelLoops(KernelFrame& frame);
 
-    /// A loop over the rows from `first` on, `together` of them at a time while enough are left. It
-    /// begins where `builder` writes, which continues after it. Returns the row after the last
-    /// computed one.
+    /// Writes a loop over the rows from `first` on, which computes `together` rows at a time as
+    /// long as enough are left. The loop begins where `builder` writes, and `builder` continues
+    /// after it. Returns the first row that is not computed.
     llvm::Value* rows(Builder& builder, llvm::Value* first, int together,
                       WriteVectors write_vectors, WriteRowEnd write_row_end = nullptr);
-    /// Writes all values of a vector of cells, and the stores of its results.
+    /// Writes the code of all values of a vector of cells, and the stores of their results.
     void body(CellSources& cells, Builder& builder, const CellVector& vector);
 
 private:
-    /// The values common to all cells of a call, or of a row.
+    /// The sources that all cells of a call, or of a row, share.
     class OuterSources final : public Sources {
     public:
         OuterSources(KernelFrame& frame, Builder& builder, llvm::Value* row)
@@ -202,7 +205,8 @@ private:
         llvm::Value* row_;  ///< Null before the loops.
     };
 
-    /// Returns the element number of the first cell of each row.
+    /// Writes the loop over the vectors of some rows. Returns the element number of the first cell
+    /// of each row.
     std::vector<llvm::Value*> columns(llvm::Value* row, int together, Builder& outside,
                                       llvm::BasicBlock* next, WriteVectors write_vectors);
 
@@ -213,9 +217,9 @@ private:
     BodyScope scope_;
 };
 
-/// Adds a function to `module`, whose data layout is already the target's. It has the common
-/// arguments, arguments of the types `extra`, and the code that `write_loops` writes, which ends
-/// with a return.
+/// Adds a function to `module`, which must have the target's data layout already. The function has
+/// the common arguments, and arguments of the types `extra`. Its code is what `write_loops` writes,
+/// followed by a return.
 llvm::Function* build_function(
     llvm::Module& module, const KernelPart& part, const KernelShape& shape, const std::string& name,
     llvm::ArrayRef<llvm::Type*> extra,

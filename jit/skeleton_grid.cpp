@@ -1,7 +1,7 @@
-// Neighbours on grids, and prefetches.
+// Reads of neighbours on grids, and prefetches.
 //
-// With the element numbers of the rows above and below, the innermost loop needs as many registers
-// as there are planes, plus four.
+// The innermost loop has the element numbers of the rows above and below in registers. It needs
+// four registers more than there are planes.
 #include "jit/skeleton_grid.h"
 
 #include "jit/skeleton.h"
@@ -18,25 +18,25 @@ namespace {
 
 using llvm::Value;
 
-// While a row of at least this width is computed, the next one is prefetched. On narrower rows the
-// processor prefetches far enough ahead by itself, and explicit prefetches cost 5 to 10 %. Vectors
-// of half a cache line prefetch each line twice, which pays only for planes that do not fit into
+// While a row of at least this width is computed, the next row is prefetched. On narrower rows the
+// processor itself prefetches far enough ahead, and explicit prefetches cost 5 to 10 %. Vectors of
+// half a cache line prefetch each line twice, which saves time only if the planes do not fit into
 // the caches.
 std::int64_t least_width_to_prefetch(int vector_bytes) {
     return vector_bytes == cache_line ? 128 : 1024;
 }
 
-// Kernels up to this size get a second loop without prefetching, for narrow planes and for fields
-// in a near cache. In larger kernels prefetches had no measurable cost, while compiling the loop
-// twice would take time.
+// Kernels up to this size get a second loop without prefetches, for narrow planes and for fields in
+// a near cache. In larger kernels prefetches had no measurable cost, and compiling the loop twice
+// would take time.
 constexpr std::size_t largest_twofold_kernel = 64;
 
-/// Numbers of elements from a row to other rows, computed once.
+/// Distances between rows in elements. Each is computed once.
 class RowOffsets {
 public:
     explicit RowOffsets(KernelFrame& frame) : frame_(frame) {}
 
-    /// The distance to the row that is `rows` rows and `slices` slices away.
+    /// The distance from a row to the one that is `rows` rows and `slices` slices away.
     Value* to(int rows, int slices) {
         Value*& offset = offsets_[{rows, slices}];
         if (!offset) {
@@ -51,8 +51,8 @@ public:
         return offset;
     }
 
-    /// The distance to the row `rows` rows below, if the fields are not in a near cache. Otherwise
-    /// 0, because prefetches would evict values that are read sooner.
+    /// The distance to the row that is `rows` rows below. It is 0 if the fields are in a near
+    /// cache, because prefetches would then evict values that are read sooner.
     Value* ahead(int rows) {
         Value*& offset = ahead_[rows];
         if (!offset) {
@@ -69,10 +69,11 @@ private:
     std::map<int, Value*> ahead_;
 };
 
-/// A read of a vector of cells: a field, and the numbers of rows, columns and slices to it.
+/// A read by a vector of cells: a field, and the numbers of rows, columns and slices from the
+/// vector to the cells that are read.
 using Reading = std::tuple<FieldSlot, int, int, int>;
 
-/// All reads of a kernel, each once.
+/// All different reads of a kernel.
 std::set<Reading> readings_of(const CellKernel& kernel, Stencil stencil) {
     std::set<Reading> readings;
     for (const Instruction& instruction : kernel.code) {
@@ -95,16 +96,17 @@ std::set<Reading> readings_of(const CellKernel& kernel, Stencil stencil) {
     return readings;
 }
 
-// Kernels with more operations per vector read than this have time for their loads: with 4.4
-// (chemotaxis) shifting cost 3 %, with at most 3 it saves 2 to 8 %.
+// In kernels with more operations per load than this, loads are not the limit, so shifting saves no
+// time. With 4.4 operations per load (chemotaxis) shifting cost 3 %, and with at most 3 it saves 2
+// to 8 %.
 constexpr std::size_t most_operations_a_load = 4;
 
-// Each takes one register of the loop.
+// The largest number of shifted fields. Each takes one register of the loop.
 constexpr std::size_t most_shifted_fields = 8;
 
-/// The fields whose eastern neighbours are shifted together from this vector and the next one,
-/// which stays in a register until the loop comes there. The western neighbours are loaded, because
-/// shifting them, too, would take two more operations of the arithmetic units.
+/// The fields whose eastern neighbours are not loaded. They are combined by a shift from this
+/// vector and the next one, which stays in a register until the loop reaches it. Western neighbours
+/// are loaded, because shifting them, too, would take two more operations of the arithmetic units.
 std::set<FieldSlot> shifted_fields(const KernelFrame& frame) {
     std::set<FieldSlot> fields;
     if (!frame.shape().is_short_of_loads || frame.vector_bytes() != cache_line) return fields;
@@ -124,21 +126,21 @@ std::set<FieldSlot> shifted_fields(const KernelFrame& frame) {
     return fields;
 }
 
-/// What a loop over rows prefetches for the next one.
+/// Which cells of the next row the loop over rows prefetches.
 enum class Fetching { nothing, ahead, unless_near };
 
-/// Reads shared by the vectors of rows that are computed together, by row from the first of them:
-/// the row below one is the next one itself.
+/// Values that rows computed together share: the row below a row of the group is the group's next
+/// row. Keys are row indices, counted from the group's first row.
 struct CommonReadings {
     std::map<std::pair<int, int>, Value*> elements;  ///< By row and slice.
     std::map<Reading, Value*> loads;
-    std::map<int, Value*> fetched;  ///< By row, unless near.
+    std::map<int, Value*> fetched;  ///< By row. Not used if the fields are in a near cache.
 };
 
-/// The values that cells of a grid read.
+/// The values that the cells of a grid read.
 class GridSources final : public CellSources {
 public:
-    /// `row` is the index of the vector's row among the rows that are computed together, in order.
+    /// `row` is the index of the vector's row in the group of rows that are computed together.
     GridSources(KernelFrame& frame, Builder& builder, const CellVector& vector, RowOffsets& offsets,
                 const std::set<FieldSlot>& shifted, CommonReadings& common, int row)
         : CellSources(frame, builder, vector),
@@ -173,7 +175,7 @@ private:
 
     RowOffsets& offsets_;
     const std::set<FieldSlot>& shifted_;
-    std::map<FieldSlot, Value*> carried_;  ///< The cells' values of shifted fields.
+    std::map<FieldSlot, Value*> carried_;  ///< The vector's own values of shifted fields.
     CommonReadings& common_;
     int row_;
 };
@@ -220,7 +222,7 @@ Value* GridSources::east(FieldSlot slot) {
     return builder_.CreateShuffleVector(own, vector_.carried->given(slot), lanes);
 }
 
-// The specification gives the order of the sums: ((((N + S) + E) + W) + U) + D.
+// Adds in the order of the specification: ((((N + S) + E) + W) + U) + D.
 Value* GridSources::laplacian(FieldSlot slot) {
     const Stencil stencil = frame_.stencil();
     Value* sum = nullptr;
@@ -240,9 +242,10 @@ Value* GridSources::laplacian(FieldSlot slot) {
     return without_own(sum, field(slot));
 }
 
-// The sum minus 2, 4 or 6 times the cell's own value. 2 and 4 times a number are exact unless they
-// overflow, so one rounding gives the same as two. The specification asks for one, also if the
-// multiple overflows, so that all processors agree. 6 times a number is rounded.
+// The sum minus 2, 4 or 6 times the cell's own value. Multiples by 2 and 4 are exact unless they
+// overflow, so rounding once gives the same result as rounding twice. The specification demands a
+// single rounding even if the multiple overflows, so that all processors agree. The multiple by 6
+// is rounded before it is subtracted.
 Value* GridSources::without_own(Value* sum, Value* own) {
     llvm::Type* type = own->getType();
     const auto number = [&](double value) { return llvm::ConstantFP::get(type, value); };
@@ -268,7 +271,7 @@ Value* GridSources::neighbour(Neighbour at) {
     return beside(at.slot, stencil.y ? at.dy : 0, stencil.x ? at.dx : 0, stencil.z ? at.dz : 0);
 }
 
-// The address may lie beyond the plane.
+// The address may be beyond the plane.
 void GridSources::prefetch(FieldSlot slot, int rows, Fetching fetching) {
     Value* ahead = nullptr;
     if (fetching == Fetching::ahead) {
@@ -281,8 +284,9 @@ void GridSources::prefetch(FieldSlot slot, int rows, Fetching fetching) {
     frame_.prefetch(builder_, builder_.CreateGEP(frame_.number(), frame_.field_plane(slot), ahead));
 }
 
-/// Fills the halo columns of a row whose cells are written, if the caller asks for it. The cells
-/// are in the cache or on the way there, and the copies overlap with the computation of later rows.
+/// Fills the halo columns of a row whose cells have been written, if the arguments name columns.
+/// This takes little time: the cells are in the cache or will soon be, and the processor copies
+/// them while it computes later rows.
 void fill_columns(KernelFrame& frame, Value* row_start, Builder& builder) {
     llvm::BasicBlock* fill = frame.new_block("fill_columns");
     llvm::BasicBlock* filled = frame.new_block("columns_filled");
@@ -306,8 +310,9 @@ void fill_columns(KernelFrame& frame, Value* row_start, Builder& builder) {
     builder.SetInsertPoint(filled);
 }
 
-/// Two rows at a time take fewer loads, since each row's neighbours include the other row. Vectors
-/// of a whole cache line have units for all of their loads and gain less.
+/// Whether two rows are computed at a time. Two rows need fewer loads, because each is a neighbour
+/// of the other. For vectors of a whole cache line this saves less time, because the processor has
+/// enough units for all their loads.
 bool takes_two_rows(const KernelFrame& frame) {
     if (frame.vector_bytes() != cache_line / 2) return false;
     if (frame.kernel().code.size() > largest_twofold_kernel) return false;
@@ -316,8 +321,9 @@ bool takes_two_rows(const KernelFrame& frame) {
                        [](const Reading& each) { return std::get<1>(each) != 0; });
 }
 
-/// All rows, with or without prefetches of the cells that the next row will be the first to read:
-/// its own cells, or, in fields that are read at neighbours, the cells below it.
+/// Writes the loops over all rows. While a row is computed, the loops may prefetch the cells that
+/// no row before the next row reads: the cells of the next row, or, in fields that are read at
+/// neighbours, the cells of the row below it.
 void build_rows(KernelFrame& frame, KernelLoops& loops, RowOffsets& offsets,
                 const std::set<FieldSlot>& shifted, Fetching fetching, Builder& builder) {
     std::map<FieldSlot, int> rows_ahead;
@@ -345,7 +351,8 @@ void build_rows(KernelFrame& frame, KernelLoops& loops, RowOffsets& offsets,
     builder.CreateRetVoid();
 }
 
-/// The loops, once or twice.
+/// Writes the loops over all rows, and for small kernels a second version of them without
+/// prefetches.
 void build_loops(KernelFrame& frame, KernelLoops& loops, Builder& builder) {
     RowOffsets offsets(frame);
     const std::set<FieldSlot> shifted = shifted_fields(frame);

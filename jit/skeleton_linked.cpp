@@ -1,7 +1,7 @@
 // The loops over links.
 //
-// For each vector of cells, one loop over the entries of its slice computes all sums of the kernel
-// together. Each group of reductions that wait for each other has one more loop.
+// For each vector of cells, one loop over the entries of its slice computes all sums of the kernel.
+// Reductions have further loops (CellSchedule in ir/loop_levels.h).
 #include "jit/skeleton_linked.h"
 
 #include "jit/link_entry.h"
@@ -15,8 +15,8 @@ namespace {
 
 using llvm::Value;
 
-/// Calls `write(entry, inner, totals)` for the entries of a loop. It writes with `inner` and
-/// returns the totals after an entry.
+/// Writes the code of one entry with `inner`. Takes the totals before the entry and returns the
+/// totals after it.
 using WriteEntry = llvm::function_ref<std::vector<Value*>(LinkEntry& entry, Builder& inner,
                                                           llvm::ArrayRef<Value*> totals)>;
 
@@ -42,17 +42,17 @@ private:
     Value* start_of(Value* slice);
     Value* without_minus(Value* sum);
     std::vector<Value*> over_entries(llvm::ArrayRef<llvm::Constant*> first, WriteEntry write);
-    /// A number in all lanes.
+    /// A vector with a number in all lanes.
     llvm::Constant* number(double value) const {
         return llvm::ConstantFP::get(frame_.vector_of(frame_.number()), value);
     }
 
     const PairedFields& paired_;
     std::map<SumKey, Value*> sums_;
-    Value *first_ = nullptr, *end_ = nullptr;  ///< Numbers of links.
+    Value *first_ = nullptr, *end_ = nullptr;  ///< Indices of links.
 };
 
-/// The number of the first link of a slice.
+/// The index of the first link of a slice.
 Value* LinkedSources::start_of(Value* slice) {
     llvm::Type* index = builder_.getInt32Ty();
     Value* address =
@@ -63,11 +63,11 @@ Value* LinkedSources::start_of(Value* slice) {
                               builder_.getInt64(links_of_entry));
 }
 
-/// The vector's links, once.
+/// Writes the code that finds the links of the vector. Later calls do nothing.
 void LinkedSources::find_links() {
     if (first_) return;
     const auto count = [&](std::uint64_t number) { return builder_.getInt64(number); };
-    // The stride is the width of whole slices plus one slice of padding on each side.
+    // The stride is the width of all slices of a row, plus one slice of padding on each side.
     Value* slices =
         builder_.CreateSub(builder_.CreateUDiv(frame_.stride(), count(links_of_entry)), count(2));
     Value* column = builder_.CreateSub(element_, vector_.row_start);
@@ -78,9 +78,10 @@ void LinkedSources::find_links() {
     end_ = start_of(builder_.CreateAdd(slice, count(1)));
 }
 
-// A slice may have no entries. Values of the cells that the entries need are written to the block
-// before the loop until the loop is written, so that block gets its terminator last. Until then
-// loads replace the phi nodes, because LLVM's folder draws wrong conclusions from unfinished ones.
+// A slice may have no entries. Values of the cells that the entries need are added to the block
+// before the loop while the loop is written, so this block gets its terminator last. Until the loop
+// is complete, loads replace its phi nodes, because InstSimplifyFolder draws wrong conclusions from
+// unfinished phi nodes.
 std::vector<Value*> LinkedSources::over_entries(llvm::ArrayRef<llvm::Constant*> first,
                                                 WriteEntry write) {
     find_links();
@@ -111,7 +112,7 @@ std::vector<Value*> LinkedSources::over_entries(llvm::ArrayRef<llvm::Constant*> 
         llvm::PHINode* node = phi(at_first, later);
         load->replaceAllUsesWith(node);
         llvm::cast<llvm::Instruction>(load)->eraseFromParent();
-        return node->getIncomingValue(1);  // This may have been the load.
+        return node->getIncomingValue(1);  // The value may have been the replaced load.
     };
     replace(link, first_, next_link);
     std::vector<Value*> results;
@@ -137,8 +138,8 @@ void LinkedSources::add_up() {
     for (auto& [key, value] : sums_) value = totals[k++];
 }
 
-// Turns −0 into 0 as an integer. LLVM assumes that sums beginning with 0 are never −0, but flushed
-// sums may be.
+// Turns −0 into 0 by integer operations. LLVM assumes that a sum beginning with 0 is never −0, but
+// a flushed sum may be −0.
 Value* LinkedSources::without_minus(Value* sum) {
     llvm::Type* words = frame_.vector_of(frame_.word());
     Value* const bits = builder_.CreateBitCast(sum, words);
@@ -166,7 +167,7 @@ void LinkedSources::reduce_links(BodyScope& cells, const LinkLoop& loop) {
         for (const ValueId id : loop.reductions) {
             const auto [op, operands, payload] = instruction(id);
             Value* const before = totals[next.size()];
-            // In lanes without a link, the initial value changes no total.
+            // A lane without a link adds the initial value, which changes no total.
             Value* const a = inner.CreateSelect(entry.is_link(), links.flushed_number(operands[0]),
                                                 first[next.size()]);
             if (op == Op::link_sum) {

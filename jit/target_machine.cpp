@@ -1,4 +1,4 @@
-// Looks up targets and their features.
+// Looks up target machines and their features.
 #include "jit/target_machine.h"
 
 #include "jit/llvm_module.h"
@@ -17,7 +17,8 @@
 namespace cascade {
 namespace {
 
-/// Registers the native code generator in LLVM's registry. Returns whether it has one.
+/// Registers the host's code generator with LLVM. Returns whether LLVM has a code generator for
+/// this host.
 bool initialise_target() {
     static const bool done =
         !llvm::InitializeNativeTarget() && !llvm::InitializeNativeTargetAsmPrinter();
@@ -127,7 +128,8 @@ KernelShape tuned(KernelShape shape, const llvm::TargetMachine& machine) {
 void set_target(llvm::Function& function, const llvm::TargetMachine& machine, int vector_bytes) {
     function.addFnAttr("target-cpu", machine.getTargetCPU());
     function.addFnAttr("target-features", machine.getTargetFeatureString());
-    // Processors that prefer vectors narrower than their widest would split ours without this.
+    // Without this attribute, LLVM would split vectors for processors that prefer narrower vectors
+    // than their widest.
     const std::string bits = std::to_string(8 * vector_bytes);
     function.addFnAttr("prefer-vector-width", bits);
     function.addFnAttr("min-legal-vector-width", bits);

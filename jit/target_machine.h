@@ -15,43 +15,46 @@
 
 namespace cascade {
 
-/// A target machine and the number of cells in its vectors.
+/// A target machine, and the number of cells in a vector.
 struct TargetChoice {
     std::unique_ptr<llvm::TargetMachine> machine;
     int lanes = 0;
 };
 
-/// The target machine for a CPU of the host's architecture, by LLVM's name; "" is the host with all
-/// its features. The number of lanes is as `options` asks, or by the CPU's widest vectors. Options
-/// are in range. Fails on a CPU that LLVM does not know.
+/// The target machine for a CPU of the host's architecture. `cpu` is LLVM's name of it; "" is the
+/// host with all its features. The number of lanes is that of `options`, or, if this is 0, the
+/// number of the CPU's widest vectors. Callers must check the options first. Fails for a CPU that
+/// LLVM does not know.
 Result<TargetChoice> choose_target(const std::string& cpu, const JitOptions& options);
 
-/// Floats in the widest vector that this CPU computes with: 4, 8 or 16.
+/// The number of floats in the widest vectors of this CPU: 4, 8 or 16.
 int widest_lanes(const llvm::TargetMachine& machine);
 
-/// Whether a * b + c with one rounding is an instruction.
+/// Whether one instruction computes a * b + c with one rounding.
 bool has_multiply_add(const llvm::TargetMachine& machine);
 
-/// Whether shifting two vectors together costs less than a load across two cache lines. Zen 4 loads
-/// 64 bytes a cycle and 32 a cycle across lines, while it shifts and computes 64.
+/// Whether combining two vectors by a shift takes less time than a load across two cache lines. In
+/// one cycle, Zen 4 loads 64 bytes inside a line or 32 bytes across lines, while it shifts and
+/// computes 64.
 bool is_short_of_loads(const llvm::TargetMachine& machine);
 
-/// Whether gathering a vector takes less time than a load for each of its numbers: on Intel's
-/// processors since 2021. On AMD's it takes about as long, and older Intel processors are slowed
-/// down by the mitigation of "gather data sampling". Neither has the instruction checked here.
+/// Whether gathering a vector takes less time than loading each of its numbers. This is so on
+/// Intel's processors since 2021, and the function checks for a feature that only these have. On
+/// older Intel processors, the mitigation of "gather data sampling" slows gathers down. On AMD's
+/// processors, gathers take about as long as loads.
 bool has_fast_gathers(const llvm::TargetMachine& machine);
 
-/// Whether rounding to whole numbers, ties to even, is an instruction.
+/// Whether one instruction rounds to whole numbers, ties to even.
 bool has_rounding(const llvm::TargetMachine& machine);
 
-/// The same shape with the features and strengths of this processor.
+/// The shape, with all members set that depend on the processor.
 KernelShape tuned(KernelShape shape, const llvm::TargetMachine& machine);
 
-/// Sets the attributes that let LLVM use the processor's features, and the arithmetic of the
-/// specification: strict, with denormals flushed to zero of the same sign.
+/// Sets the attributes that let LLVM use the processor's features and that select the arithmetic of
+/// the specification: strict, with denormals flushed to zero of the same sign.
 void set_target(llvm::Function& function, const llvm::TargetMachine& machine, int vector_bytes);
 
-/// Name of the host's CPU as LLVM knows it.
+/// LLVM's name of the host's CPU.
 std::string host_cpu_name();
 
 }  // namespace cascade

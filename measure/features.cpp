@@ -1,4 +1,5 @@
-// Uniform fields only have a mean. Spots are counted halfway from smallest to largest value.
+// Of a uniform field only the values are measured. Spots are regions above the mean of the smallest
+// and the largest value.
 #include "measure/features.h"
 
 #include "core/spread.h"
@@ -19,20 +20,21 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-// The direction of stripes, from the structure tensor.
+// The following functions find the direction of stripes from the structure tensor.
 
 /// The direction of a pattern in the plane of x and y.
 struct Orientation {
-    /// The direction of the stripes, in degrees from the x axis towards the y axis, [0, 180). y
+    /// The direction of the stripes in degrees, [0, 180), from the x axis towards the y axis. y
     /// points down in pictures, so 45 is a line from the upper left to the lower right.
     double angle = 0;
-    /// 0 without a preferred direction, 1 for straight parallel stripes.
+    /// 0 without a preferred direction, and 1 for straight parallel stripes.
     double anisotropy = 0;
 };
 
-/// The derivative along an axis, per cell, of sixth order: exact to 1 % for waves of 6 cells, while
-/// f(1) − f(−1) alone would lose a sixth. If it would read a cell outside the domain, it is of
-/// second order, and a neighbour outside counts as the cell itself.
+/// The derivative along an axis, per cell. It is of sixth order, so that its error is 1 % for waves
+/// of 6 cells. With f(1) − f(−1) alone, the error would be a sixth. Next to the border of the
+/// domain it is of second order, and a neighbour outside counts as having the value of the cell
+/// itself.
 double derivative(const Samples& samples, std::size_t cell, std::size_t axis) {
     constexpr std::array weights{0.75, -0.15, 1.0 / 60};
     double sum = 0;
@@ -48,11 +50,11 @@ double derivative(const Samples& samples, std::size_t cell, std::size_t axis) {
     return ((std::isfinite(ahead) ? ahead : here) - (std::isfinite(behind) ? behind : here)) / 2;
 }
 
-/// With J = ⟨∇f ∇fᵀ⟩, the mean over all cells (of central differences of sixth order), the gradient
-/// has the direction φ = ½ atan2(2 Jxy, Jxx − Jyy), perpendicular to the stripes. The anisotropy is
-/// the coherence √((Jxx − Jyy)² + 4 Jxy²) / (Jxx + Jyy). J. Bigün and G. H. Granlund, "Optimal
-/// orientation detection of linear symmetry", ICCV 1987. Both are NaN for uniform fields and
-/// one-dimensional grids.
+/// Let J = ⟨∇f ∇fᵀ⟩ be the mean over all cells, where ∇f is computed by central differences of
+/// sixth order. The main direction of the gradient is then φ = ½ atan2(2 Jxy, Jxx − Jyy),
+/// perpendicular to the stripes. The anisotropy is the coherence √((Jxx − Jyy)² + 4 Jxy²) / (Jxx +
+/// Jyy). J. Bigün and G. H. Granlund, "Optimal orientation detection of linear symmetry", ICCV
+/// 1987. Both results are NaN for uniform fields and one-dimensional grids.
 Orientation orientation_of(const Samples& samples) {
     if (samples.cells[0] == 1 || samples.cells[1] == 1) return {none, none};
     double xx = 0, yy = 0, xy = 0;
@@ -71,7 +73,7 @@ Orientation orientation_of(const Samples& samples) {
     return {angle, std::hypot(xx - yy, 2 * xy) / (xx + yy)};
 }
 
-/// Sets mean, deviation, smallest and largest; NaN if there are no cells.
+/// Sets the mean, deviation, smallest and largest value. They are NaN if there are no cells.
 Spread measure_values(const Samples& samples, Features& features) {
     const Spread spread = spread_of([&](const auto& take) {
         for (const double value : samples.values) take(value);
@@ -104,7 +106,7 @@ Features from_array(const std::array<double, feature_count>& v) {
 
 Features measure(const Samples& samples) {
     Features features;
-    if (measure_values(samples, features).is_even()) {
+    if (measure_values(samples, features).is_uniform()) {
         features.wavelength = features.spots = features.holes = features.area = none;
         features.angle = features.anisotropy = none;
         return features;

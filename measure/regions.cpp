@@ -1,4 +1,5 @@
-// Flood fill with a stack. Cells are neighbours across their sides, not across their corners.
+// Fills each region with the help of a stack. Cells are neighbours if they share a side, but not if
+// they share only a corner.
 #include "measure/regions.h"
 
 #include <cmath>
@@ -21,7 +22,7 @@ std::vector<Mark> marks_of(const Samples& samples, double level) {
     return marks;
 }
 
-/// Marks the region of a cell as done.
+/// Marks all cells of the region that contains the cell `start`.
 void flood(const Samples& samples, std::size_t start, std::vector<Mark>& marks,
            std::vector<std::size_t>& waiting) {
     const Mark wanted = marks[start];

@@ -1,4 +1,4 @@
-// Spots: the connected regions of a field above or below a level.
+// Counts spots, which are connected regions of cells with values above or below a threshold.
 #pragma once
 
 #include "measure/samples.h"
@@ -8,12 +8,15 @@
 namespace cascade::measure {
 
 struct Regions {
-    std::int64_t above = 0;  ///< Connected regions of cells above the level.
-    std::int64_t below = 0;  ///< Connected regions of the other cells.
-    double area = 0;         ///< Fraction of the domain's cells above the level, 0 … 1.
+    /// The number of connected regions of cells with values above the threshold.
+    std::int64_t above = 0;
+    std::int64_t below = 0;  ///< The number of connected regions of the other cells.
+    /// The fraction of the domain's cells with values above the threshold, 0 … 1.
+    double area = 0;
 };
 
-/// Cells are connected by their sides, also across periodic boundaries.
+/// Finds the regions above and below the threshold `level`. Cells are connected by their sides,
+/// also across periodic boundaries.
 Regions find_regions(const Samples& samples, double level);
 
 }  // namespace cascade::measure

@@ -1,4 +1,5 @@
-// The correlation of neighbours, which is cheap, decides whether a spectrum is computed.
+// First computes the correlation of neighbours, which takes little time. Computes a spectrum only
+// if that correlation is low.
 #include "measure/resolution.h"
 
 #include "core/spread.h"
@@ -12,11 +13,12 @@ namespace cascade::measure {
 
 namespace {
 
-/// A field has one wavelength if the spectrum's peak has this fraction of the variance.
+/// A field counts as having a single wavelength if the peak of its spectrum contains at least this
+/// fraction of the variance.
 constexpr double regular_share = 0.75;
 
-/// If waves have at most four cells, the correlation of neighbours along some axis is below this.
-/// The worst case, a diagonal wave in a volume, has cos(2π / (4 √3)) = 0.62.
+/// If waves have at most four cells, the correlation of neighbours along at least one axis is below
+/// this. In the worst case, a diagonal wave in a volume, it is cos(2π / (4 √3)) = 0.62.
 constexpr double close_correlation = 0.65;
 
 double correlation_along(const Samples& samples, const Spread& spread, std::size_t axis) {
@@ -31,12 +33,13 @@ double correlation_along(const Samples& samples, const Spread& spread, std::size
     return pairs > 0 ? products / pairs / (spread.squares / spread.count) : 1;
 }
 
-/// Whether the correlation of neighbours allows waves that short.
+/// Whether neighbours are so weakly correlated that waves may have fewer than `fewest_cells_a_wave`
+/// cells.
 bool may_be_unresolved(const Samples& samples) {
     const Spread spread = spread_of([&](const auto& take) {
         for (const double value : samples.values) take(value);
     });
-    if (spread.is_even()) return false;
+    if (spread.is_uniform()) return false;
     double least = 1;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (samples.cells[axis] > 1) {
@@ -53,7 +56,7 @@ double unresolved_wavelength(const Samples& samples) {
     if (!may_be_unresolved(samples)) return none;
     const Spectrum spectrum = radial_spectrum(samples);
     const double cells = peak_wavelength(spectrum) / samples.spacing;
-    // Two cells per wave is a chequerboard, which is reported elsewhere.
+    // A wave of two cells is a chequerboard, which other code reports.
     const bool is_short =
         cells > 2 && cells < fewest_cells_a_wave && peak_share(spectrum) >= regular_share;
     return is_short ? cells : none;
@@ -62,7 +65,8 @@ double unresolved_wavelength(const Samples& samples) {
 double unresolved_part(const Samples& samples) {
     if (!may_be_unresolved(samples)) return 0;
     const Spectrum spectrum = radial_spectrum(samples);
-    const double longest = 1 / (fewest_cells_a_wave * samples.spacing);  // As a wave number.
+    // The wave number of the longest unresolved wave.
+    const double longest = 1 / (fewest_cells_a_wave * samples.spacing);
     double whole = 0, part = 0;
     for (std::size_t ring = 0; ring < spectrum.power.size(); ++ring) {
         whole += spectrum.power[ring];

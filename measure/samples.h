@@ -1,4 +1,4 @@
-// A field to measure: plain numbers with the shape of their grid.
+// The values of a field as plain numbers, with the shape of their grid.
 #pragma once
 
 #include "core/grid.h"
@@ -10,25 +10,27 @@
 
 namespace cascade::measure {
 
-/// One value per cell, in the order of columns, rows, slices. Cells with non-finite values are
-/// outside the domain and ignored.
+/// One value for each cell, ordered so that the column varies fastest, then the row, then the
+/// slice. A cell whose value is not finite counts as outside the domain.
 struct Samples {
-    std::array<std::size_t, 3> cells{1, 1, 1};  ///< Along x, y (downwards), z.
-    std::array<bool, 3> periodic{true, true,
-                                 true};  ///< Otherwise the field is mirrored at the sides.
-    double spacing = 1;                  ///< Width of a cell in the unit of length.
+    std::array<std::size_t, 3> cells{1, 1, 1};  ///< Along x, y (downwards) and z.
+    /// Whether the field is periodic along x, y and z. At sides that are not periodic it is
+    /// mirrored.
+    std::array<bool, 3> periodic{true, true, true};
+    double spacing = 1;  ///< The width of a cell in the unit of length.
     std::vector<double> values;
 
     std::size_t count() const { return values.size(); }
-    /// Distance in `values` between neighbours along an axis.
+    /// The distance in `values` between neighbours along an axis.
     std::size_t stride(std::size_t axis) const {
         return axis == 0 ? 1 : axis == 1 ? cells[0] : cells[0] * cells[1];
     }
-    /// Index of a cell along an axis.
+    /// The column, row or slice of a cell.
     std::size_t position(std::size_t cell, std::size_t axis) const {
         return cell / stride(axis) % cells[axis];
     }
-    /// The next or previous neighbour along an axis; the cell itself at a mirrored side.
+    /// The next or previous neighbour of a cell along an axis. At a mirrored side, this is the cell
+    /// itself.
     std::size_t neighbour(std::size_t cell, std::size_t axis, bool forwards) const {
         const std::size_t at = position(cell, axis), last = cells[axis] - 1;
         if (forwards) {
@@ -38,8 +40,8 @@ struct Samples {
         if (at > 0) return cell - stride(axis);
         return periodic[axis] ? cell + last * stride(axis) : cell;
     }
-    /// The cell at a distance along an axis, in cells, forwards or backwards: across periodic
-    /// sides, or mirrored at other sides.
+    /// The cell at a distance from `cell` along an axis. The distance is in cells, may be negative,
+    /// and may cross sides, which are periodic or mirrored.
     std::size_t mirrored(std::size_t cell, std::size_t axis, std::ptrdiff_t distance) const {
         const std::size_t at = position(cell, axis);
         const auto count = static_cast<std::ptrdiff_t>(cells[axis]);
@@ -51,7 +53,7 @@ struct Samples {
     }
 };
 
-/// The samples of a field on this grid.
+/// Copies the values of a field on this grid.
 Samples to_samples(const Field& field, const Grid& grid);
 
 }  // namespace cascade::measure

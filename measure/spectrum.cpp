@@ -1,4 +1,4 @@
-// FFTW transforms each axis, by a Fourier transform if it is periodic and a cosine transform
+// FFTW transforms each axis, with a Fourier transform if it is periodic and a cosine transform
 // otherwise. Power is summed over rings of wave numbers. The rings at the peak give the wavelength.
 #include "measure/spectrum.h"
 
@@ -17,7 +17,8 @@ namespace cascade::measure {
 
 namespace {
 
-/// The ratio of a peak's ends to its centre; less than √2, the second wave of a square lattice.
+/// The ratio of the wave number at the end of a peak to that at its centre. It is less than √2, the
+/// ratio for the second wave of a square lattice.
 constexpr double peak_breadth = 1.3;
 
 struct Fftw {
@@ -39,7 +40,7 @@ struct FreeBuffer {
 };
 using Buffer = std::unique_ptr<double[], FreeBuffer>;
 
-/// The values minus their mean; 0 for cells outside the domain.
+/// The values minus their mean. Cells outside the domain have 0.
 Buffer centred(const Samples& samples) {
     Buffer buffer(fftw().alloc_real(samples.count()));
     double sum = 0;
@@ -57,8 +58,9 @@ Buffer centred(const Samples& samples) {
     return buffer;
 }
 
-/// Transforms in place. FFTW orders axes from the slowest. R2HC is FFTW's real Fourier transform,
-/// with cosine parts from the start and sine parts from the end. REDFT10 is the DCT-II.
+/// Transforms in place. FFTW expects the axes in the order from the slowest to the fastest. R2HC is
+/// FFTW's real Fourier transform. Its result has cosine coefficients from the start of the array
+/// on, and sine coefficients from the end backwards. REDFT10 is the DCT-II.
 void transform(const Samples& samples, double* values) {
     int sizes[3];
     fftw_r2r_kind kinds[3];
@@ -76,7 +78,8 @@ void transform(const Samples& samples, double* values) {
     fftw().destroy_plan(plan);
 }
 
-/// Along one axis: the wave number of every coefficient, and its weight in Parseval's sum.
+/// For one axis, the wave number of every coefficient, and the coefficient's weight in Parseval's
+/// sum.
 struct AxisModes {
     std::vector<double> wave_number;
     std::vector<double> weight;
@@ -90,7 +93,8 @@ AxisModes modes_of(const Samples& samples, std::size_t axis) {
     for (std::size_t n = 0; n < count; ++n) {
         if (samples.periodic[axis]) {
             const std::size_t waves = std::min(n, count - n);
-            const bool is_alone = waves == 0 || 2 * waves == count;  // It has no sine part.
+            // Whether the mode has no sine coefficient.
+            const bool is_alone = waves == 0 || 2 * waves == count;
             modes.wave_number.push_back(static_cast<double>(waves) / length);
             modes.weight.push_back((is_alone ? 1 : 2) / cells);
         } else {
@@ -111,7 +115,7 @@ double ring_width_of(const Samples& samples) {
     return std::isfinite(finest) ? finest : 1;
 }
 
-/// Sums over the rings around the strongest one.
+/// Sums over the rings that belong to the peak.
 struct Peak {
     double power = 0;
     double moment = 0;

@@ -1,4 +1,4 @@
-// The wavelength of a pattern, from its power spectrum.
+// Finds the wavelength of a pattern from its power spectrum.
 #pragma once
 
 #include "measure/samples.h"
@@ -7,30 +7,35 @@
 
 namespace cascade::measure {
 
-/// The variance of a field, split by wave number.
+/// The variance of a field, divided among rings, that is, among ranges of wave numbers |k|.
 struct Spectrum {
-    double ring_width = 0;       ///< Difference of wave numbers between adjacent rings: 1 / longest
-                                 ///< side, or half of it if that side is mirrored.
-    std::vector<double> power;   ///< The part of the variance in ring n, whose |k| are nearest to n
-                                 ///< · ring_width. The sum is the variance.
-    std::vector<double> moment;  ///< Σ power · |k| in ring n.
+    /// The difference between the wave numbers of adjacent rings: 1 / (longest side), or half of
+    /// that if the longest side is mirrored.
+    double ring_width = 0;
+    /// power[n] is the part of the variance in ring n. This ring has the modes whose |k| is nearer
+    /// to n · ring_width than to any other multiple of ring_width. The sum of all parts is the
+    /// variance.
+    std::vector<double> power;
+    std::vector<double> moment;  ///< moment[n] is Σ power · |k| over the modes of ring n.
 };
 
-/// Subtracts the mean, then uses the discrete Fourier transform along periodic axes and the cosine
-/// transform (DCT-II), whose waves fit such a domain, along mirrored ones. Each mode's share of the
-/// variance is exact (Parseval's theorem).
+/// Subtracts the mean. Then uses the discrete Fourier transform along periodic axes, and the cosine
+/// transform (DCT-II) along axes with mirrored sides. The part of the variance in each mode is
+/// exact (Parseval's theorem).
 Spectrum radial_spectrum(const Samples& samples);
 
-/// The wavelength at the spectrum's peak, in the unit of length: the inverse of the power-weighted
-/// mean of |k| over the rings from 1/1.3 to 1.3 times the strongest one, which excludes the other
-/// waves of a lattice (√2 for a square one, √3 for a hexagonal one). NaN for a uniform field.
+/// The wavelength at the peak of the spectrum, in the unit of length. It is the inverse of the mean
+/// of |k|, weighted by power. The mean is taken over the rings from 1/1.3 to 1.3 times the |k| of
+/// the strongest ring. This range excludes other waves of a regular pattern, which are shorter by
+/// √2 (square) or √3 (hexagonal). NaN for a uniform field.
 double peak_wavelength(const Spectrum& spectrum);
 
-/// The spectrum in wider rings, so that about twelve lie below the strongest one. In a large domain
-/// rings are narrow, and chance decides which ring of a broad peak is the strongest.
+/// The spectrum in wider rings. About twelve of them are below the strongest one. In a large domain
+/// rings are so narrow that chance decides which ring of a broad peak is the strongest.
 Spectrum in_wide_rings(const Spectrum& spectrum);
 
-/// The fraction of the variance in the peak's rings, 0 … 1: near 1 for one regular wave.
+/// The fraction of the variance in the rings over which peak_wavelength() takes the mean, 0 … 1.
+/// Near 1 for a single regular wave.
 double peak_share(const Spectrum& spectrum);
 
 }  // namespace cascade::measure

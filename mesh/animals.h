@@ -1,5 +1,5 @@
-// Animals of our own, for patterns to grow on. They look along +z, and y is up. The surface of each
-// is one component with the topology of a sphere.
+// Animals made for this project, on which patterns grow. They look along +z, and y is up. The
+// surface of each is one component with the topology of a sphere.
 #pragma once
 
 #include "mesh/limbs.h"
@@ -8,10 +8,10 @@ namespace cascade {
 
 struct Animal {
     LimbBody body;
-    double edge = 0;  ///< Fine enough for the animal's ears, fins and tail.
+    double edge = 0;  ///< Length of the triangles' edges, fine enough for ears, fins and tail.
 };
 
-// Lengths are in metres, except those of the creature, which is an imaginary animal.
+// Lengths are in metres. The creature is an imaginary animal, whose unit of length has no meaning.
 
 /// A young animal with four legs, a long tail and round ears, 1.5 high.
 Animal creature();

@@ -1,4 +1,4 @@
-// Marching tetrahedra, by a table indexed by the set of corners inside.
+// Marching tetrahedra. A table gives the triangles for each set of corners inside.
 #include "mesh/centred_lattice.h"
 
 #include <algorithm>
@@ -37,10 +37,11 @@ Crossing crossing(const CrossedCorner& a, const CrossedCorner& b) {
 }
 
 /// Appends the part of the surface within a tetrahedron whose corners 1, 2 and 3 are
-/// counterclockwise seen from opposite corner 0: (v₁ − v₀) · (v₂ − v₀) × (v₃ − v₀) > 0. It is a
-/// triangle if one corner is separated from the others, and a quadrilateral if two are. An even
-/// permutation moves the separated corner to index 0, or the two inside to indices 0 and 1. The
-/// table covers these cases, derived with v₀ = 0 and the unit vectors.
+/// counterclockwise seen from opposite corner 0: (v₁ − v₀) · (v₂ − v₀) × (v₃ − v₀) > 0. The part is
+/// a triangle if the surface separates one corner from the others, and a quadrilateral if it
+/// separates two. An even permutation of the corners moves the single corner to index 0, or the two
+/// corners inside to indices 0 and 1. The table contains the triangles for these cases. They were
+/// derived with v₀ at the origin and v₁, v₂, v₃ at the unit vectors.
 void cross(const Tetrahedron& v, CrossedTriangles& triangles) {
     unsigned inside = 0;
     for (unsigned k = 0; k < 4; ++k) inside |= (v[k].value > 0 ? 1u : 0u) << k;
@@ -70,7 +71,7 @@ void cross(const Tetrahedron& v, CrossedTriangles& triangles) {
     }
 }
 
-/// Cuts faces along the surface by the values of points in given layers.
+/// Cuts the tetrahedra around faces of the lattice, by the values of points in given layers.
 class FaceCrosser {
 public:
     FaceCrosser(const CentredLattice& lattice, CrossedTriangles& triangles)
@@ -79,7 +80,8 @@ public:
     CrossedCorner corner(const LatticePoint& point, const LatticeLayer& layer) const {
         return {lattice_.number_of(point), layer.values[index_in_layer(lattice_, point)]};
     }
-    /// `ring`: the corners of the face, counterclockwise seen from the second centre.
+    /// Cuts the four tetrahedra around a face between two centres. `ring` has the face's corners,
+    /// counterclockwise seen from the second centre.
     void face(const CrossedCorner& first, const CrossedCorner& second,
               const std::array<CrossedCorner, 4>& ring) {
         for (std::size_t k = 0; k < 4; ++k) {
@@ -104,7 +106,7 @@ Vector3d CentredLattice::place_of(const LatticePoint& point) const {
             coordinate(low_.z, high_.z, 2)};
 }
 
-// The order of layers is centres −1, corners 0, centres 0, … corners n, centres n.
+// Points are numbered layer by layer: centres −1, corners 0, centres 0, … corners n, centres n.
 
 std::uint32_t CentredLattice::number_of(const LatticePoint& point) const {
     const auto layers = static_cast<std::uint32_t>(point.place[2] + (point.is_centre ? 1 : 0));

@@ -1,10 +1,10 @@
-// A box filled with tetrahedra between the corners and the centres of its cells, and the crossings
-// of their edges by the zero set of a function.
+// A box divided into cells and filled with tetrahedra, whose corners are the corners and the
+// centres of cells. Finds where the zero set of a function crosses the tetrahedra's edges.
 //
-// Each face between two cells has four tetrahedra around it, each of the centres on either side and
-// two adjacent corners of the face. They form the tetrahedra of the body-centred cubic lattice, the
-// most regular ones that fill space by copies of one shape. At the box's sides the centre of the
-// face replaces the centre of the missing cell.
+// Each face between two cells has four tetrahedra around it. The corners of each tetrahedron are
+// the centres of the two cells and two adjacent corners of the face. This is the body-centred cubic
+// lattice. No other tetrahedron whose copies fill space is more regular. At the box's sides the
+// centre of the face replaces the centre of the missing cell.
 #pragma once
 
 #include "core/vector3.h"
@@ -16,7 +16,7 @@
 
 namespace cascade {
 
-/// Indices of a lattice point. Indices of centres start at −1, one before the cells.
+/// Indices of a lattice point. Indices of centres start at −1, before the first cell.
 struct LatticePoint {
     std::array<std::int32_t, 3> place{};
     bool is_centre = false;
@@ -24,7 +24,7 @@ struct LatticePoint {
 
 class CentredLattice {
 public:
-    /// `counts`: cells along each axis, at least 1. The limit is 2³⁰ points altogether.
+    /// `counts` are the numbers of cells along each axis, at least 1. At most 2³⁰ points in total.
     CentredLattice(Vector3d low, Vector3d high, std::array<std::int32_t, 3> counts)
         : low_(low), high_(high), counts_(counts) {}
 
@@ -48,14 +48,16 @@ struct LatticeLayer {
     std::vector<double> values;  ///< Row by row along x.
 };
 
-/// The points of a layer, in order. The first and the last layer of centres are on the box's sides.
+/// The points of a layer of corners or of centres, in the order of LatticeLayer::values. All points
+/// in the first and last layers of centres are on the box's sides.
 std::vector<LatticePoint> layer_points(const CentredLattice& lattice, std::int32_t layer,
                                        bool is_centres);
 
 /// The crossing of the surface with an edge of the lattice.
 struct Crossing {
     std::uint64_t edge = 0;  ///< The numbers of both ends, the smaller one first.
-    double part = 0;         ///< The fraction of the edge before the crossing, by interpolation.
+    double part = 0;  ///< The fraction of the edge before the crossing, interpolated between the
+                      ///< values at its ends.
 
     friend bool operator<(const Crossing& a, const Crossing& b) { return a.edge < b.edge; }
 };
@@ -71,7 +73,8 @@ void cross_upright_faces(const CentredLattice& lattice, std::int32_t layer,
                          const LatticeLayer& below, const LatticeLayer& centres,
                          const LatticeLayer& above, CrossedTriangles& triangles);
 
-/// Does the same at the faces between the cells of layers `layer` − 1 and `layer` (0 … counts[2]).
+/// Does the same as cross_upright_faces() at the faces with normals along z, which are between the
+/// cells of layers `layer` − 1 and `layer` (0 … counts[2]).
 void cross_level_faces(const CentredLattice& lattice, std::int32_t layer, const LatticeLayer& below,
                        const LatticeLayer& corners, const LatticeLayer& above,
                        CrossedTriangles& triangles);

@@ -7,7 +7,7 @@ namespace cascade {
 
 namespace {
 
-constexpr double least_cosine = 0.26;  ///< The cosine of a triangle's largest rotation, 75°.
+constexpr double least_cosine = 0.26;  ///< The cosine of 75°, the most a triangle may rotate.
 constexpr unsigned most_edges_at_point = 10;
 
 void try_edge(HalfEdges& mesh, HalfedgeHandle h, double shortest, double longest,
@@ -17,14 +17,15 @@ void try_edge(HalfEdges& mesh, HalfedgeHandle h, double shortest, double longest
     const Vector3d from = position(mesh, a), apart = position(mesh, b) - from;
     if (dot(apart, apart) >= shortest * shortest) return;
     if (mesh.is_boundary(a) || mesh.is_boundary(b)) return;
-    // A vertex with three triangles would be left with two that coincide.
+    // If a vertex opposite the edge had only three triangles, the collapse would leave it with two
+    // coinciding triangles.
     if (mesh.valence(mesh.opposite_vh(h)) < 4 || mesh.valence(mesh.opposite_vh(other)) < 4) return;
     if (mesh.valence(a) + mesh.valence(b) > most_edges_at_point + 4) return;
     const Vector3d to = merged ? merged->place(mesh, a, b) : from + apart * 0.5;
     if (!keep_shape(mesh, a, b, to, longest) || !keep_shape(mesh, b, a, to, longest)) return;
     if (!mesh.is_collapse_ok(other)) return;
     mesh.set_point(a, {to.x, to.y, to.z});
-    mesh.collapse(other);  // a replaces b.
+    mesh.collapse(other);  // Vertex a remains.
     if (merged) merged->merge(a, b);
 }
 
@@ -40,13 +41,13 @@ bool keep_shape(const HalfEdges& mesh, VertexHandle v, VertexHandle other, Vecto
             ++vanishing;
             continue;
         }
-        if (mesh.is_boundary(h)) continue;  // No triangle.
+        if (mesh.is_boundary(h)) continue;  // No triangle here.
         const Vector3d at_b = position(mesh, b), at_c = position(mesh, c);
         const Vector3d before = cross(at_b - from, at_c - from);
         const Vector3d along = at_b - to;
         const Vector3d after = cross(along, at_c - to);
         const bool turns = dot(before, after) < least_cosine * length(before) * length(after);
-        // A degenerate triangle has no direction and is useless.
+        // A nearly degenerate triangle has no reliable direction.
         if (turns || length(after) <= 0.02 * dot(along, along) ||
             dot(along, along) > longest * longest) {
             return false;

@@ -1,22 +1,24 @@
-// Collapses of short edges.
+// Collapses short edges.
 #pragma once
 
 #include "mesh/half_edges.h"
 
 namespace cascade {
 
-/// The surviving vertex for each vertex, where each has merged into another one or itself.
+/// Resolves chains of merges. `into[v]` is the vertex into which v has merged, or v itself. Returns
+/// for each vertex the vertex that has survived.
 std::vector<std::uint32_t> ends_of_chains(std::vector<std::uint32_t> into);
 
-/// The history of merged vertices. Keeps rims, corners and tips in position, which midpoints would
-/// wear away.
+/// Records which vertices have merged, and chooses the positions of merged vertices. Unlike
+/// midpoints, these positions preserve rims, corners and tips.
 class MergedVertices {
 public:
     explicit MergedVertices(const HalfEdges& mesh);
 
-    /// The end of the edge, or its midpoint, with the least sum of squared distances from the
-    /// planes of all triangles merged there, weighted by their areas (M. Garland and P. Heckbert,
-    /// "Surface Simplification Using Quadric Error Metrics", SIGGRAPH 1997).
+    /// The position for a vertex merged from a and b: one of the ends of their edge or its
+    /// midpoint, whichever has the least sum of squared distances, weighted by area, from the
+    /// planes of all triangles merged there (M. Garland and P. Heckbert, "Surface Simplification
+    /// Using Quadric Error Metrics", SIGGRAPH 1997).
     Vector3d place(const HalfEdges& mesh, VertexHandle a, VertexHandle b) const;
     void merge(VertexHandle stays, VertexHandle goes);
 
@@ -35,9 +37,10 @@ bool keep_shape(const HalfEdges& mesh, VertexHandle v, VertexHandle other, Vecto
                 double longest);
 
 /// Collapses edges shorter than `shortest`, in order of their faces, to midpoints or to the
-/// positions chosen by `merged`, if that preserves the surface's shape: the link condition holds
-/// (T. Dey et al., "Topology Preserving Edge Contraction", Publ. Inst. Math. Beograd 66, 1999), no
-/// triangle rotates by more than 75°, and no edge becomes longer than `longest`. Boundaries stay.
+/// positions that `merged` chooses. Collapses only edges that preserve the surface's shape: the
+/// link condition holds (T. Dey et al., "Topology Preserving Edge Contraction", Publ. Inst. Math.
+/// Beograd 66, 1999), no triangle rotates by more than 75°, and no edge becomes longer than
+/// `longest`. Boundaries stay.
 void collapse_edges(HalfEdges& mesh, double shortest, double longest,
                     MergedVertices* merged = nullptr);
 

@@ -9,7 +9,7 @@
 namespace cascade {
 
 /// A partition of the numbers 0 … count − 1, initially each in its own set: R. Tarjan's union-find
-/// with path halving. A set is represented by its smallest number.
+/// with path halving. A set is represented by its smallest number, unless put_under() says another.
 class DisjointSets {
 public:
     explicit DisjointSets(std::size_t count) : above_(count) {
@@ -22,8 +22,10 @@ public:
     void join(std::uint32_t a, std::uint32_t b) {
         a = find(a);
         b = find(b);
-        above_[std::max(a, b)] = std::min(a, b);
+        put_under(std::max(a, b), std::min(a, b));
     }
+    /// Joins two sets, given by the numbers that represent them. The second represents both.
+    void put_under(std::uint32_t lower, std::uint32_t upper) { above_[lower] = upper; }
 
 private:
     std::vector<std::uint32_t> above_;

@@ -14,7 +14,8 @@ namespace {
 
 using Triangles = std::span<const std::array<std::uint32_t, 3>>;
 
-/// Edges with more triangles are not paired.
+/// The largest number of triangles at an edge that are paired. If an edge has more, all of them get
+/// a boundary there.
 constexpr std::size_t most_at_edge = 16;
 
 struct HalfEdge {
@@ -40,7 +41,8 @@ Vector3d inwards(std::span<const Vector3d> points, Triangles triangles, const Ha
     return unit(side - along * dot(side, along));
 }
 
-/// A pair of triangles at a non-manifold edge. Smaller is better.
+/// Two triangles at a non-manifold edge that could be connected. The smallest Match is connected
+/// first.
 struct Match {
     bool is_elsewhere_apart = false;
     bool turns_against = false;
@@ -120,7 +122,7 @@ private:
 
     std::span<const Vector3d> points_;
     Triangles triangles_;
-    DisjointSets sheets_;  ///< Triangles connected over manifold edges.
+    DisjointSets sheets_;  ///< Sets of triangles connected over manifold edges.
     EdgePairs result_;
 };
 

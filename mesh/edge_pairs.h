@@ -1,4 +1,4 @@
-// Pairing of the edges of triangles, and consistent orientation.
+// Pairs the edges of triangles, and orients triangles consistently.
 #pragma once
 
 #include "mesh/surface_mesh.h"
@@ -10,13 +10,14 @@
 namespace cascade {
 
 struct EdgePairs {
-    std::vector<std::array<TriangleEdge, 3>> across;  ///< As in SurfaceMesh.
-    std::size_t non_manifold_edges = 0;               ///< Edges of more than two triangles.
+    std::vector<std::array<TriangleEdge, 3>> across;  ///< Has the meaning of SurfaceMesh::across.
+    std::size_t non_manifold_edges = 0;  ///< Number of edges of more than two triangles.
 };
 
-/// Pairs the edges between the same two points. If more than two triangles meet, pairs triangles
-/// connected elsewhere first, so that a solid with a fin stays closed, and then those with
-/// consistent orientation, the most nearly coplanar first. A remaining edge becomes a boundary.
+/// Pairs the edges that join the same two points. Where more than two triangles meet at an edge,
+/// first pairs triangles that are also connected elsewhere, so that a solid with a fin stays
+/// closed. Then pairs triangles with consistent orientation, beginning with the most nearly
+/// coplanar pair. An edge left without a partner becomes a boundary.
 EdgePairs pair_edges(std::span<const Vector3d> points,
                      std::span<const std::array<std::uint32_t, 3>> triangles);
 
@@ -26,13 +27,15 @@ SurfaceMesh mesh_of(std::vector<Vector3d> points,
 
 struct Orientation {
     std::vector<bool> is_turned;  ///< Triangles whose corners must be reversed.
-    std::size_t turned = 0;       ///< Their number, without components reversed as a whole.
-    std::size_t cut_edges = 0;    ///< Pairs separated because the surface was one-sided.
-    std::size_t inside_out = 0;   ///< Closed components reversed as a whole.
+    /// Number of turned triangles, except in components reversed as a whole.
+    std::size_t turned = 0;
+    std::size_t cut_edges = 0;   ///< Number of pairs separated because the surface was one-sided.
+    std::size_t inside_out = 0;  ///< Number of closed components reversed as a whole.
 };
 
-/// Orients the triangles of each component consistently: outwards if it is closed, otherwise like
-/// the larger part of its area. Separates inconsistent pairs of a one-sided surface.
+/// Orients the triangles of each component consistently: a closed component faces outwards, any
+/// other faces the way in which most of its area is already oriented. Cuts a one-sided surface
+/// where pairs remain inconsistent.
 Orientation orient(std::span<const Vector3d> points,
                    std::span<const std::array<std::uint32_t, 3>> triangles,
                    std::vector<std::array<TriangleEdge, 3>>& across);

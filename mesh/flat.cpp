@@ -1,4 +1,5 @@
-// Walks from triangle to triangle, laying each flat beside the last, up to a limit of crossings.
+// Walks from triangle to triangle. Lays each triangle flat beside the previous one. The number of
+// crossings is limited.
 #include "mesh/flat.h"
 
 #include <algorithm>
@@ -7,13 +8,14 @@ namespace cascade {
 
 namespace {
 
-/// The limit of crossings in a walk. Rounding could make it circle around a point forever.
+/// The limit of crossings in a walk. Rounding could make a walk circle around a point forever.
 constexpr int most_crossings = 100'000;
 
 /// The edge rotated by 90° counterclockwise.
 Vector2d left_of(Vector2d edge) { return {-edge.y, edge.x}; }
 
-/// The first edge crossed by `step` from `point`, and the fraction of the step to it.
+/// The first edge that `step` crosses, starting at `point`, and the fraction of the step before the
+/// crossing.
 struct EdgeCrossing {
     std::uint32_t edge = 3;
     double part = 1;

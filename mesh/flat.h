@@ -27,18 +27,20 @@ inline Vector2d position_of(const FlatTriangle& flat, const std::array<double, 3
     return flat[0] * weights[0] + flat[1] * weights[1] + flat[2] * weights[2];
 }
 
-/// Lays a triangle into a plane with its edge `edge` from `from` to `to`, whose distance is the
-/// edge's length, and the third corner to the left of the edge. Corners keep their indices.
+/// Lays a triangle into a plane so that its edge `edge` goes from `from` to `to`, whose distance
+/// must be the edge's length, and the third corner is to the left of the edge. Corners keep their
+/// indices.
 FlatTriangle lay_flat(const SurfaceMesh& mesh, TriangleEdge edge, Vector2d from, Vector2d to);
 
-/// Lays it with corner 0 at the origin and corner 1 on the x axis: the triangle's own frame, in
-/// which steps on the surface are given.
+/// Lays a triangle into a plane with corner 0 at the origin and corner 1 on the x axis. This is the
+/// triangle's own frame, in which steps on the surface are given.
 FlatTriangle own_frame(const SurfaceMesh& mesh, std::uint32_t triangle);
 
 /// The barycentric weights of a point of the plane. Weights of a point outside are clamped to ≥ 0.
 std::array<double, 3> weights_at(const FlatTriangle& flat, Vector2d point);
 
-/// A vector in another frame, whose x axis is the unit vector `turn` in this one.
+/// A vector expressed in another frame, whose x axis is the unit vector `turn` in the vector's
+/// frame.
 inline Vector2d turned_into(Vector2d vector, Vector2d turn) {
     return {dot(turn, vector), cross(turn, vector)};
 }
@@ -47,10 +49,11 @@ inline Vector2d turned_into(Vector2d vector, Vector2d turn) {
 struct WalkEnd {
     SurfacePlace place;
     double part = 1;      ///< The fraction of the step that was walked. Below 1 at a boundary.
-    Vector2d turn{1, 0};  ///< The x axis of the final frame in the initial one.
+    Vector2d turn{1, 0};  ///< The x axis of the final frame, expressed in the initial frame.
 };
 
-/// Walks straight across edges by a step in the frame of the start's triangle. Stops at a boundary.
+/// Walks straight across edges by `step`, which is given in the frame of the start's triangle.
+/// Stops at a boundary.
 WalkEnd walk(const SurfaceMesh& mesh, const SurfacePlace& from, Vector2d step);
 
 }  // namespace cascade

@@ -1,4 +1,5 @@
-// OpenMesh flips and deletes. This file updates texture coordinates and model faces.
+// OpenMesh flips edges and deletes triangles. This file updates texture coordinates and model
+// faces.
 #include "mesh/flat_triangles.h"
 
 #include "mesh/half_edges.h"
@@ -11,7 +12,7 @@ namespace cascade {
 namespace {
 
 constexpr double flatness = 1e-10;
-constexpr int most_rounds = 8;  ///< A strip of flat triangles takes several.
+constexpr int most_rounds = 8;  ///< A strip of flat triangles takes several rounds.
 
 using Corners = std::array<Vector3d, 3>;
 
@@ -87,7 +88,7 @@ private:
     /// The texture coordinates of the corner where a half-edge begins.
     TexturePlace& texture(HalfedgeHandle h) { return texture_[static_cast<std::size_t>(h.idx())]; }
 
-    /// Removes a flat triangle if possible and returns whether it was.
+    /// Removes a flat triangle if possible. Returns whether it was removed.
     bool remove(FaceHandle f) {
         const HalfedgeHandle h = sides_of(f)[longest_edge(corners_of(f))];
         const FaceHandle other = mesh_.opposite_face_handle(h);
@@ -101,7 +102,7 @@ private:
         const HalfedgeHandle o = mesh_.opposite_halfedge_handle(h),
                              bc = mesh_.next_halfedge_handle(h);
         if (!texture_.empty())
-            texture(bc) = texture(o);  // Both new triangles are parts of the other one.
+            texture(bc) = texture(o);  // Both new triangles are parts of `other`.
         mesh_.flip(e);
         if (!texture_.empty()) {
             texture(h) = texture(mesh_.next_halfedge_handle(o));

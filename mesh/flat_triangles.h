@@ -7,13 +7,14 @@
 namespace cascade {
 
 struct FlatTriangles {
-    std::size_t merged = 0;     ///< Merged with a neighbour.
-    std::size_t left_out = 0;   ///< Removed at a boundary.
-    std::size_t remaining = 0;  ///< Could not be repaired.
+    std::size_t merged = 0;     ///< Number merged with a neighbour.
+    std::size_t left_out = 0;   ///< Number removed at a boundary.
+    std::size_t remaining = 0;  ///< Number that could not be repaired.
 };
 
-/// Flips the longest edges of triangles 10¹⁰ times as long as high, which leaves two triangles with
-/// an area, unless two points would get a second edge. Fails as half_edges() does.
+/// Repairs triangles that are at least 10¹⁰ times as long as high by flipping their longest edges,
+/// which leaves two triangles with an area. Does not flip an edge if the new edge would join points
+/// that already share an edge. Fails as half_edges() does.
 Result<FlatTriangles> remove_flat_triangles(SurfaceMesh& mesh);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Reads glTF and GLB files with tinygltf, which is compiled here.
+// Reads glTF and GLB files with tinygltf, whose code is compiled in this file.
 #include "mesh/gltf_model.h"
 #include "mesh/gltf_requirements.h"
 #include "mesh/gltf_scene.h"
@@ -28,14 +28,15 @@ std::string_view json_of(std::string_view bytes, bool is_binary) {
     return bytes.substr(20, length);
 }
 
-/// Callbacks for reading external buffers. tinygltf's own open any file and use a shell.
+/// Callbacks for reading external buffers. tinygltf's own callbacks open any file and use a shell.
 class Buffers {
 public:
     explicit Buffers(const GrantedFiles& files) : files_(files) {}
 
     tinygltf::FsCallbacks callbacks() {
         tinygltf::FsCallbacks calls{};
-        calls.FileExists = [](const std::string&, void*) { return true; };  // Reading will fail.
+        // Returns true for missing files, too, because reading them will fail later.
+        calls.FileExists = [](const std::string&, void*) { return true; };
         calls.ExpandFilePath = [](const std::string& name, void*) { return name; };
         calls.ReadWholeFile = [](std::vector<unsigned char>* out, std::string*,
                                  const std::string& name, void* self) {
@@ -104,7 +105,7 @@ Result<PolygonSoup> read_gltf(std::string_view bytes, const GrantedFiles& files)
         if (buffers.failure()) return tl::unexpected(*buffers.failure());
         while (fault.ends_with('\n')) fault.pop_back();
         std::replace(fault.begin(), fault.end(), '\n', ' ');
-        return failure("this is no glTF file that can be read", fault);
+        return failure("this is not a glTF file that can be read", fault);
     }
     std::size_t size = bytes.size();
     for (const tinygltf::Buffer& buffer : model.buffers) size += buffer.data.size();

@@ -1,5 +1,5 @@
-// Each attribute is an accessor with an element for each copy. The names of other attributes begin
-// with an underscore.
+// Each attribute is an accessor with one element per copy. Names of custom attributes begin with an
+// underscore.
 #include "mesh/gltf_instances.h"
 
 #include "core/quaternion.h"
@@ -49,7 +49,8 @@ Result<GltfInstances> GltfInstances::of(const tinygltf::Model& model, const tiny
     }
     const tinygltf::Value& colour = attributes.Get("_COLOR_0");
     if (colour.IsInt()) instances.colour_ = GltfNumbers::of(model, colour.GetNumberAsInt());
-    // Without translation, rotation and scale, nothing tells the copies apart.
+    // Without attributes of translation, rotation and scale, all copies would coincide, so one is
+    // enough.
     if (!instances.count_) instances.count_ = 1;
     else if (!has_bytes && *instances.count_ > 0) return wrong();
     return instances;

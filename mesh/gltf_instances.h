@@ -13,16 +13,16 @@ namespace cascade {
 
 class GltfInstances {
 public:
-    /// `is_there` is false if the node has no copies. Fails on attributes of different lengths or
-    /// beyond the data, and if no attribute takes bytes of the file.
+    /// `is_there` is false if the node has no copies. Fails if attributes have
+    /// different lengths, if their data lie beyond the file, or if no attribute has data.
     static Result<GltfInstances> of(const tinygltf::Model& model, const tinygltf::Node& node);
 
     bool is_there() const { return count_.has_value(); }
     std::size_t count() const { return count_.value_or(0); }
     /// The position of a copy in the coordinates of the node.
     GltfMatrix matrix(std::size_t copy) const;
-    /// The light by which the attribute `_COLOR_0` multiplies a copy's colour, as in three.js and
-    /// Babylon.js, if there is such an attribute.
+    /// The light by which a copy's colour is multiplied: the attribute `_COLOR_0`, if there is one.
+    /// three.js and Babylon.js use this attribute in the same way.
     std::optional<std::array<double, 3>> light(std::size_t copy) const;
 
 private:

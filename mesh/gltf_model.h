@@ -13,7 +13,7 @@
 
 namespace cascade {
 
-/// A part of a list. Null if the number is out of range.
+/// Part `number` of a list. Null if the number is out of range.
 template <typename Part>
 const Part* part_of(const std::vector<Part>& list, int number) {
     const auto place = static_cast<std::size_t>(number);

@@ -1,4 +1,4 @@
-// Copies no data: reads numbers from the buffer and looks up replaced ones.
+// Reads numbers from the buffer without copying them, and looks up replaced elements.
 #include "mesh/gltf_numbers.h"
 
 #include <algorithm>
@@ -52,7 +52,7 @@ std::optional<GltfNumbers::Row> GltfNumbers::row_of(const tinygltf::Model& model
     row.component_size = static_cast<std::size_t>(component_size);
     const std::size_t element = components * row.component_size;
     row.stride = has_stride && bytes->byteStride > 0 ? bytes->byteStride : element;
-    // The library accepts strides that are no multiple of the component size.
+    // tinygltf accepts strides that are not multiples of the component size.
     if (row.stride % row.component_size != 0) return {};
     const std::size_t size = buffer->data.size();
     if (bytes->byteOffset > size || offset > size - bytes->byteOffset) return {};

@@ -1,5 +1,5 @@
-// The numbers of glTF's accessors: elements with a few components in a buffer, some replaced by a
-// sparse accessor.
+// The numbers of glTF's accessors: elements with a few components in a buffer. A sparse accessor
+// may replace some of them.
 #pragma once
 
 #include "mesh/gltf_model.h"
@@ -11,16 +11,19 @@ namespace cascade {
 
 class GltfNumbers {
 public:
-    /// Refers to the buffers of the model. Empty if there is no such accessor, if its numbers lie
-    /// beyond the data, or if the replaced elements are not in ascending order.
+    /// The numbers of an accessor, read from the model's buffers. Empty if there is no such
+    /// accessor, if its numbers lie beyond the data, or if the replaced elements are not in
+    /// ascending order.
     static std::optional<GltfNumbers> of(const tinygltf::Model& model, int accessor);
 
     std::size_t count() const { return count_; }
     std::size_t components() const { return components_; }
-    /// Whether each element takes bytes of the file. Otherwise all are 0 unless they are replaced.
+    /// Whether the file has data for the elements. Without data, all elements are 0 except replaced
+    /// ones.
     bool has_bytes() const { return base_.data != nullptr; }
 
-    /// A component. Integers are fractions of their largest value if the accessor is normalized.
+    /// A component. If the accessor is normalized, integers become fractions of their largest
+    /// value.
     double at(std::size_t element, std::size_t component) const {
         if (replaced_count_ > 0) {
             if (const auto k = replacement_of(element)) return number(values_, *k, component);
@@ -46,7 +49,7 @@ private:
     bool is_normalized_ = false;
     Row base_;
     std::size_t replaced_count_ = 0;
-    Row places_, values_;  ///< The replaced elements, in ascending order, and their values.
+    Row places_, values_;  ///< The replaced elements in ascending order, and their values.
 };
 
 }  // namespace cascade

@@ -1,4 +1,5 @@
-// tinygltf ignores required extensions, and takes a compressed file for a broken one.
+// Checks requirements separately, because tinygltf ignores required extensions and reports a
+// compressed file as broken.
 #include "mesh/gltf_requirements.h"
 
 #include "core/json_size.h"
@@ -19,14 +20,15 @@ using GltfJson = nlohmann::json;
 
 constexpr std::size_t deepest_nesting = 128;
 
-/// Extensions that are applied, or refused where their data are needed.
+/// Extensions that the reader applies. It refuses some of them where their data are needed.
 constexpr std::array applied_extensions = {
     "EXT_mesh_gpu_instancing", "KHR_texture_transform",   "KHR_mesh_quantization",
     "EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_draco_mesh_compression",
     "KHR_node_visibility",
 };
 
-/// Extensions irrelevant to shapes, positions and texture coordinates, like all of look_prefixes.
+/// Extensions that do not change shapes, positions and texture coordinates. Extensions that begin
+/// with one of look_prefixes do not either.
 constexpr std::array beside_the_shape = {
     "EXT_lights_ies",
     "EXT_lights_image_based",
@@ -52,7 +54,7 @@ const GltfJson* member(const GltfJson* object, const char* name) {
     return found == object->end() ? nullptr : &*found;
 }
 
-/// The entry of a list at an index. Null if there is none.
+/// The entry of a list whose index is `number`. Null if there is none.
 const GltfJson* entry(const GltfJson* list, const GltfJson* number) {
     if (!list || !list->is_array() || !number || !number->is_number_integer()) return nullptr;
     const auto place = number->get<std::int64_t>();
@@ -64,7 +66,7 @@ const GltfJson* extension(const GltfJson* part, const char* name) {
     return member(member(part, "extensions"), name);
 }
 
-/// Calls `visit` for each entry of a list, until it fails.
+/// Calls `visit` for each entry of a list, until a call fails.
 template <typename Visit>
 Result<void> for_each_entry(const GltfJson* list, const Visit& visit) {
     if (!list || !list->is_array()) return {};
@@ -77,7 +79,7 @@ Result<void> for_each_entry(const GltfJson* list, const Visit& visit) {
 Result<void> check_version(const GltfJson& file) {
     const GltfJson* const version = member(member(&file, "asset"), "version");
     const GltfJson* const meshes = member(&file, "meshes");
-    // Version 1 may omit its number, and has objects where later ones have lists.
+    // Files of version 1 may omit the version, and have objects where later versions have lists.
     const bool is_old = (version && version->is_string() &&
                          version->get_ref<const std::string&>().starts_with("1")) ||
                         (!version && meshes && meshes->is_object());
@@ -95,7 +97,7 @@ Result<void> check_extension(const GltfJson& name) {
                    "export it without this extension");
 }
 
-/// Fails on bytes that exist only in a compressed form.
+/// Fails on a buffer view whose bytes exist only in a compressed form.
 Result<void> check_view(const GltfJson& file, const GltfJson& view) {
     for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
         if (!extension(&view, name)) continue;
@@ -129,7 +131,8 @@ Result<void> check_primitive(const GltfJson& file, const GltfJson& primitive) {
                    "export it without compression");
 }
 
-/// tinygltf refuses such corners, too, but gives no reason.
+/// Fails on corners whose accessor is sparse and has no base data. tinygltf refuses such files,
+/// too, but gives no reason.
 Result<void> check_corners(const GltfJson& file, const GltfJson& primitive) {
     const GltfJson* const corners =
         entry(member(&file, "accessors"), member(&primitive, "indices"));
@@ -172,7 +175,7 @@ Result<void> check_gltf_requirements(std::string_view json) {
     if (auto good = for_each_entry(member(&file, "extensionsRequired"), check_extension); !good) {
         return good;
     }
-    // Checks Draco first: where a file uses both, Draco's extension says more.
+    // Checks Draco first: in a file with both extensions, the message about Draco says more.
     const auto check_mesh = [&](const GltfJson& mesh) {
         return for_each_entry(member(&mesh, "primitives"), [&](const GltfJson& primitive) {
             auto good = check_primitive(file, primitive);

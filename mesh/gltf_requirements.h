@@ -7,15 +7,16 @@
 
 namespace cascade {
 
-/// Whether a JSON text is within the limits of memory and nesting that a parser needs.
+/// Fails if a JSON text exceeds the limits of memory and nesting for parsing.
 Result<void> check_gltf_size(std::string_view json);
 
 /// Fails on files of another version than 2, on required extensions that are unknown, and on
-/// geometry that exists only in a compressed form. Names each. Accepts any text that is not JSON.
+/// geometry that exists only in a compressed form. The message names the cause. Accepts any text
+/// that is not JSON.
 Result<void> check_gltf_requirements(std::string_view json);
 
-/// Whether the reader can ignore or apply the extension without an error in shapes, positions, or
-/// texture coordinates.
+/// Whether the reader applies the extension, or can ignore it without an error in shapes, positions
+/// or texture coordinates.
 bool is_known_extension(std::string_view name);
 
 }  // namespace cascade

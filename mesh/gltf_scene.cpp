@@ -1,5 +1,5 @@
-// Nodes are visited iteratively, and every placement counts: a hostile file nests deeply, in
-// cycles, or places the same data again and again.
+// Visits nodes iteratively and limits the number of placements, because a hostile file may nest
+// nodes deeply or in cycles, or place the same data again and again.
 #include "mesh/gltf_scene.h"
 
 #include "core/result.h"
@@ -25,23 +25,24 @@ namespace cascade {
 
 namespace {
 
-// The points of a glTF primitive, by default weights and joints.
+// The points of a glTF primitive, with default morph weights and joints applied.
 
 /// The position, shape and light of a mesh.
 struct GltfPlacing {
-    const GltfMatrix& matrix;               ///< The node's matrix. Skinned points ignore it.
+    const GltfMatrix&
+        matrix;  ///< The node's matrix. It is not applied to points that a skin positions.
     const std::vector<GltfMatrix>* joints;  ///< The skin's joints. Null if there is none.
     std::span<const double> weights;        ///< The weights of morph targets, 0 for missing ones.
-    /// Multiplies the colours of a copy.
+    /// Factors of a copy's colours.
     std::optional<std::array<double, 3>> light = {};
 };
 
 /// An attribute of a primitive with its morph targets.
 class MorphedAttribute {
 public:
-    /// Empty if the primitive has no such attribute of at least `least` components within the data.
-    /// Targets that lack the attribute leave it unchanged. Fails on targets for fewer points, or
-    /// beyond the data.
+    /// Empty if the primitive has no such attribute, or if the attribute has fewer than `least`
+    /// components or exceeds the file's data. Targets that lack the attribute leave it unchanged.
+    /// Fails on targets that have fewer points than the attribute or exceed the data.
     static Result<std::optional<MorphedAttribute>> of(const tinygltf::Model& model,
                                                       const tinygltf::Primitive& primitive,
                                                       const std::string& name, std::size_t least,
@@ -49,7 +50,7 @@ public:
 
     std::size_t count() const { return base_.count(); }
     std::size_t components() const { return base_.components(); }
-    /// The number of arrays that sum to a value.
+    /// The number of arrays that are added up to get a value: the base and the targets.
     std::size_t parts() const { return 1 + targets_.size(); }
     double at(std::size_t element, std::size_t component) const {
         double sum = base_.at(element, component);
@@ -94,11 +95,12 @@ Result<std::optional<MorphedAttribute>> MorphedAttribute::of(const tinygltf::Mod
     return attribute;
 }
 
-constexpr std::size_t steps_of_copy = 8;  ///< Numbers and matrices read for a copy.
+/// The work for one copy: how many numbers and matrices are read.
+constexpr std::size_t steps_of_copy = 8;
 
-/// Limits derived from the file's size, with an allowance for small files: a small file can use the
-/// same mesh or list the same triangles any number of times. A copy takes a few bytes and may have
-/// thousands of triangles.
+/// Limits on what a file may place, derived from its size. Needed because even a small file can use
+/// the same mesh or list the same triangles any number of times. A copy takes a few bytes and may
+/// have thousands of triangles. Small files get an allowance.
 struct SceneBounds {
     std::size_t points, corners, steps;
 
@@ -127,7 +129,7 @@ public:
         } else {
             const tinygltf::Scene* const scene =
                 part_of(model_.scenes, std::max(0, model_.defaultScene));
-            if (!scene) return failure("the glTF file's scene is not there");
+            if (!scene) return failure("the glTF file has no such scene");
             for (const int node : scene->nodes) {
                 if (const auto added = add_nodes(node); !added) {
                     return tl::unexpected(added.error());
@@ -157,7 +159,8 @@ private:
         return visible.IsBool() && !visible.Get<bool>();
     }
 
-    /// Counts work that adds no points or corners, or few for its amount.
+    /// Counts work that may add few points and corners or none at all. Fails when the total exceeds
+    /// the file's limit.
     Result<void> take_steps(std::size_t arrays, std::size_t length = 1) {
         if (length > 0 && arrays > (bounds_.steps - steps_) / length) {
             return failure("the glTF file uses its data too often for its size");
@@ -176,7 +179,7 @@ private:
             const tinygltf::Node* const node = part_of(model_.nodes, number);
             if (!node) return failure(fmt::format("node {} of the glTF file is not there", number));
             if (++visits > model_.nodes.size()) {
-                return failure("the nodes of the glTF file are no tree");
+                return failure("the nodes of the glTF file do not form a tree");
             }
             if (is_hidden(*node)) continue;
             const GltfMatrix matrix = product(above, matrix_of_node(*node));

@@ -7,9 +7,9 @@
 
 namespace cascade {
 
-/// All meshes of the scene, positioned by its nodes, their copies and the joints of skins, in the
-/// shape given by the default weights of their morph targets. `bytes` is the size of the file with
-/// its buffers. It limits how often a file may use its data.
+/// All meshes of the scene, positioned by its nodes, by copies and by joints of skins. Shapes have
+/// the default weights of their morph targets. `bytes` is the size of the file with its buffers,
+/// which limits how often a file may use its data.
 Result<PolygonSoup> read_gltf_scene(const tinygltf::Model& model, std::size_t bytes);
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
-// A point's matrix is the weighted mean over its joints: the inverse of the joint's matrix when the
-// mesh was bound to it, followed by the joint's matrix in the scene.
+// A point's matrix is the weighted mean over its joints. Each joint contributes the inverse of its
+// matrix at the time of binding, followed by its matrix in the scene.
 #include "mesh/gltf_skin.h"
 
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ GltfNodePlaces::GltfNodePlaces(const tinygltf::Model& model)
 }
 
 Result<GltfMatrix> GltfNodePlaces::of(int node) {
-    // Goes up to the first node whose matrix is known, and down again.
+    // Goes up to the first node whose matrix is known, then down again.
     std::vector<std::size_t> path;
     GltfMatrix place = gltf_identity;
     for (int at = node; at >= 0; at = parents_[static_cast<std::size_t>(at)]) {
@@ -33,7 +33,8 @@ Result<GltfMatrix> GltfNodePlaces::of(int node) {
             break;
         }
         path.push_back(number);
-        if (path.size() > places_.size()) return failure("the nodes of the glTF file are no tree");
+        if (path.size() > places_.size())
+            return failure("the nodes of the glTF file do not form a tree");
     }
     for (; !path.empty(); path.pop_back()) {
         place = product(place, matrix_of_node(model_.nodes[path.back()]));
@@ -55,7 +56,7 @@ Result<std::vector<GltfMatrix>> joints_of_skin(const tinygltf::Model& model, int
                                                GltfNodePlaces& places) {
     const tinygltf::Skin* const skin = part_of(model.skins, number);
     if (!skin) return failure(fmt::format("skin {} of the glTF file is not there", number));
-    std::optional<GltfNumbers> bound;  // None: identity matrices.
+    std::optional<GltfNumbers> bound;  // Without this accessor: identity matrices.
     if (skin->inverseBindMatrices >= 0) {
         bound = GltfNumbers::of(model, skin->inverseBindMatrices);
         if (!bound || bound->components() != 16 || bound->count() < skin->joints.size()) {

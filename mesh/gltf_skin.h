@@ -17,12 +17,12 @@ class GltfNodePlaces {
 public:
     explicit GltfNodePlaces(const tinygltf::Model& model);
 
-    /// Fails if there is no such node, or if it is its own descendant.
+    /// The matrix of a node. Fails if there is no such node, or if it is its own descendant.
     Result<GltfMatrix> of(int node);
 
 private:
     const tinygltf::Model& model_;
-    std::vector<int> parents_;                       ///< −1: none.
+    std::vector<int> parents_;                       ///< −1 for nodes without a parent.
     std::vector<std::optional<GltfMatrix>> places_;  ///< The matrices computed so far.
 };
 
@@ -44,8 +44,8 @@ public:
 
     bool is_there() const { return !sets_.empty(); }
     std::size_t sets() const { return sets_.size(); }
-    /// The mean of the joints' matrices by the weights of a point, whose sum need not be 1. Without
-    /// any weight the first joint has all. Fails if a joint is missing.
+    /// The mean of the joints' matrices, weighted for a point. The sum of weights need not be 1. If
+    /// all weights are 0, returns the matrix of the first joint. Fails if a joint is missing.
     Result<GltfMatrix> matrix_at(std::size_t point, const std::vector<GltfMatrix>& joints) const;
 
 private:

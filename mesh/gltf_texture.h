@@ -1,4 +1,4 @@
-// The choice of texture coordinates in a glTF file, and their transformation.
+// Which texture coordinates of a glTF file to use, and how to transform them.
 #pragma once
 
 #include "mesh/gltf_model.h"
@@ -11,17 +11,18 @@ namespace cascade {
 
 struct GltfTexture {
     std::string attribute = "TEXCOORD_0";  ///< The attribute's name in a primitive.
-    /// The first two rows of the matrix that maps texture coordinates to those of the picture, as
-    /// in the extension KHR_texture_transform.
+    /// The first two rows of the matrix that maps texture coordinates to coordinates of the
+    /// picture, as in the extension KHR_texture_transform.
     std::array<double, 6> rows = {1, 0, 0, 0, 1, 0};
 
-    /// Converts glTF's coordinates, whose origin is at the upper left.
+    /// Converts coordinates of glTF, whose origin is the upper left corner, to a TexturePlace,
+    /// whose origin is the lower left corner.
     TexturePlace place(double u, double v) const;
 };
 
-/// The texture coordinates of the material's base colour, or, without one, of the first of its
-/// textures of normals, roughness, light and occlusion. If the primitive has no such set, its first
-/// set without a transformation.
+/// Selects the texture coordinates of the material's base colour. Without such a texture, selects
+/// those of the first texture of normals, roughness, light and occlusion. If the primitive lacks
+/// the selected set, selects its first set without a transformation.
 GltfTexture texture_of(const tinygltf::Model& model, const tinygltf::Primitive& primitive);
 
 }  // namespace cascade

@@ -47,7 +47,8 @@ private:
                corner(next(here)) == corner(other);
     }
 
-    /// The first half-edge of each edge belongs to the triangle with the lower index.
+    /// Numbers edges so that the first half-edge of each belongs to the triangle with the lower
+    /// index.
     Result<void> number_edges() {
         if (mesh_.across.size() != mesh_.triangles.size()) {
             return failure("the surface has triangles whose neighbours are not known");
@@ -62,7 +63,7 @@ private:
                 if (corner(here).idx() >= static_cast<int>(mesh_.points.size()) ||
                     (other.exists() && !fits(here, other))) {
                     return failure(
-                        fmt::format("edge {} of triangle {} of the surface does not fit "
+                        fmt::format("edge {} of triangle {} of the surface does not match "
                                     "the triangle across it",
                                     k, t));
                 }
@@ -90,7 +91,7 @@ private:
         });
     }
 
-    /// The outgoing half-edge of a boundary vertex is its boundary half-edge.
+    /// Sets the outgoing half-edge of each boundary vertex to its boundary half-edge.
     Result<void> add_boundaries(HalfEdges& made) {
         std::vector<HalfedgeHandle> boundary;
         each_edge([&](TriangleEdge e) {
@@ -114,7 +115,7 @@ private:
             fmt::format("the triangles around point {} of the surface are not one fan", point));
     }
 
-    /// The triangles around each point must form one fan.
+    /// Fails unless the triangles around each point form one fan.
     Result<void> check_fans(const HalfEdges& made) const {
         std::vector<std::uint32_t> corners(mesh_.points.size());
         each_edge([&](TriangleEdge e) { ++corners[number(corner(e))]; });
@@ -132,14 +133,14 @@ private:
     }
 
     const SurfaceMesh& mesh_;
-    std::vector<std::array<HalfedgeHandle, 3>> half_edges_;  ///< Per triangle, by edge.
+    std::vector<std::array<HalfedgeHandle, 3>> half_edges_;  ///< One per triangle and edge.
     std::size_t edges_ = 0;
 };
 
 }  // namespace
 
 Result<HalfEdges> half_edges(const SurfaceMesh& mesh) {
-    Result<HalfEdges> made;  // The only object returned, so that it is not copied.
+    Result<HalfEdges> made;  // The only object returned, so that the mesh is not copied.
     if (Result<void> fine = Converter(mesh).convert(*made); !fine)
         made = tl::unexpected(fine.error());
     return made;
@@ -152,7 +153,8 @@ SurfaceMesh surface_mesh(const HalfEdges& mesh, std::span<const std::uint32_t> v
         points[v] = static_cast<std::uint32_t>(result.points.size());
         result.points.push_back(position(mesh, vertex(v)));
     }
-    std::vector<TriangleEdge> places(mesh.n_halfedges());  // By half-edge, if it has a face.
+    // Indexed by half-edge, for half-edges with a face.
+    std::vector<TriangleEdge> places(mesh.n_halfedges());
     const auto place = [&](HalfedgeHandle h) -> TriangleEdge& {
         return places[static_cast<std::size_t>(h.idx())];
     };

@@ -1,12 +1,12 @@
-// The editable mesh: OpenMesh's half-edges. Besides this file only simplify.cpp and subdivide.cpp,
-// which use OpenMesh's tools, include it.
+// The editable mesh: OpenMesh's half-edges. Only simplify.cpp and subdivide.cpp, which use
+// OpenMesh's tools, include OpenMesh themselves.
 #pragma once
 
 #include "core/result.h"
 #include "mesh/surface_mesh.h"
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
-// Relies on the includes of the kernel above.
+// This must follow the kernel's headers above.
 #include <OpenMesh/Core/Geometry/QuadricT.hh>
 
 #include <limits>
@@ -23,9 +23,9 @@ struct HalfEdgeTraits : OpenMesh::DefaultTraits {
     FaceAttributes(OpenMesh::Attributes::Status);
 };
 
-/// Triangles that can be flipped, split and collapsed. A half-edge has its face on the left, or
-/// none at a boundary. Debian compiles OpenMesh with assertions: flip() aborts unless is_flip_ok()
-/// holds. Copies are deep, and so are moves.
+/// Triangles that can be flipped, split and collapsed. The face of a half-edge is on its left. A
+/// half-edge at a boundary has no face. Debian compiles OpenMesh with assertions: flip() aborts
+/// unless is_flip_ok() holds. Copies are deep, and moves copy, too.
 using HalfEdges = OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits>;
 using OpenMesh::EdgeHandle;
 using OpenMesh::FaceHandle;
@@ -35,21 +35,22 @@ using OpenMesh::VertexHandle;
 /// The sum of the squared distances of a point from planes.
 using PlaneQuadric = OpenMesh::Geometry::Quadricd;
 
-/// The largest number of faces: half-edges, up to six per face, have indices of type `int`.
+/// The largest number of faces. OpenMesh numbers half-edges, up to six per face, by `int`.
 inline constexpr std::size_t most_faces = std::numeric_limits<int>::max() / 6;
 
 /// The points and triangles of `mesh` with their indices. The half-edge of a face goes from its
-/// first corner to its second. Two edges between the same points stay two: half-edges are linked by
-/// `across`, because add_face() looks edges up by their ends and would merge them. is_flip_ok()
-/// prevents new double edges, but is_collapse_ok() does not notice existing ones.
+/// first corner to its second. Two edges between the same points stay separate: half-edges are
+/// linked by `across`, because add_face() looks edges up by their ends and would merge such edges.
+/// is_flip_ok() prevents new double edges, but is_collapse_ok() does not notice existing ones.
 ///
 /// Fails on invalid meshes: corners that are no points, a triangle with a repeated corner, edges
 /// that do not match their neighbours, points with several fans of triangles. Fails on more edges
 /// than can be indexed. Throws std::bad_alloc.
 Result<HalfEdges> half_edges(const SurfaceMesh& mesh);
 
-/// The mesh of `vertices`, in this order, which must include the corners of all faces. Triangles
-/// are in the order of faces. (OpenMesh's garbage_collection() fills gaps from the end.)
+/// The mesh of `vertices`, in this order. They must include the corners of all faces. Triangles are
+/// in the order of faces. (OpenMesh's garbage_collection() would change these orders, because it
+/// fills gaps with the last elements.)
 SurfaceMesh surface_mesh(const HalfEdges& mesh, std::span<const std::uint32_t> vertices);
 /// The mesh of all vertices that are not deleted, in their order.
 SurfaceMesh surface_mesh(const HalfEdges& mesh);
@@ -62,7 +63,8 @@ inline Vector3d position(const HalfEdges& mesh, VertexHandle v) {
     return {p[0], p[1], p[2]};
 }
 
-/// The half-edges out of a vertex, counterclockwise. At a boundary only the last has no face.
+/// The half-edges that begin at a vertex, counterclockwise. At a boundary, the last of them is the
+/// only one without a face.
 void outgoing(const HalfEdges& mesh, VertexHandle v, std::vector<HalfedgeHandle>& spokes);
 
 /// Whether an edge joins two vertices. Takes time proportional to the smaller one-ring.

@@ -1,5 +1,5 @@
-// Crosses the lattice layer by layer, remeshes isotropically, and projects the points onto the
-// surface by regula falsi with the Illinois rule.
+// Cuts the lattice layer by layer, remeshes isotropically, and projects the points onto the surface
+// by regula falsi with the Illinois rule.
 #include "mesh/implicit_surface.h"
 
 #include "mesh/centred_lattice.h"
@@ -16,16 +16,19 @@ namespace cascade {
 
 namespace {
 
-/// Corners keep this distance from the ends of edges, where triangles would have no area.
+/// The least distance of a triangle's corner from the ends of its lattice edge, as a part of the
+/// edge. At an end, triangles would have no area.
 constexpr double least_part = 0.1;
-/// Search distances for the surface from a point, in edges, nearest first.
+/// Distances from a point at which the surface is searched, as multiples of the edge, nearest
+/// first.
 constexpr std::array reaches = {0.05, 0.15, 0.4, 1.0};
 constexpr int most_halvings = 60;
-constexpr double accuracy = 1e-12;  ///< The error of a corner's position, in edges.
+/// The error of a corner's position, as a multiple of the edge.
+constexpr double accuracy = 1e-12;
 
 std::string text_of(Vector3d p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z); }
 
-/// The function with a check of its results.
+/// Calls the function and checks its results.
 class CheckedFunction {
 public:
     explicit CheckedFunction(const ImplicitFunction& function) : function_(function) {}
@@ -65,7 +68,7 @@ private:
         double near_value = 0, far_value = 0;
     };
 
-    /// Clamped to the box, because the function need not be defined outside.
+    /// Clamped to the box, because the function need not be defined outside of it.
     Vector3d place(const Bracket& b, double distance) const {
         const Vector3d p = b.origin + b.direction * distance;
         return {std::clamp(p.x, request_.low.x, request_.high.x),
@@ -84,7 +87,8 @@ private:
     }
 
     /// Searches outwards from points inside and inwards from points outside, at growing distances.
-    /// Points for which no sign change is found stay.
+    /// If the function does not change its sign within the largest distance, the point stays where
+    /// it is.
     Result<void> find_brackets(std::span<const Vector3d> points,
                                std::span<const Vector3d> normals) {
         std::vector<Bracket> sought;
@@ -125,8 +129,9 @@ private:
         return {};
     }
 
-    /// Closes brackets by regula falsi with the Illinois rule, which halves the value at an end
-    /// that stays. Occasional bisection bounds the number of steps.
+    /// Narrows all brackets to the surface by regula falsi. If an end of a bracket does not move in
+    /// a step, its value is halved (the Illinois rule). An occasional bisection bounds the number
+    /// of steps.
     Result<void> close_brackets(std::span<Vector3d> points) {
         std::vector<double> middles;
         for (int round = 0; round < most_halvings && !bracketed_.empty(); ++round) {
@@ -184,7 +189,7 @@ public:
           cancel_(cancel),
           progress_(progress) {}
 
-    /// The triangles of all cells, layer by layer.
+    /// Makes the triangles of all cells, layer by layer.
     Result<SurfaceMesh> cut() {
         const std::int32_t layers = lattice_.counts()[2];
         LatticeLayer centres_below, corners_below, centres, corners_above;

@@ -1,4 +1,4 @@
-// A plane's normal rotates with it, and is scaled by the inverse of the plane's scale.
+// A plane's normal rotates with the plane, and is scaled by the inverse of the plane's scale.
 #include "mesh/instances.h"
 
 #include "core/check.h"

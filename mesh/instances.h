@@ -10,7 +10,7 @@
 
 namespace cascade {
 
-/// The position and appearance of a copy. A point p of the mesh moves to place + turn(scale · p).
+/// The position and appearance of a copy. Point p of the mesh moves to place + turn(scale · p).
 struct Placement {
     std::uint32_t mesh = 0;  ///< The index of the mesh.
     Vector3d place;
@@ -19,7 +19,8 @@ struct Placement {
     Colour colour{1, 1, 1};   ///< sRGB, 0 … 1.
 };
 
-/// The copies without the body below them, which is drawn and written separately.
+/// Copies of small meshes. The body below the copies is not included: it is drawn and written
+/// separately.
 struct Instances {
     std::vector<TriangleMesh> meshes;  ///< The variants. Each has triangles.
     std::vector<Placement> placements;
@@ -28,16 +29,17 @@ struct Instances {
     std::uint64_t triangle_count() const;
 };
 
-/// Moves everything by the map p ↦ (p − middle) × scale, such as that of DrawnMesh.
+/// Moves and scales all copies by the map p ↦ (p − middle) × scale, for example the map of a
+/// DrawnMesh.
 void move_instances(Instances& instances, Vector3d middle, double scale);
 
-/// The map of a placement in binary32, for the points and normals of its mesh.
+/// Applies a placement in binary32 to the points and normals of its mesh.
 class PlacementMap {
 public:
     explicit PlacementMap(const Placement& placement);
 
     Vector3 point(Vector3 p) const { return x_ * p.x + y_ * p.y + z_ * p.z + place_; }
-    /// A normal of length 1. Normals are scaled by the inverse factors.
+    /// A normal, scaled to length 1. Normals are scaled by the inverse factors.
     Vector3 normal(Vector3 n) const {
         return unit(x_ * (n.x * factors_.x) + y_ * (n.y * factors_.y) + z_ * (n.z * factors_.z));
     }
@@ -50,7 +52,8 @@ public:
 
 private:
     Vector3 x_, y_, z_, place_;
-    Vector3 factors_;  ///< Inverse squares of the scale, since the axes have its lengths.
+    /// Inverse squares of the scale, which `x_`, `y_` and `z_` already contain once.
+    Vector3 factors_;
 };
 
 }  // namespace cascade

@@ -1,4 +1,5 @@
-// Flips edges whose opposite cotangents have a negative sum. Only needs the lengths of edges.
+// Flips an edge if the cotangents of its two opposite angles have a negative sum. Needs only the
+// lengths of edges.
 #include "mesh/intrinsic_delaunay.h"
 
 #include "mesh/flat.h"
@@ -10,9 +11,9 @@ namespace cascade {
 
 namespace {
 
-/// Sums of cotangents above the negative of this count as 0 because of rounding.
+/// A sum of cotangents above −tolerance counts as 0, because of rounding.
 constexpr double tolerance = 1e-9;
-/// The average limit of checks per edge.
+/// Limits how often an edge is checked, on average over all edges.
 constexpr std::size_t most_looks = 100;
 
 class EdgeFlipper {
@@ -58,7 +59,8 @@ private:
         const std::uint32_t c = mesh_.triangles[t][k2], d = mesh_.triangles[o][m2];
         const double bc = mesh_.lengths[t][k1], ca = mesh_.lengths[t][k2];
         const double ad = mesh_.lengths[o][m1], db = mesh_.lengths[o][m2];
-        // The neighbours across the four sides, which may be sides of these triangles themselves.
+        // The neighbours across the four outer sides of the two triangles. A neighbour may be one
+        // of the two triangles itself.
         std::array<TriangleEdge, 4> beyond = {mesh_.across[o][m2], mesh_.across[t][k1],
                                               mesh_.across[t][k2], mesh_.across[o][m1]};
         const std::array<TriangleEdge, 4> old = {TriangleEdge{o, m2}, {t, k1}, {t, k2}, {o, m1}};
@@ -86,7 +88,8 @@ private:
         if (other.exists()) mesh_.across[other.triangle][other.edge] = here;
     }
 
-    /// The third corner of a triangle whose edge lies on the x axis from the origin.
+    /// The position of a triangle's third corner, if `edge` begins at the origin and lies on the x
+    /// axis.
     Vector2d apex(TriangleEdge edge) const {
         const auto& sides = mesh_.lengths[edge.triangle];
         const double base = sides[edge.edge];
@@ -95,7 +98,8 @@ private:
         return {x, 2 * mesh_.area(edge.triangle) / base};
     }
 
-    /// The third corner of the triangle on the other side, whose edge has the opposite direction.
+    /// The third corner of the triangle on the other side of the edge, which has the edge in the
+    /// opposite direction.
     static Vector2d mirrored(Vector2d apex, double base) { return {base - apex.x, -apex.y}; }
 
     IntrinsicMesh mesh_;

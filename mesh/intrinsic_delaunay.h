@@ -8,10 +8,11 @@
 
 namespace cascade {
 
-/// Triangles that bend over the edges of a surface, defined by the lengths of their sides.
+/// Triangles that are given by the lengths of their edges. They need not be flat in space: they may
+/// bend over the edges of the surface.
 struct IntrinsicMesh {
     std::vector<std::array<std::uint32_t, 3>> triangles;
-    std::vector<std::array<TriangleEdge, 3>> across;  ///< As in SurfaceMesh.
+    std::vector<std::array<TriangleEdge, 3>> across;  ///< Has the meaning of SurfaceMesh::across.
     std::vector<std::array<double, 3>> lengths;       ///< The lengths of each triangle's edges.
 
     double area(std::uint32_t triangle) const;
@@ -19,13 +20,14 @@ struct IntrinsicMesh {
     double cotangent(TriangleEdge edge) const;
 };
 
-/// Flips edges until no two angles opposite an edge exceed 180° together, which makes all cotangent
-/// weights non-negative except at boundaries: A. Bobenko and B. Springborn, "A Discrete
+/// Flips edges until the two angles opposite each edge sum to at most 180°. All cotangent weights
+/// are then non-negative except at boundaries: A. Bobenko and B. Springborn, "A Discrete
 /// Laplace–Beltrami Operator for Simplicial Surfaces", Discrete & Computational Geometry 38 (2007),
 /// by the algorithm of M. Fisher et al., "An Algorithm for the Construction of Intrinsic Delaunay
-/// Triangulations with Applications to Digital Geometry Processing", Computing 81 (2007). Triangles
-/// may end up with two corners at one point, which OpenMesh does not support, so this does not use
-/// HalfEdges. Stops flipping if rounding would make it endless.
+/// Triangulations with Applications to Digital Geometry Processing", Computing 81 (2007). The
+/// result may have triangles with two corners at one point. OpenMesh does not support them, so this
+/// function does not use HalfEdges. Limits the number of flips, because rounding could make them go
+/// on forever.
 IntrinsicMesh intrinsic_delaunay(const SurfaceMesh& mesh);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Rounds of Botsch and Kobbelt's local operations.
+// The rounds of Botsch and Kobbelt's local operations.
 #include "mesh/isotropic_remesh.h"
 
 #include "mesh/collapse_edges.h"
@@ -11,15 +11,17 @@ namespace cascade {
 
 namespace {
 
-constexpr double longest_edge_part = 4.0 / 3;  ///< In target edge lengths.
-/// The length below which each round collapses edges, the shortest first.
+constexpr double longest_edge_part = 4.0 / 3;  ///< As a multiple of the target edge length.
+/// For each round, the length below which edges are collapsed, as a multiple of the target edge
+/// length.
 constexpr std::array shortest = {0.3, 0.5, 0.65, 0.8, 0.8, 0.0, 0.0, 0.0};
 constexpr int most_flip_passes = 6;
 constexpr double smoothing = 0.6;
-constexpr double angle_tolerance = 1e-6;  ///< In a sum of angles.
+constexpr double angle_tolerance = 1e-6;  ///< Tolerance for sums of two angles.
 constexpr double flattest_fold = 0.7;     ///< The smallest cosine at an edge that may be flipped.
 
-/// The angle opposite a half-edge: its cosine and sine, times the lengths of its sides.
+/// The cosine and the sine of the angle opposite a half-edge, each multiplied by the lengths of the
+/// angle's two sides.
 struct FacingAngle {
     double cosine = 0, sine = 0;
     double size() const { return std::sqrt(cosine * cosine + sine * sine); }
@@ -39,7 +41,7 @@ bool is_delaunay(FacingAngle a, FacingAngle b) {
 
 Vector3d double_area_normal(Vector3d a, Vector3d b, Vector3d c) { return cross(b - a, c - a); }
 
-/// Whether flipping the edge improves its angles without changing the shape of the surface.
+/// Whether a flip of the edge improves the angles without changing the shape of the surface.
 bool wants_flip(const HalfEdges& mesh, EdgeHandle e) {
     if (mesh.is_boundary(e)) return false;
     const HalfedgeHandle h = mesh.halfedge_handle(e, 0), other = mesh.halfedge_handle(e, 1);

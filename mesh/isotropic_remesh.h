@@ -17,12 +17,16 @@ using BringBack =
 /// Approaches equilateral triangles with edges of length `edge` by local changes that preserve the
 /// surface's shape (M. Botsch and L. Kobbelt, "A Remeshing Approach to Multiresolution Modeling",
 /// Symposium on Geometry Processing, 2004, section 4, without its splitting of long edges).
-/// Collapses edges shorter than 4/5 `edge` if that neither changes the topology nor folds the
-/// surface. Flips edges until the angles opposite each sum to at most 180°. Moves points along the
-/// surface to the centroid of the triangles around them, unless that would turn a triangle over,
-/// and then through `bring_back`. The mesh must be closed, without texture coordinates, attributes
-/// and double edges. Fails if `bring_back` does and as half_edges() does. Stops early when `cancel`
-/// becomes true. Throws std::bad_alloc.
+///
+/// - Collapses edges shorter than 4/5 `edge` if that neither changes the topology nor folds the
+///   surface.
+/// - Flips edges until the two angles opposite each edge sum to at most 180°.
+/// - Moves points along the surface to the centroid of the triangles around them, unless that would
+///   turn a triangle over. Then `bring_back` moves them to the original surface.
+///
+/// The mesh must be closed, without texture coordinates, attributes and double edges. Fails if
+/// `bring_back` fails, and as half_edges() does. Stops early when `cancel` becomes true. Throws
+/// std::bad_alloc.
 Result<void> isotropic_remesh(SurfaceMesh& mesh, double edge, const BringBack& bring_back,
                               const std::atomic<bool>& cancel);
 

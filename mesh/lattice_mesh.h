@@ -11,7 +11,7 @@
 
 namespace cascade {
 
-/// The angle of a whole turn.
+/// A full turn in radians.
 inline constexpr double tau = 2 * std::numbers::pi;
 
 /// Cuts rectangle (i, j) of a lattice into two triangles. Adjacent rectangles are cut along
@@ -49,8 +49,8 @@ inline SurfaceMesh mesh_of(std::vector<Vector3d> points, TriangleList list) {
     return mesh;
 }
 
-/// A closed tube: n rings of m points each. `place(i, j)` is point j of ring i. Texture: along the
-/// tube, and around it.
+/// A closed tube: n rings of m points each. `place(i, j)` is point j of ring i. The first texture
+/// coordinate runs along the tube, the second around it.
 template <typename Place>
 SurfaceMesh ring_lattice(std::uint32_t n, std::uint32_t m, const Place& place) {
     const double columns = n, rows = m;

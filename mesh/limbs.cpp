@@ -1,4 +1,4 @@
-// Curves become short bones, cones with round ends. Limbs near each other are blended.
+// Curves become short bones, which are cones with round ends. Limbs near each other are blended.
 #include "mesh/limbs.h"
 
 #include "mesh/implicit_surface.h"
@@ -12,7 +12,7 @@ namespace cascade {
 namespace {
 
 constexpr int bones_of_span = 4;
-constexpr double steepest = 0.99;  ///< The largest growth of a radius with length.
+constexpr double steepest = 0.99;  ///< The largest growth of a radius per length.
 constexpr double softnesses_of_reach = 4;
 
 Joint operator+(const Joint& a, const Joint& b) {
@@ -24,7 +24,8 @@ Vector3d place_of(const Joint& joint) { return {joint.x, joint.y, joint.z}; }
 
 double chord(const Joint& a, const Joint& b) { return length(place_of(b) - place_of(a)); }
 
-/// The slope of the spline at a joint: the slope of the parabola through it and its neighbours.
+/// The slope of the spline at a joint: the slope of the parabola through the joint and its
+/// neighbours.
 Joint slope_at(const std::vector<Joint>& joints, std::size_t k) {
     const auto slope = [&](std::size_t a) {
         return (joints[a + 1] + joints[a] * -1) * (1 / chord(joints[a], joints[a + 1]));
@@ -78,10 +79,10 @@ LimbBody::Bone::Bone(Vector3d start, double from_radius, Vector3d to, double to_
       direction(unit(to - start)),
       extent(length(to - start)),
       radius(from_radius),
-      // Where one ball contains the other, there is no cone.
+      // If one ball contains the other, there is no cone.
       growth(extent > 0 ? std::clamp((to_radius - from_radius) / extent, -steepest, steepest) : 0),
       lean(growth / std::sqrt(1 - growth * growth)),
-      // Slightly too large, for rounding.
+      // Slightly larger than needed, because of rounding.
       ball{start + direction * (extent / 2),
            1.000001 * (extent / 2 + std::max(radius, radius + growth * extent))} {}
 
@@ -92,7 +93,7 @@ WITH_WIDE_VECTORS void LimbBody::Bone::lower(Numbers& distances, const Block& po
         const double along = dot(away, direction);
         const double square = dot(away, away) - along * along;
         const double aside = std::sqrt(square > 0 ? square : 0);
-        // The ball with the nearest flesh.
+        // Projects the point onto the bone at the ball whose flesh is nearest.
         const double nearest = along + lean * aside;
         const double place = nearest < 0 ? 0 : nearest > extent ? extent : nearest;
         const double rest = along - place;

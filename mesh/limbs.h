@@ -14,7 +14,7 @@
 
 namespace cascade {
 
-/// A point of the curve in the middle of a limb, and the radius of the flesh there.
+/// A point of the curve in the middle of a limb, and the radius of the flesh around it.
 struct Joint {
     double x = 0, y = 0, z = 0;
     double radius = 0;
@@ -25,30 +25,33 @@ enum class Sides { one, both };  ///< Both: the limb has a mirror image, with x 
 /// Flesh around the smooth curve through its joints, at least one. It ends in half balls.
 struct Limb {
     std::vector<Joint> joints;
-    double softness = 0;  ///< The length over which it blends with other limbs.
+    double softness = 0;  ///< The length over which the limb blends with others.
     Sides sides = Sides::one;
-    Vector3d flat{1, 1, 1};  ///< The thickness along x, y and z as parts of the radius, at most 1.
+    /// The thickness along x, y and z as fractions of the radius, at most 1.
+    Vector3d flat{1, 1, 1};
 };
 
-/// An implicit body: the sum over the limbs of (1 − d / 4s)⁴ less 1, with the distance d from a
-/// limb's flesh, negative inside, and its softness s. Limbs further away than 4s do not count.
-/// These are the soft objects of G. Wyvill, C. McPheeters, B. Wyvill, "Data Structure for Soft
-/// Objects", The Visual Computer 2, 1986, around cones in place of points. Curves are Catmull–Rom
-/// splines parametrised by chord length.
+/// An implicit body. Its function is the sum over the limbs of (1 − d / 4s)⁴, minus 1. d is the
+/// distance from a limb's flesh, negative inside, and s is the limb's softness. Limbs further away
+/// than 4s do not count. These are the soft objects of G. Wyvill, C. McPheeters, B. Wyvill, "Data
+/// Structure for Soft Objects", The Visual Computer 2, 1986, around cones in place of points.
+/// Curves are Catmull–Rom splines parametrised by chord length.
 class LimbBody {
 public:
     explicit LimbBody(const std::vector<Limb>& limbs);
 
-    /// Positive inside, −1 far outside.
+    /// The value of the body's function at p: positive inside, −1 far outside.
     double operator()(Vector3d p) const;
-    /// The values at many points. Faster where successive points are near each other.
+    /// Computes the function's values at many points. Fastest if successive points are near each
+    /// other.
     void evaluate(std::span<const Vector3d> points, std::span<double> values) const;
 
-    /// The surface, moved so that it stands on y = 0. `edge` and failures as in implicit_surface().
+    /// The surface, moved so that its lowest point is at y = 0. `edge` is the approximate length of
+    /// the triangles' edges. Fails as implicit_surface() does.
     Result<SurfaceMesh> mesh(double edge, const std::atomic<bool>& cancel) const;
 
 private:
-    /// The number of points evaluated side by side in vectors.
+    /// The number of points that are evaluated together, so that compilers use vectors.
     static constexpr std::size_t block_size = 8;
     using Numbers = std::array<double, block_size>;
     struct Block {
@@ -66,16 +69,19 @@ private:
     struct Bone {
         Bone(Vector3d from, double from_radius, Vector3d to, double to_radius);
 
-        /// Lowers `distances` to the points' distances from the bone's flesh, negative inside.
+        /// Replaces each of `distances` by the distance of its point from the bone's flesh
+        /// (negative inside) if this is smaller.
         WITH_WIDE_VECTORS void lower(Numbers& distances, const Block& points) const;
 
         Vector3d from, direction;
         double extent = 0;
-        double radius = 0, growth = 0;  ///< The radius at the start, and its growth per length.
-        double lean = 0;  ///< The shift of normals along the bone, per length away from it.
-        Ball ball;        ///< Contains the flesh.
+        double radius = 0,
+               growth = 0;  ///< The radius at the start, and its increase per unit of length.
+        double lean = 0;    ///< How far the surface's normals lean along the bone, per unit of
+                            ///< distance from the bone.
+        Ball ball;          ///< Contains the flesh.
     };
-    /// One limb on one side, with a box that contains its flesh.
+    /// A limb, or the mirror image of one, with a box that contains its flesh.
     struct Part {
         std::size_t first = 0, last = 0;  ///< The range of its bones.
         double softness = 0;

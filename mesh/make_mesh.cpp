@@ -54,7 +54,7 @@ private:
             Vector3d& p = soup_.points[k];
             if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
                 return failure(
-                    fmt::format("point {} of the model, counted from 0, has the place "
+                    fmt::format("point {} of the model, counted from 0, has the position "
                                 "({}, {}, {})",
                                 k, p.x, p.y, p.z));
             }
@@ -63,7 +63,7 @@ private:
         }
         if (size != 0 && !(size >= least_size && size <= largest_size)) {
             return failure(
-                fmt::format("the model's coordinates of up to {:.3g} are too {} to reckon "
+                fmt::format("the model's coordinates of up to {:.3g} are too {} to compute "
                             "with",
                             size, size > 1 ? "large" : "small"));
         }

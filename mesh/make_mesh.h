@@ -1,4 +1,4 @@
-// Construction of a manifold surface from the polygons of a file.
+// Makes a manifold surface from the polygons of a file.
 #pragma once
 
 #include "core/result.h"
@@ -17,11 +17,12 @@ struct MadeMesh {
 
 /// Triangulates polygons and makes all repairs that need no guesses:
 ///
-/// - merges points at the same position, removes unused points;
-/// - removes faces with fewer than three different corners and duplicate faces;
-/// - where more than two faces meet at an edge, connects those that continue each other and gives
-///   the others a boundary; duplicates a point that alone connects several parts;
-/// - orients faces consistently, closed components outwards; cuts one-sided surfaces open;
+/// - merges points at the same position, removes unused points,
+/// - removes faces with fewer than three different corners and duplicate faces,
+/// - where more than two faces meet at an edge, connects the faces that continue each other and
+///   gives the others a boundary,
+/// - where separate parts touch at a point, gives each part its own copy of the point,
+/// - orients faces consistently, closed components outwards; cuts one-sided surfaces open,
 /// - merges a triangle without area with its neighbour by flipping its longest edge.
 ///
 /// Fails if coordinates are not finite or their largest magnitude is outside 10⁻⁷⁰ … 10⁷⁰, on a

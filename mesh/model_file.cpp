@@ -47,12 +47,12 @@ const Format* format_of(std::string_view ending) {
     return found == formats.end() ? nullptr : &*found;
 }
 
-/// The extension of a model's name in lower case. Fails for others.
+/// The extension of a model's name in lower case. Fails for unknown extensions.
 Result<std::string> model_ending(const std::string& name) {
     std::string ending = ending_of(name);
     if (format_of(ending) != nullptr) return ending;
     return failure(
-        fmt::format("'{}' is no model: its name ends in none of .ply, .obj, .off, .stl, "
+        fmt::format("'{}' is not a model: its name ends in none of .ply, .obj, .off, .stl, "
                     ".gltf, .glb",
                     short_name(name)));
 }

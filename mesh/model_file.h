@@ -1,4 +1,4 @@
-// Reading of models from files: PLY, OBJ, OFF, STL, glTF and GLB.
+// Reads models from files: PLY, OBJ, OFF, STL, glTF and GLB.
 #pragma once
 
 #include "core/granted_files.h"
@@ -18,12 +18,13 @@ inline constexpr std::uint64_t largest_model_file = std::uint64_t{4} << 30;
 /// truncated or malformed, and if there is no polygon. Throws std::bad_alloc.
 Result<PolygonSoup> read_model(const GrantedFiles& files, const std::string& name);
 
-/// Reads a file named by the user, anywhere. Files that it refers to must be below its own folder
-/// or the folders of `access`.
+/// Reads a model file named by the user, which may be anywhere. Files that the model refers to must
+/// be below the model's folder or the folders of `access`.
 Result<PolygonSoup> read_model(const std::filesystem::path& path, const ReadAccess& access = {});
 
-/// Reads a model from bytes in memory. `files` reads the files that it refers to. `ending` is the
-/// format in lower case: "ply", "obj", "off", "stl", "gltf", "glb". Does not fail without polygons.
+/// Reads a model from bytes in memory. `files` reads the files that the model refers to. `ending`
+/// is the format in lower case: "ply", "obj", "off", "stl", "gltf", "glb". Does not fail if the
+/// model has no polygons.
 Result<PolygonSoup> read_model_bytes(std::string_view bytes, std::string_view ending,
                                      const GrantedFiles& files = GrantedFiles::none());
 

@@ -1,4 +1,4 @@
-// Merges corners across edges that are no creases. Each group has one normal.
+// Groups corners that are connected across edges without a crease. Each group has one normal.
 #include "mesh/normals.h"
 
 #include "mesh/disjoint_sets.h"
@@ -12,7 +12,7 @@ namespace {
 
 constexpr double cosine_of_crease = 0.5;
 
-/// `a` scaled to length 1, or `otherwise` if it is 0.
+/// `a` scaled to length 1, or `otherwise` if a is 0.
 Vector3d unit_or(Vector3d a, Vector3d otherwise) {
     const Vector3d scaled = unit(a);
     return length(scaled) > 0.5 ? scaled : otherwise;

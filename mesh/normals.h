@@ -9,23 +9,25 @@
 
 namespace cascade {
 
-/// The unit normal at each point: the direction of the sum of its triangles' normals, weighted by
-/// area. (0, 0, 1) if they cancel out.
+/// The unit normal at each point: the direction of the sum of the normals of its triangles,
+/// weighted by area. It is (0, 0, 1) if the normals cancel out.
 std::vector<Vector3d> point_normals(const SurfaceMesh& mesh);
 
-/// The unit normal at any position: the interpolated normals of the triangle's corners, or the
-/// triangle's normal if they cancel out.
+/// The unit normal at any position, interpolated between the normals at the triangle's corners. If
+/// these cancel out, it is the triangle's normal.
 Vector3d normal_at(const SurfaceMesh& mesh, const std::vector<Vector3d>& normals,
                    const SurfacePlace& place);
 
-/// Normals with creases: a point has one for each group of its triangles that are connected over
-/// edges with a dihedral bend of at most 60°.
+/// Normals with creases. The triangles of a point form groups: adjacent triangles are in one group
+/// if the surface bends by at most 60° at their common edge. The point has one normal per group.
 struct CornerNormals {
-    std::vector<Vector3d> normals;      ///< Computed as in point_normals(), each over its group.
-    std::vector<std::uint32_t> points;  ///< The point of each normal, ascending.
-    std::vector<std::array<std::uint32_t, 3>> numbers;  ///< Normal of each corner.
+    std::vector<Vector3d>
+        normals;  ///< Computed as in point_normals(), but each from the triangles of one group.
+    std::vector<std::uint32_t> points;                  ///< The point of each normal, ascending.
+    std::vector<std::array<std::uint32_t, 3>> numbers;  ///< The normal of each corner.
 
-    /// The interpolated unit normal of the corners, or the triangle's normal if they cancel out.
+    /// The unit normal at any position, interpolated between the triangle's corners. If their
+    /// normals cancel out, it is the triangle's normal.
     Vector3d at(const SurfaceMesh& mesh, const SurfacePlace& place) const;
 };
 CornerNormals corner_normals(const SurfaceMesh& mesh);

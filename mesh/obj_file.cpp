@@ -21,7 +21,8 @@ struct FaceCorner {
     std::optional<std::uint32_t> texture;
 };
 
-/// Joins lines that end in a backslash with the next one. Blanks replace it to preserve offsets.
+/// Joins each line that ends in a backslash with the next. Blanks replace the backslash and the
+/// line end, to preserve offsets.
 std::string joined_lines(std::string_view bytes) {
     std::string text(bytes);
     for (std::size_t at = text.find('\\'); at != std::string::npos; at = text.find('\\', at + 1)) {
@@ -111,7 +112,8 @@ private:
         return corner;
     }
 
-    /// An index from 1, or a negative one counted backwards from the latest.
+    /// An index that counts from 1, or a negative index that counts backwards from the latest
+    /// entry.
     static std::optional<std::uint32_t> number_of(std::string_view word, std::int64_t so_far) {
         const auto number = whole_number_in<std::int64_t>(word);
         if (!number || *number > most_points || *number < -so_far || *number == 0)
@@ -130,7 +132,7 @@ private:
                 if (!all_have_texture_) continue;
                 if (corner_texture_[c] >= texture_.size()) {
                     return failure(
-                        fmt::format("face {} of the OBJ file names a place in a texture that "
+                        fmt::format("face {} of the OBJ file names a texture coordinate that "
                                     "is not there",
                                     face + 1));
                 }
@@ -149,7 +151,8 @@ private:
                       {PointAttribute{"red", {}}, PointAttribute{"green", {}},
                        PointAttribute{"blue", {}}}};
     std::vector<TexturePlace> texture_;
-    std::vector<std::uint32_t> corner_texture_;  ///< By corner, as long as all have some.
+    /// By corner, as long as every corner has texture coordinates.
+    std::vector<std::uint32_t> corner_texture_;
     bool all_have_texture_ = true, all_have_colours_ = true;
 };
 

@@ -42,7 +42,7 @@ public:
 
     Result<PolygonSoup> read() {
         if (!read_head()) {
-            return failure("this is no OFF file of text",
+            return failure("this is not an OFF file in text form",
                            "files with OFF BINARY, 4OFF or nOFF at their beginning are not read");
         }
         if (points_ > size_ / least_point || faces_ > size_ / least_face) {
@@ -68,7 +68,7 @@ private:
         return failure(fmt::format("line {} of the OFF file is not {}", lines_.number(), what));
     }
 
-    /// The word OFF may be missing, and the counts may follow it on its line.
+    /// The word OFF may be missing. The counts may be on its line.
     bool read_head() {
         Words words = lines_.next();
         if (words.empty()) return false;
@@ -76,7 +76,7 @@ private:
         const std::size_t size = end == std::string_view::npos ? words.front().size() : end + 3;
         if (const auto extras = extras_of(words.front().substr(0, size))) {
             extras_ = *extras;
-            // The first count may follow without a blank.
+            // The first count may follow the word without a blank.
             words.front().remove_prefix(size);
             if (words.front().empty()) words.erase(words.begin());
             if (words.empty()) words = lines_.next();
@@ -102,7 +102,7 @@ private:
         const std::size_t first = extras_.normal ? 6 : 3;
         if (!extras_.colour) return true;
         if (numbers_.size() < first + 3) return false;
-        // Integers up to 255, or fractions.
+        // Colours are integers up to 255, or fractions.
         const bool is_fraction = words[first].find('.') != std::string_view::npos;
         for (std::size_t k = 0; k < 3; ++k) {
             soup_.attributes[k].values.push_back(

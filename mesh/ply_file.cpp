@@ -75,7 +75,7 @@ private:
     PlyHeader::Format format_;
 };
 
-/// The columns of a point's numbers. −1 if the file has none.
+/// The columns of a point's numbers, −1 for numbers that the file lacks.
 struct PointColumns {
     std::array<int, 3> place{-1, -1, -1};
     std::array<int, 2> texture{-1, -1};
@@ -85,7 +85,7 @@ bool is_one_of(std::string_view name, std::initializer_list<std::string_view> na
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// The value of full light in this type.
+/// The value of full light in numbers of this type.
 float full_value(PlyNumber type) {
     switch (type) {
         case PlyNumber::uint16: return std::numeric_limits<std::uint16_t>::max();
@@ -210,8 +210,8 @@ private:
             }
             if (name == "texcoord") add_texture(lists_[k]);
         }
-        // If a face had texture coordinates for more or fewer corners, those of later faces would
-        // be misassigned.
+        // If a face has texture coordinates for more or fewer corners than it has, the coordinates
+        // of all later faces would go to wrong corners.
         corners_have_texture_ =
             corners_have_texture_ && soup_.texture.size() == soup_.corners.size();
         return {};
@@ -250,7 +250,8 @@ private:
         return true;
     }
 
-    /// Adds triangle strips in sequence, separated by −1. Reverses every second triangle.
+    /// Adds triangle strips, which are listed one after another and separated by −1. Reverses every
+    /// second triangle.
     bool add_strips(const std::vector<double>& strip) {
         std::size_t begin = 0;
         for (std::size_t k = 0; k < strip.size(); ++k) {

@@ -1,4 +1,5 @@
-// Reads line by line. Types have an original name and one with a size.
+// Reads the header line by line. Each number type has two names: the original name and a name that
+// contains the type's size.
 #include "mesh/ply_header.h"
 
 #include "mesh/text_words.h"
@@ -43,7 +44,7 @@ public:
 
     Result<PlyHeader> read() {
         if (next_line() != "ply")
-            return failure("this is no PLY file: it does not begin with 'ply'");
+            return failure("this is not a PLY file: it does not begin with 'ply'");
         bool has_format = false;
         for (;;) {
             if (at_ >= bytes_.size()) return failure("the PLY file ends before 'end_header'");
@@ -53,10 +54,10 @@ public:
             if (words[0] == "format") has_format = true;
             if (!read_line(words)) {
                 return failure(
-                    fmt::format("line {} of the PLY file's head is not understood", line_));
+                    fmt::format("line {} of the PLY file's header is not understood", line_));
             }
         }
-        if (!has_format) return failure("the PLY file's head names no format");
+        if (!has_format) return failure("the PLY file's header names no format");
         header_.size = at_;
         return header_;
     }
@@ -140,7 +141,7 @@ std::size_t size_of(PlyNumber type) {
 }
 
 std::size_t PlyElement::least_bytes(bool is_text) const {
-    if (is_text) return 2 * properties.size();  // A digit and a blank.
+    if (is_text) return 2 * properties.size();  // A digit and a blank each.
     std::size_t bytes = 0;
     for (const PlyProperty& property : properties) {
         bytes += size_of(property.is_list ? property.count_type : property.type);

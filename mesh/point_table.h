@@ -1,4 +1,4 @@
-// Lookup of points with equal coordinates.
+// Finds points with equal coordinates.
 #pragma once
 
 #include "core/vector3.h"
@@ -9,13 +9,14 @@
 
 namespace cascade {
 
-/// A hash table from coordinates to points, which are stored elsewhere. −0 differs from 0, so
-/// callers replace it by 0. NaN equals nothing.
+/// A hash table that maps coordinates to the numbers of points. The points themselves are stored
+/// elsewhere. The table distinguishes −0 from 0, so callers replace −0 by 0. NaN equals nothing.
 class PointTable {
 public:
     explicit PointTable(const std::vector<Vector3d>& points) : points_(points), slots_(64, empty) {}
 
-    /// The first point added with the position of point `number`. Adds `number` if there is none.
+    /// The first added point with the same position as point `number`. If there is none, adds
+    /// `number`.
     std::uint32_t find_or_add(std::uint32_t number) {
         if (2 * (count_ + 1) > slots_.size()) grow();
         std::uint32_t& slot = slot_of(points_[number]);

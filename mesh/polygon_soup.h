@@ -1,5 +1,5 @@
 // The content of a model file: polygons over points, without adjacency. Guarantees only that every
-// corner is one of the points. mesh/surface_mesh.h is made from it.
+// corner is one of the points. make_mesh() makes a SurfaceMesh from it.
 #pragma once
 
 #include "core/vector3.h"
@@ -17,10 +17,10 @@ struct PointAttribute {
     std::string name;
     std::vector<float> values;  ///< One per point.
     // How the file represents colours:
-    float full = 1;         ///< The value of full light: 255 if the file has bytes.
-    bool is_light = false;  ///< Values are proportional to light, not sRGB.
+    float full = 1;         ///< The value of full light: 255 if the file stores bytes.
+    bool is_light = false;  ///< Whether values are proportional to light. Otherwise they are sRGB.
 
-    /// A copy without values.
+    /// A copy without the values.
     PointAttribute without_values() const { return {name, {}, full, is_light}; }
 };
 

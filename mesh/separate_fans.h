@@ -1,4 +1,4 @@
-// Separation of fans of triangles that only share a point.
+// Separates fans of triangles that share only a point.
 #pragma once
 
 #include "mesh/surface_mesh.h"
@@ -8,9 +8,9 @@
 
 namespace cascade {
 
-/// Renumbers the corners of the triangles so that triangles share a point only if they are
-/// connected over edges at it. Leaves points in order and drops unused ones. Returns the old index
-/// of each new point. The caller updates `points` and `attributes`.
+/// Gives each fan of triangles its own point: two triangles keep a common point only if edges at
+/// this point connect them. Leaves points in order and drops unused ones. Returns the old index of
+/// each new point. The caller updates `points` and `attributes`.
 std::vector<std::uint32_t> separate_fans(SurfaceMesh& mesh);
 
 }  // namespace cascade

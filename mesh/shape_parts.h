@@ -14,7 +14,8 @@ struct ShapePart {
     SweptNumber shade;  ///< May be empty.
 };
 
-/// Joins the parts, each with facets_for() the detail. Fails as facets_for() and swept_shape() do.
+/// Joins the parts. facets_for() chooses the facets of each part for `detail`. Fails as
+/// facets_for() and swept_shape() do.
 Result<TriangleMesh> mesh_of(std::span<const ShapePart> parts, const SweptDetail& detail);
 
 }  // namespace cascade

@@ -35,7 +35,7 @@ Vector3d reflected(Vector3d v, Vector3d across) {
     return v - across * (2 * dot(across, v) / dot(across, across));
 }
 
-/// Unit normals of the curve at n points, and at the first point again after a whole turn.
+/// Unit normals of the curve at n points, and once more at the first point after a whole turn.
 std::vector<Vector3d> normals_along(std::uint32_t n) {
     std::vector<Vector3d> normals{cross(tangent(0), Vector3d{0, 0, 1})};
     normals[0] = normals[0] * (1 / length(normals[0]));
@@ -50,7 +50,7 @@ std::vector<Vector3d> normals_along(std::uint32_t n) {
 
 Result<void> check_length(std::string_view name, double length) {
     if (length >= least_shape_length && length <= largest_shape_length) return {};
-    return failure(fmt::format("{} {} is no length to make a surface of", name, length));
+    return failure(fmt::format("{} {} is not a length that a surface can have", name, length));
 }
 
 Result<void> check_count(double triangles) {
@@ -65,14 +65,14 @@ double cuts(double length, double edge, double least) {
     return std::max(least, std::round(length / edge));
 }
 
-/// Makes the points of the icosahedron's edges and sides, cut into n.
+/// Makes the points of an icosahedron whose edges and sides are cut into n parts.
 class SphereMaker {
 public:
     SphereMaker(double radius, std::uint32_t cuts) : radius_(radius), cuts_(cuts) {}
 
     SurfaceMesh make() {
         place_corners();
-        // The fans around the top and bottom poles, and the band between them.
+        // Makes the fans around the top and bottom poles, and the band between them.
         for (std::uint32_t k = 0; k < 5; ++k) {
             const std::uint32_t upper = 1 + k, next_upper = 1 + (k + 1) % 5;
             const std::uint32_t lower = 6 + k, next_lower = 6 + (k + 1) % 5;
@@ -101,8 +101,9 @@ private:
         for (const Vector3d& corner : corners_) points_.push_back(corner * radius_);
     }
 
-    /// The sum of corners, each weighted by the sine of its fraction of their angle. For two
-    /// corners this is the point at that fraction of the arc between them.
+    /// Adds the point that is the sum of the corners. The weight of a corner is the sine of the
+    /// corner's fraction of the angle between corners. For two corners the result divides their arc
+    /// by the fractions.
     std::uint32_t add_point(std::array<std::uint32_t, 3> corners,
                             std::array<std::uint32_t, 3> parts) {
         static const double angle = std::acos(1 / std::sqrt(5.0));
@@ -178,12 +179,13 @@ using Step = std::array<std::uint32_t, 3>;
 
 /// One side of a box: from a corner along two axes, whose cross product points outwards.
 struct BoxSide {
-    Step corner;             ///< 0 or 1: the low or the high end of each axis.
+    Step corner;             ///< 0 or 1 per axis: its low or its high end.
     std::size_t across, up;  ///< The axes.
     bool is_backwards;       ///< `across` runs from the high to the low end.
     bool is_downwards;       ///< `up` runs from the high to the low end.
-    std::array<int, 4> net;  ///< The position in the net of the box: the number of depths and
-                             ///< widths to its left, and of depths and heights below it.
+    /// The position in the net of the box: how many depths and widths are to the left of the side,
+    /// and how many depths and heights below it.
+    std::array<int, 4> net;
 };
 
 // The axes are width (x), height (y) and depth (z).
@@ -220,7 +222,8 @@ public:
     }
 
 private:
-    /// Visits the corners of a side's triangles with their keys and texture coordinates.
+    /// Calls `visit` for the corners of a side's triangles, with their keys and texture
+    /// coordinates.
     template <typename Visit>
     void for_points(const BoxSide& side, const Visit& visit) const {
         const std::uint32_t columns = counts_[side.across], rows = counts_[side.up];
@@ -275,7 +278,7 @@ Result<SurfaceMesh> knot_mesh(double radius, double edge) {
     }
     const auto n = static_cast<std::uint32_t>(std::max(24.0, columns));
     const std::vector<Vector3d> normals = normals_along(n);
-    // The angle by which the last normal misses the first one.
+    // The angle between the last normal and the first one, which should be equal.
     const Vector3d across = cross(tangent(0), normals[0]);
     const double missing = std::atan2(dot(normals[n], across), dot(normals[n], normals[0]));
     return ring_lattice(n, static_cast<std::uint32_t>(rows), [&](std::uint32_t i, std::uint32_t j) {
@@ -290,7 +293,7 @@ Result<SurfaceMesh> sphere_mesh(double radius, double edge) {
         return tl::unexpected(fine.error());
     if (const auto fine = check_length("the edge", edge); !fine)
         return tl::unexpected(fine.error());
-    // The number of equilateral triangles of that edge that cover the sphere.
+    // The number of equilateral triangles with this edge that cover the sphere.
     const double n = cuts(radius * std::sqrt(4 * std::numbers::pi / (5 * std::sqrt(3.0))), edge, 1);
     if (const auto fine = check_count(20 * n * n); !fine) return tl::unexpected(fine.error());
     return SphereMaker(radius, static_cast<std::uint32_t>(n)).make();

@@ -1,5 +1,5 @@
-// Built-in surfaces: sphere, torus and box, of nearly equilateral triangles, closed and facing
-// outwards. Their centre is the origin. y points up and z to the front, as in most models.
+// Built-in surfaces of nearly equilateral triangles, closed and facing outwards. Their centre is
+// the origin. y points up and z to the front, as in most models.
 #pragma once
 
 #include "core/result.h"
@@ -7,13 +7,14 @@
 
 namespace cascade {
 
-/// Tubes with at least this radius intersect themselves.
+/// A tube with at least this radius intersects itself.
 inline constexpr double most_knot_radius = 0.6;
 
 /// A tube around the curve (sin φ + 2 sin 2φ, cos φ − 2 cos 2φ, −sin 3φ). Its rings do not twist
-/// against the curve, except for the turn that closes the tube, which is spread over its length.
-/// Texture: along the curve, and around the tube. `radius` is below `most_knot_radius`. Fails on
-/// others. `edge` as for the other shapes.
+/// around the curve, except for a rotation that makes the ends of the tube meet and is spread
+/// evenly over the tube's length. Texture coordinates run along the curve, and around the tube.
+/// `edge` is the approximate length of the triangles' edges. Fails unless `radius` is below
+/// `most_knot_radius`.
 Result<SurfaceMesh> knot_mesh(double radius, double edge);
 
 /// The largest number of triangles of a shape.
@@ -21,23 +22,24 @@ inline constexpr double most_shape_triangles = 1 << 24;
 /// The limits of a shape's lengths.
 inline constexpr double least_shape_length = 1e-60, largest_shape_length = 1e60;
 
-// `edge` is the approximate length of the triangles' edges. All lengths are in 10⁻⁶⁰ … 10⁶⁰. Fails
-// on others, and if there were more than `most_shape_triangles`. Throws std::bad_alloc.
+// `edge` is the approximate length of the triangles' edges. Lengths outside 10⁻⁶⁰ … 10⁶⁰ fail, as
+// do shapes of more than `most_shape_triangles`. Throws std::bad_alloc.
 
-/// An icosahedron with each side cut into n² triangles. A point with weights w of the side's
-/// corners is the normalised sum of the corners times sin(w × the angle of an edge), which cuts
-/// edges uniformly. Texture: longitude from the back via −x, and latitude. The longitude of a
-/// triangle that crosses the seam at the back continues beyond 1, and that of a pole is the
-/// longitude of the triangle's centre.
+/// An icosahedron with each side cut into n² triangles. A point on a side has a weight w for each
+/// corner of the side. It is the normalised sum of the corners, each multiplied by sin(w × the
+/// angle of an edge). This cuts edges into equal parts. Texture coordinates: longitude from the
+/// back via −x, and latitude. In a triangle that crosses the seam at the back, longitudes continue
+/// beyond 1. At a pole, it is the longitude of the triangle's centre.
 Result<SurfaceMesh> sphere_mesh(double radius, double edge);
 
 /// A tube of `tube_radius` around a circle of `ring_radius`, which is larger, around the y axis.
-/// Texture: around the ring from the back via −x, and around the tube from inside via below.
+/// Texture coordinates run around the ring from the back via −x, and around the tube from inside
+/// via below.
 Result<SurfaceMesh> torus_mesh(double ring_radius, double tube_radius, double edge);
 
 /// A box with sharp edges. Each side is a lattice of rectangles cut along alternating diagonals.
-/// Texture: the net of the box, with left, front, right and back side by side, and top and bottom
-/// above and below the front, all at one scale.
+/// Texture coordinates form the net of the box, with left, front, right and back side by side, and
+/// top and bottom above and below the front, all at one scale.
 Result<SurfaceMesh> box_mesh(Vector3d sides, double edge);
 
 }  // namespace cascade

@@ -21,10 +21,11 @@ namespace {
 
 // The error of a point that replaces others, in its position and its attributes.
 
-/// A sum over triangles of their areas times the squared distance of a point from their planes,
-/// plus the squared differences between its attributes and their linear functions on these
-/// triangles (H. Hoppe, "New Quadric Metric for Simplifying Meshes with Appearance Attributes",
-/// IEEE Visualization 1999).
+/// A function of a point and its attributes: a sum over triangles, weighted by area. A triangle's
+/// term is the squared distance of the point from the triangle's plane, plus the squared
+/// differences between the point's attributes and the linear functions that interpolate the
+/// attributes on the triangle (H. Hoppe, "New Quadric Metric for Simplifying Meshes with Appearance
+/// Attributes", IEEE Visualization 1999).
 class PointQuadric {
 public:
     static constexpr std::size_t most_attributes = 3;
@@ -115,7 +116,8 @@ using OpenMesh::Decimater::ModBaseT;
 using Decimater = OpenMesh::Decimater::DecimaterT<HalfEdges>;
 
 constexpr unsigned most_edges_of_merged = 12;
-/// Where collapses cost nothing else, as in a flat part of one colour, short edges go first.
+/// The weight of an edge's length. It makes short edges collapse first where no collapse changes
+/// anything, such as in a flat part of one colour.
 constexpr double weight_of_length = 1e-5;
 /// The cost of distance from a boundary's sides, relative to distance from the triangles' planes.
 constexpr double weight_of_boundary = 4;
@@ -164,8 +166,8 @@ public:
         const Vector3d to = place(collapse.v1), way = to - place(collapse.v0);
         const double error = std::max(0.0, sum.error(to, values_of(collapse.v1), attributes_));
         const auto cost = static_cast<float>(error + weight_of_length * own_area * dot(way, way));
-        // The decimater asks about all edges of a vertex in turn, and takes the cheapest one. It
-        // skips tests of edges more expensive than one already allowed.
+        // The decimater requests the costs of all edges of a vertex in turn and takes the cheapest.
+        // An edge that costs more than one already allowed needs no further test.
         if (collapse.v0 == asked_ && cost >= cheapest_) return cost;
         if (!is_allowed(collapse)) return ILLEGAL_COLLAPSE;
         asked_ = collapse.v0;
@@ -204,7 +206,7 @@ private:
         for (const VertexHandle v : corners) quadrics_[number(v)] += quadric;
     }
 
-    /// The plane through a boundary edge that is perpendicular to its triangle.
+    /// Adds the plane through a boundary edge, perpendicular to the edge's triangle.
     void add_boundary(HalfedgeHandle h) {
         const HalfedgeHandle inside = mesh().opposite_halfedge_handle(h);
         const VertexHandle from = mesh().from_vertex_handle(inside),
@@ -218,8 +220,8 @@ private:
         for (const VertexHandle v : {from, to}) quadrics_[number(v)] += quadric;
     }
 
-    /// A point whose neighbour across the collapsed triangle has three triangles would leave two
-    /// coinciding ones there.
+    /// If a neighbour across a collapsed triangle has only three triangles, two coinciding
+    /// triangles would remain there.
     bool keeps_triangles(VertexHandle across) {
         return !across.is_valid() ||
                mesh().valence(across) > (mesh().is_boundary(across) ? 2U : 3U);
@@ -239,9 +241,9 @@ private:
     std::size_t attributes_ = 0;
     std::vector<PointQuadric::Attributes> values_;
     std::vector<PointQuadric> quadrics_;
-    VertexHandle asked_;               ///< The vertex of the last allowed collapse.
-    float cheapest_ = 0;               ///< The cost of this collapse.
-    std::vector<std::uint32_t> into_;  ///< The vertex into which each one has merged.
+    VertexHandle asked_;               ///< The vertex of the last collapse that was allowed.
+    float cheapest_ = 0;               ///< The cost of that collapse.
+    std::vector<std::uint32_t> into_;  ///< The vertex into which each vertex has merged.
 };
 
 class StopWhenCancelled : public OpenMesh::Decimater::Observer {

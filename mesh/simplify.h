@@ -15,26 +15,28 @@ namespace cascade {
 /// A pattern that simplify() preserves: up to three numbers at each point, such as a colour.
 struct KeptPattern {
     std::span<const std::array<float, 3>> values;  ///< One per point. Empty if there is none.
-    /// A difference of 1 in a number counts as much as a distance of this length.
+    /// The distance on the surface that counts as much as a difference of 1 in one of the numbers.
     double length = 0;
 };
 
 struct Simplified {
-    /// Its points are points of the original, in their order, with their attributes. Triangles have
-    /// no texture coordinates and no faces.
+    /// The result. Its points are points of the original, in their order, with their attributes.
+    /// Triangles have no texture coordinates and no faces.
     SurfaceMesh mesh;
-    std::vector<std::uint32_t> points;  ///< The original's point for each point.
+    /// For each point of the result, the point of the original.
+    std::vector<std::uint32_t> points;
     /// For each point of the original, the point of the result into which it has merged.
     std::vector<std::uint32_t> merged;
 };
 
 /// The surface with about `triangles` triangles, at most one more. Collapses edges into one of
 /// their ends, in order of least change to the surface and the pattern. Components, handles and
-/// boundaries remain, and corners of boundaries stay. More triangles are left where a collapse
-/// would change these or fold triangles. Values that are not finite count as 0. The result is the
-/// same in every run.
+/// boundaries remain, and corners of boundaries stay. Stops with more triangles if every further
+/// collapse would change one of these or fold triangles over. Values that are not finite count as
+/// 0. The result is the same in every run.
 ///
-/// Fails as half_edges() does. Throws std::bad_alloc. Meaningless if `cancel` became true.
+/// Fails as half_edges() does. Throws std::bad_alloc. The result is meaningless if `cancel` became
+/// true.
 Result<Simplified> simplify(const SurfaceMesh& mesh, std::size_t triangles,
                             const KeptPattern& pattern, const std::atomic<bool>& cancel);
 

@@ -1,4 +1,4 @@
-// Sorting by points of a mesh in linear time.
+// Sorts items by points of a mesh, in linear time.
 #pragma once
 
 #include <algorithm>
@@ -7,8 +7,8 @@
 
 namespace cascade {
 
-/// Sorts by operator<, whose first key must be `point_of`, a number below `point_count`.
-/// Distributes the items to points and then sorts the few of each point.
+/// Sorts items by operator<, which must first compare `point_of(item)`, a number below
+/// `point_count`. Distributes the items to points and then sorts the few items of each point.
 template <typename Item, typename PointOf>
 void sort_by_point(std::vector<Item>& items, std::size_t point_count, const PointOf& point_of) {
     std::vector<std::size_t> ends(point_count + 1, 0);
@@ -16,7 +16,8 @@ void sort_by_point(std::vector<Item>& items, std::size_t point_count, const Poin
     for (std::size_t p = 0; p < point_count; ++p) ends[p + 1] += ends[p];
     std::vector<Item> sorted(items.size());
     for (const Item& item : items)
-        sorted[ends[point_of(item)]++] = item;  // The starts become ends.
+        // Turns the start of each point's items into their end.
+        sorted[ends[point_of(item)]++] = item;
     std::size_t begin = 0;
     for (std::size_t p = 0; p < point_count; ++p) {
         std::sort(sorted.begin() + static_cast<std::ptrdiff_t>(begin),

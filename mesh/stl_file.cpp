@@ -1,5 +1,6 @@
 // Reads STL files (3D Systems, "StereoLithography Interface Specification", 1989), text or binary.
-// A file is binary if its size matches its number of triangles, or if it is longer and no text.
+// A file is binary if its size matches its number of triangles, or if it is longer and does not
+// look like text.
 #include "mesh/model_file.h"
 #include "mesh/point_table.h"
 #include "mesh/text_words.h"
@@ -15,11 +16,11 @@ namespace {
 
 constexpr std::size_t head_size = 84, triangle_size = 50;  ///< Sizes in bytes in a binary file.
 
-/// Triangles with separate points. Merges points at the same position.
+/// Collects triangles with separate points, and merges points at the same position.
 class MergedSoup {
 public:
     MergedSoup() = default;
-    MergedSoup(const MergedSoup&) = delete;  // The table refers to the points.
+    MergedSoup(const MergedSoup&) = delete;  // Because the table refers to the points.
     MergedSoup& operator=(const MergedSoup&) = delete;
 
     void add_corner(Vector3d p) {
@@ -119,18 +120,18 @@ Result<PolygonSoup> read_stl(std::string_view bytes) {
     const bool has_head = bytes.size() >= head_size;
     const std::size_t count = has_head ? word_at(bytes, head_size - 4) : 0;
     const std::size_t wanted = head_size + count * triangle_size;
-    // A text has no byte of 0, but the number of triangles in a binary file does.
+    // Text contains no byte of 0, but the number of triangles in a binary file does.
     const bool has_number = has_head && bytes.substr(head_size - 4, 4).find('\0') != bytes.npos;
     if (has_head && bytes.size() == wanted) return read_binary(bytes, count);
-    // Some programs append data of their own after the triangles. If the rest is as long as the
-    // triangles, the number is probably wrong.
+    // Some programs append other data after the triangles. But if the rest is as long as the
+    // triangles, the number of triangles is probably wrong.
     const bool is_longer = bytes.size() > wanted;
     const bool has_more = is_longer && (bytes.size() - wanted) % triangle_size == 0;
     if (has_number && count > 0 && is_longer && !has_more) return read_binary(bytes, count);
     if (is_utf16(bytes)) return utf16_failure();
     const std::size_t first = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
     if (!has_number && is_word(bytes.substr(first, 5), "solid")) return read_text(bytes);
-    if (!has_head) return failure("this is no STL file that can be read");
+    if (!has_head) return failure("this is not an STL file that can be read");
     return failure(fmt::format("the STL file is {} bytes long, but its {} triangles take {}",
                                bytes.size(), count, wanted),
                    is_longer ? "the number of triangles, in bytes 81 to 84, is too small"

@@ -1,5 +1,5 @@
 // OpenMesh makes the points and triangles. Everything else follows from the order in which it makes
-// them: a point for each edge, and three triangles at the corners of each one.
+// them: a point for each edge, and three triangles at the corners of each old triangle.
 #include "mesh/subdivide.h"
 
 #include "core/counted.h"
@@ -31,7 +31,7 @@ void halve_edges(HalfEdges& mesh) {
     unsigned largest = 0;
     for (const VertexHandle v : mesh.vertices()) largest = std::max(largest, mesh.valence(v));
     OpenMesh::Subdivider::Uniform::LoopT<HalfEdges> loop;
-    loop.init_weights(largest + 1);  // It has room for 49 neighbours initially.
+    loop.init_weights(largest + 1);  // OpenMesh prepares weights for 49 neighbours only.
     loop.attach(mesh);
     loop(1);
     loop.detach();
@@ -45,7 +45,8 @@ void halve_attributes(const EdgeEnds& edges, std::vector<PointAttribute>& attrib
     }
 }
 
-/// The texture coordinates of triangles that lie in the triangles of `coarse`.
+/// The texture coordinates of the triangles of `fine`, each of which is a part of a triangle of
+/// `coarse`.
 std::vector<std::array<TexturePlace, 3>> halved_texture(const SurfaceMesh& coarse,
                                                         const EdgeEnds& edges,
                                                         const SurfaceMesh& fine) {

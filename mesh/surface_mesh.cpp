@@ -53,7 +53,7 @@ std::vector<std::uint32_t> connected_components(const SurfaceMesh& mesh) {
 
 namespace {
 
-/// The boundary edge that begins where this one ends.
+/// The boundary edge that begins where `edge` ends.
 TriangleEdge next_of_boundary(const SurfaceMesh& mesh, TriangleEdge edge) {
     TriangleEdge next = {edge.triangle, (edge.edge + 1) % 3};
     for (;;) {

@@ -36,11 +36,11 @@ struct TriangleEdge {
 struct SurfaceMesh {
     std::vector<Vector3d> points;
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< Counterclockwise, seen from outside.
-    /// The edge of the adjacent triangle across edge k of each triangle, or none.
+    /// For edge k of each triangle: the edge of the adjacent triangle there, if any.
     std::vector<std::array<TriangleEdge, 3>> across;
     std::vector<std::array<TexturePlace, 3>> texture;  ///< Per triangle. Empty if there is none.
     std::vector<PointAttribute> attributes;
-    /// The face of the model that each triangle was cut from, counted from 0. A merged triangle
+    /// The face of the model from which each triangle was cut, counted from 0. A merged triangle
     /// without area belongs to its neighbour's face. Empty if the model has only triangles.
     std::vector<std::uint32_t> faces;
 
@@ -58,7 +58,7 @@ struct SurfaceMesh {
     }
     /// The angle of a triangle at its corner k, 0 … π.
     double angle(std::size_t triangle, std::size_t k) const;
-    /// The sum over all triangles, in their order.
+    /// The area of all triangles, summed in their order.
     double total_area() const;
     /// The bounding box of all points.
     struct Box {
@@ -70,7 +70,7 @@ struct SurfaceMesh {
 /// Global properties of a mesh.
 struct MeshFacts {
     std::size_t points = 0, triangles = 0, edges = 0;
-    std::size_t components = 0;  ///< Connected over edges.
+    std::size_t components = 0;  ///< Parts connected over edges.
     std::size_t boundary_edges = 0;
     std::size_t boundaries = 0;             ///< Closed loops of boundary edges.
     std::int64_t euler_characteristic = 0;  ///< points − edges + triangles.

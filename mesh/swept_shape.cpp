@@ -17,9 +17,10 @@ namespace cascade {
 
 namespace {
 
-constexpr double step = 1e-5;            ///< For differences in t and s.
-constexpr double pole_step = 1e-4;       ///< Distance from a pole where normals are measured.
-constexpr double vanishing_part = 1e-9;  ///< Smaller parts, relative to the shape, count as points.
+constexpr double step = 1e-5;       ///< Step of differences in t and s.
+constexpr double pole_step = 1e-4;  ///< Distance from a pole where normals are measured.
+/// Parts smaller than this fraction of the shape count as points.
+constexpr double vanishing_part = 1e-9;
 
 /// Evaluates a surface, and remembers the first parameters at which it is not finite.
 class Probe {
@@ -100,7 +101,8 @@ private:
 
     void add_ring(std::uint32_t ring) {
         const double t = t_of(ring);
-        // Positions come first, so that the message names the point that is not finite itself.
+        // Checks the position first: if both it and the normal are not finite, the message must
+        // name the position.
         for (std::uint32_t j = 0; j < facets_.around; ++j) {
             const Vector3d place = probe_.at(t, s_of(j));
             if (places_.empty()) low_ = high_ = place;
@@ -110,7 +112,8 @@ private:
                      std::max(high_.z, place.z)};
             add(place, {}, shade_at(t, s_of(j)));
         }
-        // An end may be a pole. Each of its vertices belongs to the sector after it.
+        // An end may be a pole, with one vertex for each sector. Each of these vertices has the
+        // normal of its sector.
         const bool is_end = ring == 0 || ring == facets_.along;
         const double inside = is_end ? std::clamp(t, pole_step, 1 - pole_step) : t;
         for (std::uint32_t j = 0; j < facets_.around; ++j) {
@@ -142,7 +145,7 @@ private:
             middle = middle + places_[vertex(ring, j)] * (1.0 / facets_.around);
             normals_[vertex(ring, j)] = probe_.normal(t, s_of(j));
         }
-        // Zero: set_normals() takes the triangles' normals.
+        // Without a normal, so set_normals() takes the triangles' normals.
         const std::uint32_t centre = add(middle, {}, shade_at(t, 0));
         const std::uint32_t first = centre + 1;
         for (std::uint32_t j = 0; j < facets_.around; ++j) {
@@ -155,7 +158,7 @@ private:
         }
     }
 
-    /// The quadrilaterals between a ring and the next.
+    /// Adds the quadrilaterals between a ring and the next.
     void join(std::uint32_t ring) {
         const bool from_point = ring == 0 && is_pole_[0];
         const bool to_point = ring + 1 == facets_.along && is_pole_[1];
@@ -190,7 +193,8 @@ private:
         for (Vector3d& normal : normals_) normal = -normal;
     }
 
-    /// Sets the normals of the surface, or of the triangles where it has none.
+    /// Sets the normals to the surface's normals. Where the surface has none, uses the normals of
+    /// the triangles.
     void set_normals() {
         smooth_normals(mesh_);
         for (std::size_t k = 0; k < normals_.size(); ++k) {
@@ -203,9 +207,9 @@ private:
     SweptFacets facets_;
     const SweptNumber& shade_;
     TriangleMesh mesh_;
-    std::vector<Vector3d> places_, normals_;  ///< Normals have any length.
+    std::vector<Vector3d> places_, normals_;  ///< Normals of any length.
     Vector3d low_, high_;
-    std::array<bool, 2> is_pole_{};  ///< For the first and the last ring.
+    std::array<bool, 2> is_pole_{};  ///< Whether the first and the last ring are poles.
 };
 
 constexpr std::uint32_t lines = 24;  ///< Lines along which facets are tested.
@@ -216,8 +220,8 @@ double distance_from_line(Vector3d p, Vector3d a, Vector3d b) {
     return length(p - (a + (b - a) * nearest_fraction(a, b, p)));
 }
 
-/// Whether polygons of `count` edges along the lines `place(line, part)` meet a detail. `part` goes
-/// from 0 to 1.
+/// Whether polygons of `count` edges along the lines `place(line, part)` are within the tolerance
+/// of `detail`. `part` goes from 0 to 1.
 template <typename Place>
 bool keeps_to(const SweptDetail& detail, std::uint32_t count, const Place& place) {
     for (std::uint32_t line = 0; line < lines; ++line) {
@@ -269,7 +273,7 @@ SweptSurface surface_of(Tube tube) {
         double t = -1;
         Vector3d middle, across, beside;
     };
-    // Successive points often have the same t.
+    // Remembers the last ring, because successive points often have the same t.
     return [tube = std::move(tube), ring = Ring()](double t, double s) mutable {
         if (ring.t != t) {
             Vector3d along = unit(derivative(tube.middle, t));
@@ -303,7 +307,7 @@ Result<SweptFacets> facets_for(const SweptSurface& surface, const SweptDetail& d
         facets.around = more(facets.around);
         if (facets.around > most_swept_facets) return too_fine("around");
     }
-    // Diagonals are longer than sides.
+    // Diagonals are longer than sides, so more facets may be needed.
     while (probe.fault().empty() && longest_edge(probe, facets) > detail.longest_edge) {
         facets = {more(facets.along), more(facets.around)};
         if (facets.along > most_swept_facets) return too_fine("along t");

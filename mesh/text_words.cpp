@@ -28,8 +28,9 @@ std::optional<double> number_in(std::string_view word) {
         return std::nullopt;
     }
     if (fault == std::errc()) return value;
-    // Out of range: from_decimal() does not tell at which end. The sign of the exponent tells, or,
-    // without an exponent, whether there are digits before the point.
+    // from_decimal() does not say whether the number is too large or too small. The sign of the
+    // exponent tells. Without an exponent, the number is too large if it has digits before the
+    // point.
     const bool is_negative = word.starts_with('-');
     if (is_negative) word.remove_prefix(1);
     const std::size_t exponent = word.find_first_of("eE");

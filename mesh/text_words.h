@@ -1,4 +1,4 @@
-// Lines of a text file, their words, and numbers in words.
+// Reads text files: lines, their words, and numbers in words.
 #pragma once
 
 #include "core/result.h"
@@ -28,7 +28,7 @@ std::optional<Integer> whole_number_in(std::string_view word) {
     return value;
 }
 
-/// Whether a text is UTF-16 of either byte order, where all Latin letters have a byte of 0.
+/// Whether a text is UTF-16 of either byte order, in which every Latin letter has a byte of 0.
 bool is_utf16(std::string_view text);
 
 /// The failure for a model file in UTF-16.

@@ -1,4 +1,5 @@
-// A vertex normal is the sum of its triangles' cross products, which weights them by area.
+// The normal of a vertex is the sum of its triangles' normals, weighted by area: the cross product
+// of two edges contains the triangle's area.
 #include "mesh/triangle_mesh.h"
 
 #include "core/check.h"

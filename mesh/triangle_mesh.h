@@ -9,7 +9,7 @@
 
 namespace cascade {
 
-/// Rounds a point or direction to binary32.
+/// Rounds a point or a direction to binary32.
 inline Vector3 single(const Vector3d& a) {
     return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
 }
@@ -18,8 +18,8 @@ struct TriangleMesh {
     std::vector<Vector3> positions;
     std::vector<Vector3> normals;                         ///< One per position, of length 1.
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< Counterclockwise from outside.
-    /// The part of the colour's light, 0 … 1, that the surface reflects at each position. Empty:
-    /// all of it everywhere.
+    /// The fraction of the colour's light, 0 … 1, that the surface reflects at each position. If
+    /// empty, all light is reflected everywhere.
     std::vector<float> shades;
 };
 

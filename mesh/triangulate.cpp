@@ -9,7 +9,7 @@ namespace cascade {
 
 namespace {
 
-constexpr double most_work = 4e9;  ///< Tests of a corner against an ear.
+constexpr double most_work = 4e9;  ///< Number of tests of a corner against an ear.
 
 using Triangle = std::array<std::uint32_t, 3>;
 
@@ -77,7 +77,8 @@ public:
     std::uint32_t next(std::uint32_t k) const { return next_[k]; }
     Triangle ear(std::uint32_t k) const { return {previous_[k], k, next_[k]}; }
 
-    /// Convex, with no other corner inside. Only reflex corners can be inside an ear.
+    /// Whether corner k is convex and no other corner is inside its ear. It is enough to test
+    /// reflex corners.
     bool is_ear(std::uint32_t k) const {
         if (!is_convex(k)) return false;
         const auto [a, b, c] = ear(k);
@@ -130,7 +131,7 @@ bool triangulate(std::span<const Vector3d> corners, std::vector<Triangle>& trian
             at = ring.next(at);
             ++tried;
         }
-        triangles.push_back(ring.ear(at));  // For a polygon that intersects itself, any corner.
+        triangles.push_back(ring.ear(at));  // Takes any corner if the polygon intersects itself.
         const std::uint32_t following = ring.next(at);
         ring.cut(at);
         at = ring.next(following);  // Skipping a corner avoids fans in round polygons.

@@ -17,4 +17,9 @@ mkdir -p "$into"
 NODE_PATH=$PWD/node_modules node_modules/.bin/esbuild "$page/src/page.ts" "$page/src/worker.ts" "$page/src/page.css" \
     --bundle --minify --legal-comments=none --format=esm --target=es2022 --log-level=warning \
     --banner:js="$(cat "$page/src/license.js")" --outdir="$into"
+# The npm package is not minified, because those who use it read it and bundle it again. Its comments name files
+# relative to the current folder.
+modules=$PWD/node_modules
+(cd "$page" && "$modules/.bin/esbuild" src/package.ts --bundle --format=esm --target=es2022 --platform=neutral \
+    --external:node:fs/promises --log-level=warning) >"$into/package.js"
 cp "$page/src/index.html" "$into/index.html"

@@ -39,7 +39,7 @@ async function press() { await point(hand_x, hand_y, "mousePressed"); }
 async function release() { await point(hand_x, hand_y, "mouseReleased"); }
 
 await browser.call("Emulation.setDeviceMetricsOverride", { width: 1200, height: 760, deviceScaleFactor: 1, mobile: false });
-await browser.call("Page.addScriptToEvaluateOnNewDocument", { source: `try { localStorage.was_taught = "yes"; localStorage.speed = "-1"; } catch { }` });
+await browser.begin_with({ was_taught: "yes", speed: "-1" });
 await browser.call("Page.navigate", { url: address });
 await browser.until(`document.querySelectorAll("#stages li").length === 2 && document.querySelectorAll("#controls [type=range]").length > 1`);
 await browser.evaluate(`{

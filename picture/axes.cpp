@@ -1,4 +1,4 @@
-// Ticks at 1, 2 and 5 times powers of ten.
+// Places ticks at 1, 2 and 5 times powers of ten.
 #include "picture/axes.h"
 
 #include <fmt/format.h>

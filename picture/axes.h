@@ -1,4 +1,5 @@
-// The frame of a diagram: a box with ticks and numbers, and the positions of values in it.
+// The frame of a diagram: a box with ticks and numbers. Also computes where a pair of values is in
+// the box.
 #pragma once
 
 #include "picture/drawing.h"
@@ -8,7 +9,7 @@
 
 namespace cascade {
 
-/// The values at the two ends of an axis. If it runs downwards or to the left, low > high.
+/// The values at the two ends of an axis. If low > high, the axis runs downwards or to the left.
 struct AxisRange {
     double low = 0, high = 1;
     std::string name;
@@ -19,7 +20,7 @@ struct AxisBox {
     double left = 0, top = 0, right = 0, bottom = 0;
 };
 
-/// Round numbers in a range, about `count` of them, in ascending order.
+/// About `count` round numbers within a range, in ascending order.
 std::vector<double> ticks_of(const AxisRange& range, int count);
 
 /// Adds the outline of a box.
@@ -27,7 +28,7 @@ void draw_frame(Drawing& drawing, const AxisBox& box);
 
 class Axes {
 public:
-    /// Places the box with the usual margins in a drawing of this size.
+    /// Places the box in a drawing of `width` × `height`, with margins for the numbers.
     Axes(AxisRange across, AxisRange up, double width, double height);
     Axes(AxisRange across, AxisRange up, const AxisBox& box);
 
@@ -37,9 +38,9 @@ public:
     double top() const { return top_; }
     double bottom() const { return bottom_; }
 
-    /// Adds ticks, numbers, names and the box.
+    /// Adds the box, its ticks and numbers, and the names of the axes to a drawing.
     void draw(Drawing& drawing) const;
-    /// Adds a curve, without the parts above or below the box.
+    /// Adds a curve to a drawing. Leaves out the parts above and below the box.
     void draw_curve(Drawing& drawing, const std::vector<double>& across,
                     const std::vector<double>& up, DrawnLine style) const;
 

@@ -10,7 +10,7 @@
 namespace cascade {
 namespace {
 
-constexpr std::int64_t pixels_per_dot = 240;  // Pixels of picture width per dot.
+constexpr std::int64_t pixels_per_dot = 240;  // Pixels of the picture's width for each dot.
 constexpr std::int64_t largest_dot = 8;
 constexpr std::int64_t padding = 3;  // Dots around the text.
 constexpr std::int64_t least_characters = 4;

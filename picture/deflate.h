@@ -1,4 +1,4 @@
-// Compression in the zlib format, which PNG files, pages and browsers share.
+// Compresses in the zlib format, which PNG files and pages use.
 #pragma once
 
 #include <cstddef>
@@ -8,11 +8,11 @@
 
 namespace cascade {
 
-/// The bytes in the zlib format (RFC 1950). `level` is 1, fast, to 12, small. Throws
-/// std::bad_alloc.
+/// Compresses bytes in the zlib format (RFC 1950). `level` is from 1 (fastest) to 12 (smallest
+/// result). Throws std::bad_alloc.
 std::string deflated(std::string_view bytes, int level);
 
-/// The checksum of chunks of PNG files.
+/// The checksum that PNG files use for chunks.
 std::uint32_t crc32_of(std::string_view bytes);
 
 }  // namespace cascade

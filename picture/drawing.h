@@ -1,4 +1,4 @@
-// Drawings of lines, areas and texts, for diagrams: as SVG, or as an image of pixels.
+// Drawings of lines, areas and texts, for diagrams. They become SVG, PDF, or an image of pixels.
 #pragma once
 
 #include "core/palette.h"
@@ -13,11 +13,12 @@
 
 namespace cascade {
 
-/// A position in a drawing: to the right and down, in units of which a text line is 14 high.
+/// A position in a drawing: its distance from the left and from the top. 14 units are the height of
+/// a line of text.
 using DrawnPoint = std::array<double, 2>;
 
 struct DrawnLine {
-    std::vector<DrawnPoint> points;  ///< In the order in which they are joined.
+    std::vector<DrawnPoint> points;  ///< In the order in which they are connected.
     Colour colour{0, 0, 0};
     double width = 1;
     bool dashed = false;
@@ -35,22 +36,24 @@ struct DrawnDisc {
     Colour colour{0, 0, 0};
 };
 
-/// A line of text, in the colour of sheets.
+/// A line of text in the colour of contact sheets.
 struct DrawnText {
     enum class Anchor { start, middle, end };
-    DrawnPoint place{};  ///< The anchor, at half the line's height.
+    /// The position of the start, middle or end of the text, as `anchor` says, at half the height
+    /// of the line.
+    DrawnPoint place{};
     std::string text;
     Anchor anchor = Anchor::start;
 };
 
-/// An image that fills an area, without smoothing.
+/// An image that fills an area. Its pixels are enlarged without smoothing.
 struct DrawnImage {
     DrawnPoint corner{};
     double width = 0, height = 0;
     Image image;
 };
 
-/// Later shapes cover earlier ones.
+/// Lines, areas, texts and images. Later ones cover earlier ones.
 struct Drawing {
     double width = 0, height = 0;
     std::vector<std::variant<DrawnLine, DrawnArea, DrawnDisc, DrawnText, DrawnImage>> shapes;
@@ -61,18 +64,19 @@ struct Drawing {
     }
 };
 
-/// An SVG file. Fails if an image of the drawing cannot be encoded.
+/// Converts a drawing to an SVG file. Fails if one of its images cannot be encoded.
 Result<std::string> as_svg(const Drawing& drawing);
 
-/// A PDF file of one page. Texts are Latin-1 and Greek letters. Other letters become question
-/// marks. Fails if the page is larger than the format admits.
+/// Converts a drawing to a PDF file with one page. Texts may contain Latin-1 and Greek letters. Any
+/// other letter is replaced by a question mark. Fails if the page is larger than the format
+/// permits.
 Result<std::string> as_pdf(const Drawing& drawing);
 
-/// The drawing with `scale` pixels per unit, from 1 to 8.
+/// Draws a drawing as an image with `scale` pixels for each unit of length. `scale` is from 1 to 8.
 Image as_image(const Drawing& drawing, int scale);
 
-/// Writes the format of the name's ending: .svg, .pdf, or .png with two pixels per unit. Fails as
-/// these and write_file() do, and on other endings.
+/// Writes a file in the format of its ending: .svg, .pdf, or .png with two pixels for each unit.
+/// Fails for other endings, and like the functions above and write_file().
 Result<void> write_drawing(const std::filesystem::path& path, const Drawing& drawing);
 
 }  // namespace cascade

@@ -1,4 +1,5 @@
-// A drawing as pixels. Edges of lines and discs are smoothed by the part of a pixel they cover.
+// Draws a drawing as pixels. Edges of lines and discs are smoothed: each pixel gets the colour in
+// proportion to the part that is covered.
 #include "picture/drawing.h"
 #include "picture/lettering.h"
 
@@ -36,8 +37,8 @@ private:
         for (std::size_t k = 0; k < 3; ++k) pixel[k] += weight * (colour[k] - pixel[k]);
     }
 
-    /// Calls `cover` with the centre of each pixel within `reach` of the box of two points. `cover`
-    /// returns the covered fraction of the pixel.
+    /// Calls `cover` with the centre of each pixel within `reach` of the box between two points.
+    /// `cover` returns the fraction of the pixel that is covered.
     template <typename Cover>
     void paint(DrawnPoint low, DrawnPoint high, double reach, const Colour& colour,
                const Cover& cover) {

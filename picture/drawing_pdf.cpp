@@ -1,4 +1,4 @@
-// A drawing as PDF, by libharu: one page, with texts in the fonts that every reader has.
+// Writes a drawing as PDF with libharu: one page, with texts in the fonts that every reader has.
 #include "core/utf8.h"
 #include "picture/drawing.h"
 
@@ -15,20 +15,20 @@ namespace cascade {
 
 namespace {
 
-constexpr double points_per_unit = 0.75;  // As in SVG, 96 units are an inch of 72 points.
+constexpr double points_per_unit = 0.75;  // As in SVG, 96 units are an inch, which is 72 points.
 constexpr double text_size = 13 * points_per_unit;
 constexpr Colour text_ink{0.16F, 0.16F, 0.17F};
 constexpr char unknown = '?';
 
-/// A part of a text in one font.
+/// A part of a text that is in one font.
 struct Run {
     bool is_greek = false;
     std::string bytes;
 };
 
-/// The letter of the font Symbol for a Greek one; 0 if there is none.
+/// The code of a Greek letter in the font Symbol. 0 if there is none.
 char in_symbol(char32_t letter) {
-    // By code, from α and Α on. A blank where Unicode has no letter or the font no glyph.
+    // In the order of Unicode, from α and Α. A blank stands for a missing letter or glyph.
     constexpr std::string_view small = "abgdezhqiklmnxoprVstufcyw",
                                large = "ABGDEZHQIKLMNXOPR STUFCYW";
     if (letter >= U'α' && letter < U'α' + small.size()) return small[letter - U'α'];
@@ -39,8 +39,8 @@ char in_symbol(char32_t letter) {
     return '\0';
 }
 
-/// In the encodings of the fonts: WinAnsiEncoding, which is Latin-1 except for some signs, and
-/// Symbol's own.
+/// Divides a text into runs, in the encodings of the fonts: WinAnsiEncoding, which is Latin-1
+/// except for some signs, and Symbol's own.
 std::vector<Run> runs_of(std::string_view text) {
     std::vector<Run> runs;
     const auto add = [&](bool is_greek, char byte) {
@@ -153,7 +153,8 @@ private:
         HPDF_Page_EndText(page_);
     }
 
-    /// On white, like pages. Without interpolation, the format's default.
+    /// Draws an image on white, like the page. It is not interpolated, which is the format's
+    /// default.
     void add(const DrawnImage& drawn) {
         const Image& image = drawn.image;
         std::vector<HPDF_BYTE> levels;
@@ -167,7 +168,7 @@ private:
         const HPDF_Image made =
             HPDF_LoadRawImageFromMem(pdf_.get(), levels.data(), static_cast<HPDF_UINT>(image.width),
                                      static_cast<HPDF_UINT>(image.height), HPDF_CS_DEVICE_RGB, 8);
-        if (made == nullptr) return;  // The document remembers the error.
+        if (made == nullptr) return;  // The document itself remembers the error.
         HPDF_Page_DrawImage(page_, made, x(drawn.corner), y({0, drawn.corner[1] + drawn.height}),
                             number(drawn.width), number(drawn.height));
     }

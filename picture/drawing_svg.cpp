@@ -1,4 +1,4 @@
-// A drawing as SVG: every shape is one element.
+// Writes a drawing as SVG. Every shape becomes one element.
 #include "picture/drawing.h"
 
 #include "core/base64.h"
@@ -14,13 +14,13 @@ namespace cascade {
 
 namespace {
 
-/// The image with pixels of at most half a unit, or as near to that as a size of 2048 × 2048
-/// allows. Programs that smooth images, such as librsvg, then blur only the edges of its squares.
+/// Enlarges an image until its pixels are at most half a unit wide, or as far as 2048 × 2048 pixels
+/// allow. Programs that smooth images, such as librsvg, then blur only the edges of its squares.
 Image in_small_pixels(const DrawnImage& drawn) {
     constexpr double per_unit = 2;
     constexpr std::int64_t most_pixels = std::int64_t{1} << 22;
     const Image& image = drawn.image;
-    // An axis with a single pixel has no edges to blur.
+    // An axis with a single pixel has no edges that could be blurred.
     const auto units_of_pixel = [](double length, std::int64_t count) {
         return count > 1 ? length / static_cast<double>(count) : 0.0;
     };

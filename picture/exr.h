@@ -1,5 +1,5 @@
-// OpenEXR files: numbers of any size, as film and 3-D programs exchange them (Academy Software
-// Foundation, "OpenEXR File Layout", 2023).
+// Writes OpenEXR files, by which film and 3-D programs exchange pictures whose numbers are not
+// limited to 0 … 1 (Academy Software Foundation, "OpenEXR File Layout", 2023).
 #pragma once
 
 #include "core/result.h"
@@ -11,17 +11,19 @@
 
 namespace cascade {
 
-/// One number per pixel.
+/// A channel of a picture. It has one number for each pixel.
 struct ExrChannel {
-    std::string name;              ///< "R", "G", "B", "A"; "Y" for a picture of one number.
-    const float* first = nullptr;  ///< The upper left pixel's number.
-    std::size_t step = 1;          ///< From one pixel to the next in a row, and over rows.
-    bool is_half = true;           ///< Stored with 16 bits instead of 32.
+    std::string name;              ///< "R", "G", "B" or "A"; "Y" if a picture has only one number.
+    const float* first = nullptr;  ///< The number of the upper left pixel.
+    /// The number of elements in memory from one pixel to the next, also from the last pixel of a
+    /// row to the first of the next row.
+    std::size_t step = 1;
+    bool is_half = true;  ///< Whether numbers are stored with 16 bits instead of 32.
 };
 
-/// The file in memory: rows from the top, compressed without loss in blocks of 16 rows (ZIP). Each
-/// side is 1 … 2^31 − 1. Channels have different names and `width` × `height` numbers each. Fails
-/// if memory runs out.
+/// Encodes a file in memory, with rows from the top, compressed without loss in blocks of 16 rows
+/// (ZIP). `width` and `height` must be 1 … 2^31 − 1. Channels must have different names and `width`
+/// × `height` numbers each. Fails if memory is exhausted.
 Result<std::string> encode_exr(std::int64_t width, std::int64_t height,
                                std::span<const ExrChannel> channels);
 

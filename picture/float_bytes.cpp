@@ -1,4 +1,4 @@
-// Row by row, without padding and halo.
+// Appends row by row, without padding and halo.
 #include "picture/float_bytes.h"
 
 #include <cstdint>

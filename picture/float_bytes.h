@@ -1,4 +1,4 @@
-// Numbers as little-endian bytes of files.
+// Writes numbers as little-endian bytes.
 #pragma once
 
 #include "core/plane.h"
@@ -14,7 +14,8 @@ namespace cascade {
 
 static_assert(std::endian::native == std::endian::little);
 
-/// Appends a number, NaN as 0x7fc00000 or 0x7ff8000000000000, so that files are reproducible.
+/// Appends a number. Every NaN is written as 0x7fc00000 or 0x7ff8000000000000, so that the same run
+/// gives the same file on every machine.
 template <typename Number>
 void append_number(std::string& bytes, Number number) {
     static_assert(std::is_arithmetic_v<Number>);
@@ -25,7 +26,7 @@ void append_number(std::string& bytes, Number number) {
     bytes.append(element.data(), element.size());
 }
 
-/// Appends the cells of a field, row by row through all slices, in its precision.
+/// Appends the values of a field in its own precision, row by row through all slices.
 void append_floats(std::string& bytes, const Field& field);
 
 }  // namespace cascade

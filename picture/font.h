@@ -11,19 +11,23 @@ namespace cascade {
 
 inline constexpr int glyph_width = 5;
 inline constexpr int glyph_height = 7;
-inline constexpr int glyph_advance = 6;  ///< From the left side of one glyph to the next.
-inline constexpr int deepest_drop = 2;   ///< Rows that a line needs below its glyphs.
+/// The distance from the left side of one glyph to the left side of the next.
+inline constexpr int glyph_advance = 6;
+/// The number of rows that a line needs below its glyphs, for descenders.
+inline constexpr int deepest_drop = 2;
 
-/// Rows from the top. Bit 4 is the leftmost dot.
+/// The dots of a character: one number for each row, from the top. Bit 4 is the leftmost dot.
 using Glyph = std::array<std::uint8_t, glyph_height>;
 
-/// Printable ASCII and the ellipsis U+2026; a box for any other character.
+/// The glyph of a character. Printable ASCII and the ellipsis U+2026 have glyphs. Any other
+/// character is shown as a box.
 const Glyph& glyph_of(char32_t character);
 
-/// The number of rows by which letters with descenders are lowered.
+/// The number of rows by which the glyph is lowered. Only letters with a descender are lowered.
 int glyph_drop(char32_t character);
 
-/// The characters of a UTF-8 label. Those without a glyph become U+FFFD. Stray bytes are dropped.
+/// The characters of a UTF-8 label. Characters without a glyph are replaced by U+FFFD. Invalid
+/// bytes are dropped.
 std::u32string label_characters(std::string_view label);
 
 }  // namespace cascade

@@ -21,19 +21,19 @@ namespace cascade {
 
 inline constexpr Colour pure_white{1, 1, 1};
 
-/// A pixel that shows the background: all channels are NaN.
+/// A pixel that shows the background. All its channels are NaN.
 inline constexpr Colour transparent{std::numeric_limits<float>::quiet_NaN(),
                                     std::numeric_limits<float>::quiet_NaN(),
                                     std::numeric_limits<float>::quiet_NaN()};
 inline bool is_transparent(const Colour& pixel) { return std::isnan(pixel[0]); }
 
-/// An image, rows from the top, with three numbers (sRGB, 0 … 1) per pixel, or `transparent`.
+/// An image in rows from the top. Each pixel has three numbers (sRGB, 0 … 1) or is `transparent`.
 struct Image {
     std::int64_t width = 0;
     std::int64_t height = 0;
     std::vector<Colour> pixels;
-    /// The opacity of each pixel, 0 … 1, not multiplied into its colour, as in PNG files. Empty if
-    /// all pixels are opaque, except `transparent` ones.
+    /// The opacity of each pixel, 0 … 1. Colours are not multiplied by the opacity, as in PNG
+    /// files. Empty if all pixels are opaque or `transparent`.
     std::vector<float> alpha = {};
 
     Image() = default;
@@ -48,12 +48,13 @@ struct Image {
     float& alpha_at(std::int64_t x, std::int64_t y) {
         return alpha[static_cast<std::size_t>(y * width + x)];
     }
-    /// 0 … 1.
+    /// The opacity of a pixel, 0 … 1. 0 if the pixel is `transparent`.
     float opacity(std::int64_t x, std::int64_t y) const {
         if (is_transparent(at(x, y))) return 0;
         return alpha.empty() ? 1 : alpha[static_cast<std::size_t>(y * width + x)];
     }
-    /// The pixel on a ground of this colour, blended in sRGB, as other programs do.
+    /// The colour of a pixel over the colour `ground`. Colours are blended in sRGB, as other
+    /// programs do.
     Colour over(const Colour& ground, std::int64_t x, std::int64_t y) const {
         const float part = opacity(x, y);
         if (part == 1) return at(x, y);
@@ -64,96 +65,101 @@ struct Image {
     }
 };
 
-/// The values that map to a palette's ends.
+/// The values that the two ends of a palette represent.
 struct ValueRange {
     float low = 0;
     float high = 1;
     bool operator==(const ValueRange&) const = default;
 };
 
-/// The spread of the finite cell values of a plane.
+/// The spread of a plane's finite values.
 Spread spread_of(const Field& field);
 
-/// The default range for drawing values: their smallest and largest. For uniform values it has no
-/// width, so that rounding errors are not amplified. [0, 0] without values.
+/// The default range for drawing values: the smallest and the largest. If the values differ only by
+/// rounding errors, low = high, so that these are not amplified. [0, 0] if there are no values.
 ValueRange automatic_range(const Spread& values);
 
-/// The position of a value in a range, 0 … 1 inside, and ½ in a range of no width. NaN stays NaN.
+/// The position of a value in a range: from 0 at `low` to 1 at `high`, and ½ if low = high. NaN
+/// stays NaN.
 double position_in(ValueRange range, float value);
 
-/// Draws a field with a palette. A range of no width gives the palette's middle. A range with
-/// swapped ends reverses the palette. Values beyond an end of the range get its colour, NaN
-/// magenta. The image may reuse the memory of an earlier one.
+/// Draws a field with a palette. Values outside of the range get the colour of the nearest end, and
+/// NaN becomes magenta. If low = high, all values get the middle of the palette. If low > high, the
+/// palette is reversed. The image may reuse the memory of `earlier`.
 Image paint(const Field& field, ValueRange range, const Palette& palette, Image earlier = {});
 
-/// The same for any values, one colour each.
+/// Computes the colour of each value with a palette.
 void paint(std::span<const float> values, ValueRange range, const Palette& palette,
            std::span<Colour> colours);
 
-/// Three fields of one layout as red, green and blue, clamped to 0 … 1; magenta if one is NaN.
+/// Draws three fields of the same layout as red, green and blue, clamped to 0 … 1. A pixel is
+/// magenta if one of its values is NaN.
 Image paint(const Field& red, const Field& green, const Field& blue, Image earlier = {});
 
-/// The arguments of paint(), not yet drawn.
+/// The arguments of paint(), for a picture that has not been drawn yet.
 struct Painting {
     const Field& field;
     ValueRange range;
     const Palette& palette;
 
-    /// True if the palette goes from a grey to another, both from 0 to 1, and the range is finite.
+    /// Whether the range is finite and the palette goes from one grey to another, both within 0 …
+    /// 1.
     bool has_two_greys() const;
 };
 
-/// Makes pixels transparent if their cell of `field`, which has the same columns and rows, is NaN,
-/// that is, outside the domain.
+/// Makes the pixels transparent whose cells have NaN in `field`, because these are outside the
+/// domain. `field` must have as many columns and rows as the image.
 void clear_where_nan(Image& image, const Field& field);
 
-/// Replaces every pixel by a square of `factor` × `factor` pixels, factor ≥ 1.
+/// Replaces every pixel with a square of `factor` × `factor` pixels. `factor` is at least 1.
 Image enlarge(Image image, int factor);
 
-/// The image repeated `across` times in each of `down` rows. Both are at least 1.
+/// Makes an image of `down` rows, each with `across` copies of `image`. Both must be at least 1.
 Image repeated(const Image& image, int across, int down);
 
 enum class PngDepth { eight = 8, sixteen = 16 };
 
-/// Text chunks of a PNG by keyword (printable ASCII, 1 to 79 characters, no leading, trailing or
-/// double blanks). Values are UTF-8 (iTXt).
+/// The text chunks of a PNG file, each with its keyword. A keyword has 1 to 79 printable ASCII
+/// characters, without leading, trailing or double blanks. Texts are UTF-8 (iTXt).
 using PngTexts = std::map<std::string, std::string>;
 
-/// The largest total size of a picture's texts, in bytes, written or read.
+/// The most bytes of all texts of a picture together, both for writing and for reading.
 inline constexpr std::size_t longest_png_text = std::size_t{16} << 20;
 
-/// The meaning of a PNG file's levels: colours in sRGB, as the file then declares, or numbers of a
-/// map, which readers must not colour-correct.
+/// What the numbers in a PNG file mean. They are either colours in sRGB, which the file then
+/// declares, or the numbers of a map, to which readers must not apply colour correction.
 enum class PngMeaning { colours, numbers };
 
-/// `fast` takes a third of the time and makes files of patterns a tenth larger.
+/// How much time is spent on compression. `fast` takes a third of the time of `small`, and the
+/// files of patterns become a tenth larger.
 enum class PngEffort { small, fast };
 
-/// A PNG file in memory, as write_png writes it. Fails if a side is 0 or above 2^31 − 1, if texts
-/// are too long or contain a NUL, or if memory runs out.
+/// Encodes a PNG file in memory, in the format that write_png() describes. Fails if a side is 0 or
+/// above 2^31 − 1, if texts are too long or contain a NUL, or if memory is exhausted.
 Result<std::string> encode_png(const Image& image, PngDepth depth, const PngTexts& texts,
                                PngMeaning meaning = PngMeaning::colours,
                                PngEffort effort = PngEffort::small);
 
-/// The same file as for the image that paint() draws. With two greys it is made without an image,
-/// in half of the time.
+/// Encodes the image that paint() would draw. If has_two_greys() is true, encodes the greys without
+/// drawing an image, which halves the time.
 Result<std::string> encode_png(const Painting& painting, PngDepth depth, const PngTexts& texts,
                                PngMeaning meaning = PngMeaning::colours,
                                PngEffort effort = PngEffort::small);
 
-/// Writes a PNG file atomically. A picture with only grey pixels is written as greyscale. Only
-/// `alpha` and transparent pixels cause an alpha channel. Transparent ones are white with alpha 0.
-/// Colours are rounded to 256 or 65536 levels. Long texts are compressed. Fails as encode_png and
-/// write_file do.
+/// Writes a PNG file atomically. If all pixels are grey, it is a greyscale file. It has an alpha
+/// channel only if `image.alpha` is not empty or some pixels are `transparent`. These become white
+/// with alpha 0. Colours are rounded to 256 or 65536 values. Long texts are compressed. Fails like
+/// encode_png() and write_file().
 Result<void> write_png(const std::filesystem::path& path, const Image& image, PngDepth depth,
                        const PngTexts& texts);
 
-/// The text chunks (tEXt, zTXt, iTXt) of a PNG file in memory. Latin-1 becomes UTF-8. The first of
-/// several texts with the same keyword is used. Does not decode the picture. Fails if the data is
-/// no PNG, truncated, damaged (checksums are verified) or has texts above the limit.
+/// Reads the text chunks (tEXt, zTXt, iTXt) of a PNG file in memory, without decoding the picture.
+/// Latin-1 is converted to UTF-8. If several texts have the same keyword, the first one is used.
+/// Fails if the data is not a PNG file, if it is incomplete or damaged (checksums are verified), or
+/// if its texts are too long.
 Result<PngTexts> parse_png_texts(std::string_view bytes);
 
-/// The same for a file.
+/// Reads the text chunks of a PNG file.
 Result<PngTexts> read_png_texts(const std::filesystem::path& path);
 
 /// A picture of a contact sheet with its label.
@@ -162,21 +168,22 @@ struct Panel {
     Image image;
 };
 
-/// A contact sheet: panels in rows of `columns`, labelled in a small built-in font (ASCII; other
-/// characters are drawn as a box, and a label that is too long ends in "…"). The sheet shows
-/// through transparent pixels. All panels are enlarged by a common integral factor so that small
-/// ones are visible. A picture of a few rows is drawn as a band.
+/// Draws a contact sheet with `columns` panels in each row. Labels are in a small built-in font
+/// (ASCII only, other characters become boxes). A label that is too long is cut off and ends in
+/// "…". Behind transparent pixels the sheet is visible. All pictures are enlarged by the same
+/// integer, so that small pictures are legible. A picture with only a few rows is stretched to a
+/// band.
 Image make_sheet(std::span<const Panel> panels, int columns);
 
-/// The picture in half-block characters and 24-bit colour for terminals, at most `columns` wide.
-/// Wider pictures are averaged down in proportion. None is enlarged. Pixels that are less than half
-/// opaque show the terminal's background. Each line ends with a reset of the colours and a line
-/// end.
+/// Draws an image for a terminal with half-block characters and 24-bit colour. The result is at
+/// most `columns` wide. A wider image is reduced in proportion by averaging, and a smaller one is
+/// not enlarged. Pixels that are less than half opaque show the terminal's background. Each line
+/// ends with a reset of the colours and a line break.
 std::string half_blocks(const Image& image, int columns);
 
-/// The same in plain characters from dark to light, " .:-=+*#%@", one for two vertically adjacent
-/// pixels, for pipes and for terminals without colours. Pixels that are less than half opaque are
-/// spaces.
+/// Draws an image with plain characters from dark to light, " .:-=+*#%@", for pipes and for
+/// terminals without colours. Each character shows two pixels, one above the other. The character
+/// is a space if the pixels are less than half opaque.
 std::string plain_characters(const Image& image, int columns);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Lays out tiles, labels and margins in whole pixels, then draws. The vertical axis points up.
+// Computes the positions of tiles, labels and margins in whole pixels, and then draws them.
 #include "picture/map.h"
 
 #include "core/check.h"
@@ -11,7 +11,7 @@ namespace cascade {
 
 namespace {
 
-constexpr std::int64_t comfortable_tile = 128;  // Pictures below half of this are enlarged.
+constexpr std::int64_t comfortable_tile = 128;  // Smaller pictures than half of this are enlarged.
 constexpr std::int64_t gap = 6;                 // Between tiles, and between tiles and labels.
 constexpr Colour empty_place{0.90F, 0.893F, 0.875F};
 
@@ -19,8 +19,8 @@ constexpr Colour empty_place{0.90F, 0.893F, 0.875F};
 struct MapLayout {
     std::int64_t factor = 1, dot = 1;
     std::int64_t tile_width = 0, tile_height = 0;
-    std::int64_t left = sheet_margin;  ///< The left of the first column of tiles.
-    std::int64_t top = sheet_margin;   ///< The top of the upper row of tiles.
+    std::int64_t left = sheet_margin;  ///< The left side of the first column of tiles.
+    std::int64_t top = sheet_margin;   ///< The upper side of the top row of tiles.
     std::int64_t width = 0, height = 0;
 };
 
@@ -51,7 +51,7 @@ MapLayout lay_out(std::span<const MapTile> tiles, const MapAxis& across, const M
             widest = std::max(widest, text_width(value, layout.dot));
         }
         layout.left += widest + 2 * gap;
-        layout.top += line + gap;  // The axis's name is above its values.
+        layout.top += line + gap;  // The name of the axis is above its values.
     }
     const auto columns = static_cast<std::int64_t>(across.values.size());
     const auto rows = static_cast<std::int64_t>(up.values.size());

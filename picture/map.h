@@ -1,4 +1,5 @@
-// Maps: a small picture for each pair of two parameters, with their values along the axes.
+// A map shows a small picture for each pair of values of two parameters, with the values along its
+// axes.
 #pragma once
 
 #include "picture/image.h"
@@ -9,21 +10,22 @@
 
 namespace cascade {
 
-/// An axis of a map. An axis without a name has one value and no labels.
+/// An axis of a map. An axis without a name must have one value, and gets no labels.
 struct MapAxis {
     std::string name;
     std::vector<std::string> values;
 };
 
-/// A cell of a map. Without an image, only the remark is drawn in it.
+/// One of the small pictures in a map. If it has no image, the remark is drawn instead.
 struct MapTile {
     Image image;
     std::string remark;
 };
 
-/// A map of tiles in rows, the lowest first: as in a diagram, `up` increases upwards. The tile for
-/// a pair of values is row · across.values.size() + column. All images are enlarged by a common
-/// integral factor so that small ones are visible. A picture of a few rows is drawn as a band.
+/// Draws a map of tiles. The rows begin at the bottom, so that the values of `up` increase upwards.
+/// The tile for a pair of values has the index row · across.values.size() + column. All pictures
+/// are enlarged by the same integer, so that small pictures are legible. A picture with only a few
+/// rows is stretched to a band.
 Image make_map(std::span<const MapTile> tiles, const MapAxis& across, const MapAxis& up);
 
 }  // namespace cascade

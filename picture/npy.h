@@ -1,5 +1,6 @@
-// NumPy's .npy files: one array. Writes little-endian floats in a field's precision. Reads floats,
-// integers and booleans of both byte orders. The format is NumPy Enhancement Proposal 1.
+// Reads and writes NumPy's .npy files with a single array. Writes little-endian floats in a field's
+// precision. Reads floats, integers and booleans in both byte orders. The format is defined in
+// NumPy Enhancement Proposal 1.
 #pragma once
 
 #include "core/plane.h"
@@ -13,8 +14,8 @@
 
 namespace cascade {
 
-/// An array of slices × rows × columns in C order. If a file has one dimension, the array has one
-/// row and one slice. If it has two, the array has one slice.
+/// An array of slices × rows × columns in C order. A file with one dimension gives one row and one
+/// slice. A file with two dimensions gives one slice.
 struct NpyArray {
     std::int64_t slices = 1;
     std::int64_t rows = 0;
@@ -22,37 +23,39 @@ struct NpyArray {
     std::vector<double> values;
 };
 
-/// An array from a .npy file in memory, format versions 1 to 3. Types f4 f8 i1 i2 i4 i8 u1 u2 u4 u8
-/// b1, little- or big-endian. Values are rounded to a precision. Fails on other types, Fortran
-/// order, zero or more than three dimensions, no elements, missing or surplus bytes, and malformed
-/// headers. The message is a clause that follows "cannot read 'FILE': ".
+/// Reads an array from a .npy file in memory, of the format versions 1 to 3. Types are f4, f8, i1,
+/// i2, i4, i8, u1, u2, u4, u8 and b1, little- or big-endian. Values are rounded to `precision`.
+/// Fails for other types, Fortran order, zero or more than three dimensions, no elements, missing
+/// or surplus bytes, and invalid headers. The message is a clause that continues "cannot read
+/// 'FILE': ".
 Result<NpyArray> parse_npy(std::string_view bytes, Precision precision = Precision::single);
 
-/// The largest .npy file, in bytes, that is read.
+/// The largest .npy file that is read, in bytes.
 inline constexpr std::uint64_t largest_npy_file =
     (std::uint64_t{1} << 34) + (std::uint64_t{1} << 17);
 
-/// The same for a file.
+/// Reads an array from a file. See parse_npy().
 Result<NpyArray> read_npy(const std::filesystem::path& path,
                           Precision precision = Precision::single);
 
-/// The header of a .npy file as NumPy writes it, version 1.0. The elements follow it in C order.
-/// `type` is NumPy's, such as "<f4". `shape` is the inside of a tuple, such as "2, 3" or "2,".
-/// `spare`: characters by which a shape that replaces it later may be longer.
+/// The header of a .npy file of version 1.0, as NumPy writes it. The elements follow in C order.
+/// `type` is a type in NumPy's notation, such as "<f4". `shape` is the inside of a Python tuple,
+/// such as "2, 3" or "2,". `spare` characters are reserved, so that a longer shape may be written
+/// later.
 std::string npy_head(std::string_view type, std::string_view shape, std::size_t spare = 0);
 
-/// A field as a .npy file in memory: version 1.0, rows × columns (slices × rows × columns if there
-/// are several slices) of little-endian float32 or float64 in C order. Every NaN is 0x7fc00000 or
-/// 0x7ff8000000000000.
+/// Encodes a field as a .npy file in memory, version 1.0, with float32 or float64 in little-endian
+/// C order. The array is rows × columns, or slices × rows × columns if there are several slices.
+/// Every NaN is written as 0x7fc00000 or 0x7ff8000000000000.
 std::string encode_npy(const Field& field);
 
-/// Writes encode_npy(field) atomically.
+/// Writes the result of encode_npy() atomically.
 Result<void> write_npy(const std::filesystem::path& path, const Field& field);
 
-/// Whether the array has the size of the grid.
+/// Whether the array has as many columns, rows and slices as the grid.
 bool fits(const NpyArray& array, const Grid& grid);
 
-/// The array, rounded to a precision, as a field of columns × rows × slices with a zero halo.
+/// Converts the array to a field of columns × rows × slices, rounded to `precision`. The halo is 0.
 Field to_field(const NpyArray& array, Precision precision = Precision::single);
 
 }  // namespace cascade

@@ -11,10 +11,10 @@ namespace cascade {
 namespace {
 
 constexpr std::string_view magic("\x93NUMPY", 6);
-constexpr std::size_t longest_header = 1 << 16;  // NumPy writes about 120 bytes.
+constexpr std::size_t longest_header = 1 << 16;  // NumPy itself writes about 120 bytes.
 
-/// Parses the dictionary from left to right. Member functions return false, or nullopt, if the text
-/// does not match. The position is then undefined.
+/// Parses the dictionary from left to right. If the text does not match, member functions return
+/// false or nullopt, and the position is undefined.
 class DictionaryReader {
 public:
     explicit DictionaryReader(std::string_view text) : text_(text) {}
@@ -98,7 +98,7 @@ bool DictionaryReader::type(NpyHeader& header) {
     return skip_list();
 }
 
-/// Skips the list that describes a structured type, without matching kinds of brackets.
+/// Skips the list that describes a structured type. Does not check that brackets match in kind.
 bool DictionaryReader::skip_list() {
     skip_blanks();
     if (position_ == text_.size() || text_[position_] != '[') return false;
@@ -133,7 +133,7 @@ bool DictionaryReader::shape(NpyHeader& header) {
         if (!size) return false;
         header.shape.push_back(*size);
         const bool comma = take(',');
-        if (take(')')) return comma || header.shape.size() > 1;  // In Python, (3) is no tuple.
+        if (take(')')) return comma || header.shape.size() > 1;  // In Python, (3) is not a tuple.
         if (!comma) return false;
     }
 }
@@ -158,7 +158,7 @@ bool DictionaryReader::read(NpyHeader& header) {
     return position_ == text_.size() && has_type_ && has_order_ && has_shape_;
 }
 
-/// A little-endian number of `count` bytes.
+/// Reads a little-endian number of `count` bytes.
 std::size_t unsigned_at(std::string_view bytes, std::size_t begin, std::size_t count) {
     std::size_t value = 0;
     for (std::size_t i = count; i-- > 0;) {

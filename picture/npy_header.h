@@ -1,8 +1,9 @@
-// The header of a .npy file, which describes its array.
+// Reads the header of a .npy file, which describes its array.
 //
-// A file consists of \x93NUMPY, two bytes of version, the header's size (16 bits little-endian,
-// from version 2 on 32 bits) and the header: a Python dictionary of `descr`, `fortran_order` and
-// `shape`. As in NumPy's reader, the order of keys and blanks do not matter.
+// A file consists of \x93NUMPY, two bytes of version, the size of the header (16 bits, or 32 bits
+// from version 2 on, little-endian), the header, and the elements. The header is a Python
+// dictionary with `descr`, `fortran_order` and `shape`. As in NumPy's own reader, the order of the
+// keys and blanks between them do not matter.
 #pragma once
 
 #include "core/result.h"
@@ -15,15 +16,17 @@
 
 namespace cascade {
 
-/// A header as written, whether or not this program supports such an array.
+/// The content of a header. It may describe an array that this program does not support.
 struct NpyHeader {
-    std::string type;  ///< `descr`, such as "<f4"; "" if it is no string (a structured type).
+    /// The text of `descr`, such as "<f4". Empty for a structured type, whose `descr` is not a
+    /// string.
+    std::string type;
     bool fortran_order = false;
     std::vector<std::uint64_t> shape;
-    std::size_t data_begin = 0;  ///< Offset of the first element.
+    std::size_t data_begin = 0;  ///< The offset of the first element in the file.
 };
 
-/// Fails if the data is no .npy file, truncated or malformed, or has an unknown version.
+/// Fails if the data is not a .npy file, is incomplete or invalid, or has an unknown version.
 Result<NpyHeader> parse_npy_header(std::string_view bytes);
 
 }  // namespace cascade

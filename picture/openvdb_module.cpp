@@ -17,12 +17,12 @@ namespace cascade {
 
 namespace {
 
-/// Writes into any stream.
+/// Lets OpenVDB write to any stream.
 struct Archive : openvdb::io::Archive {
     using openvdb::io::Archive::write;
 };
 
-/// A grid of all cells inside. Equal adjacent voxels become tiles.
+/// A grid of all cells inside. Adjacent voxels with equal values become tiles.
 template <typename Number>
 openvdb::GridBase::Ptr grid_of(const Plane<Number>& cells, const VdbVolume& volume) {
     using Grid =
@@ -49,7 +49,7 @@ openvdb::GridBase::Ptr grid_of(const VolumeArray& array, const VdbVolume& volume
     auto grid = array.field->visit([&](const auto& cells) { return grid_of(cells, volume); });
     grid->setName(array.name);
     grid->setGridClass(openvdb::GRID_FOG_VOLUME);
-    // Voxels are centred at whole numbers, cells between them.
+    // OpenVDB's voxels have their centres at whole numbers, but cells have theirs half-way between.
     const auto place = openvdb::math::Transform::createLinearTransform(volume.spacing);
     place->postTranslate(openvdb::Vec3d(volume.spacing / 2));
     grid->setTransform(place);
@@ -67,8 +67,8 @@ openvdb::MetaMap metadata_of(const VdbVolume& volume) {
     return metadata;
 }
 
-/// OpenVDB draws the identifier of a file at random. This one is a hash of the content, so that
-/// equal volumes have equal bytes.
+/// Replaces the identifier of a file, which OpenVDB chooses at random, with a hash of the content.
+/// So equal volumes give equal bytes.
 void set_identifier(std::string& file) {
     constexpr std::size_t begin = 21;  // After the magic number, three versions and a flag.
     constexpr std::size_t end = begin + 36;

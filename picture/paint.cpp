@@ -1,4 +1,4 @@
-// Draws fields as images: ranges, palettes, enlargement.
+// Draws fields as images, with ranges and palettes, and enlarges images.
 #include "core/check.h"
 #include "core/wide_vectors.h"
 #include "picture/image.h"
@@ -14,7 +14,7 @@
 #include <vector>
 
 namespace cascade {
-/// Computed in double, so that no range overflows.
+/// Computed in double, so that the width of the range cannot overflow.
 double position_in(ValueRange range, float value) {
     if (std::isnan(value)) return std::numeric_limits<double>::quiet_NaN();
     const double low = static_cast<double>(range.low);
@@ -27,20 +27,22 @@ namespace {
 
 constexpr std::size_t painted_at_once = 256;
 
-/// Positions in a palette: the segment between two stops, and the fraction of it.
+/// The positions of values in a palette: the segment between two stops, and the fraction of it.
 struct PalettePlaces {
     std::array<std::int32_t, painted_at_once> segment;
     std::array<double, painted_at_once> part;
 };
 
-/// Positions of at most `painted_at_once` values in a palette of `last` segments; `last` for NaN.
+/// Finds the positions of at most `painted_at_once` values in a palette of `last` segments. NaN
+/// gets the segment `last`.
 WITH_WIDE_VECTORS void find_palette_places(std::span<const float> values, ValueRange range,
                                            std::int32_t last, PalettePlaces& places) {
     const double low = static_cast<double>(range.low);
     const double width = static_cast<double>(range.high) - low;
     for (std::size_t k = 0; k < values.size(); ++k) {
         const double value = static_cast<double>(values[k]);
-        const double position = width == 0 ? 0.5 : (value - low) / width;  // As position_in().
+        // The same computation as in position_in().
+        const double position = width == 0 ? 0.5 : (value - low) / width;
         const bool is_nan = value != value || position != position;
         const double above = position > 0 ? position : 0.0;
         const double place = (above < 1 ? above : 1.0) * static_cast<double>(last);
@@ -63,14 +65,14 @@ struct PaletteSegment {
     }
 };
 
-/// Colours in one segment.
+/// Paints values that are all in one segment.
 WITH_WIDE_VECTORS void paint_segment(const PaletteSegment& segment, std::span<const double> parts,
                                      Colour* pixels) {
     const PaletteSegment here = segment;
     for (std::size_t k = 0; k < parts.size(); ++k) pixels[k] = here.at(parts[k]);
 }
 
-/// Paints many values as colour_at() and position_in() paint one.
+/// Paints many values at once. The result equals colour_at() and position_in() for each.
 class PalettePainter {
 public:
     PalettePainter(ValueRange range, const Palette& palette)
@@ -112,7 +114,7 @@ private:
     std::vector<PaletteSegment> segments_;  ///< The last segment is for NaN.
 };
 
-/// An image of a plane whose pixels are not set.
+/// An image with the size of a plane. Its pixels are not set.
 Image unpainted(const PlaneLayout& layout, Image image) {
     image.width = layout.width;
     image.height = layout.height;
@@ -134,7 +136,7 @@ Spread spread_of(const Field& field) {
 
 ValueRange automatic_range(const Spread& values) {
     if (values.count == 0) return {0, 0};
-    if (values.is_even()) {
+    if (values.is_uniform()) {
         const auto middle = static_cast<float>(values.mean);
         return {middle, middle};
     }

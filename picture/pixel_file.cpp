@@ -1,4 +1,4 @@
-// Channels with a header of 32 bytes each.
+// Each channel has a header of 32 bytes.
 #include "picture/pixel_file.h"
 
 #include <array>
@@ -8,7 +8,7 @@ namespace cascade {
 namespace {
 
 constexpr std::string_view file_mark = "CASPIXEL";
-using Header = std::array<std::int64_t, 3>;  ///< The channel, width and height.
+using Header = std::array<std::int64_t, 3>;  ///< Channel, width and height.
 constexpr std::size_t header_bytes = file_mark.size() + sizeof(Header);
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The pixels of a picture as bytes, for pages that have pictures but no reader of PNG files.
+// Stores the pixels of a picture as bytes for pages in a browser, which cannot read PNG files.
 #pragma once
 
 #include "picture/grey_picture.h"
@@ -8,12 +8,12 @@
 
 namespace cascade {
 
-/// One channel of a picture: "CASPIXEL", the channel's number, width and height in 8 bytes each,
-/// then the values in binary32, all in the machine's byte order, which is the same in browsers as
-/// on x86-64. A file has at least one channel.
+/// Prints one channel of a picture: "CASPIXEL", then channel, width and height in 8 bytes each,
+/// then the values in binary32. All numbers have the machine's byte order, which is the same for
+/// browsers and x86-64. A file contains at least one channel. Several channels follow each other.
 std::string print_pixel_file(const GreyPicture& picture,
                              PictureChannel channel = PictureChannel::lightness);
-/// Fails if the file is damaged or lacks the channel.
+/// Fails if the file is damaged or does not contain the channel.
 Result<GreyPicture> parse_pixel_file(std::string_view bytes,
                                      PictureChannel channel = PictureChannel::lightness);
 

@@ -1,4 +1,4 @@
-// Chunks as in W3C, "Portable Network Graphics (PNG) Specification (Second Edition)", 2003.
+// Follows W3C, "Portable Network Graphics (PNG) Specification (Second Edition)", 2003.
 #include "picture/png_chunks.h"
 
 #include "core/check.h"
@@ -11,13 +11,13 @@
 namespace cascade {
 namespace {
 
-constexpr std::size_t longest_plain_text = 1024;  // Longer ones are compressed.
+constexpr std::size_t longest_plain_text = 1024;  // Longer texts are compressed.
 
 std::string text_chunk(const std::string& keyword, const std::string& text, int level) {
     const bool is_long = text.size() > longest_plain_text;
     std::string data = keyword;
     data.append({'\0', is_long ? '\1' : '\0', '\0'});
-    data.append(2, '\0');  // No language, no translated keyword.
+    data.append(2, '\0');  // No language and no translated keyword.
     return data + (is_long ? deflated(text, level) : text);
 }
 
@@ -61,7 +61,7 @@ Result<void> check_texts(const PngTexts& texts) {
 }
 
 void append_srgb_chunk(std::string& file) {
-    append_chunk(file, "sRGB", {"\0", 1});  // Perceptual.
+    append_chunk(file, "sRGB", {"\0", 1});  // The rendering intent is perceptual.
 }
 
 void append_texts(std::string& file, const PngTexts& texts, int level) {

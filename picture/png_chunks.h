@@ -1,4 +1,4 @@
-// The chunks of PNG files, which animations extend by kinds of their own.
+// Writes the chunks of which PNG files consist. Animations have additional kinds of chunks.
 #pragma once
 
 #include "core/result.h"
@@ -12,21 +12,22 @@ namespace cascade {
 
 inline constexpr std::string_view png_signature = "\x89PNG\r\n\x1a\n";
 
-/// The largest data of a chunk, in bytes, because readers buffer it.
+/// The most bytes of image data that are written in one chunk. Readers store a whole chunk in
+/// memory.
 inline constexpr std::size_t longest_png_data = std::size_t{1} << 20;
 
 void append_big_endian(std::string& bytes, std::size_t number);
 
-/// A chunk with its length and its checksum.
+/// Appends a chunk with its length and checksum.
 void append_chunk(std::string& file, std::string_view name, std::string_view data);
 
-/// Says that colours are in sRGB.
+/// Appends the chunk that declares colours as sRGB.
 void append_srgb_chunk(std::string& file);
 
 /// Fails if the texts are too long or contain a NUL.
 Result<void> check_texts(const PngTexts& texts);
 
-/// A chunk for each text. Long ones are compressed with this effort, 1 to 12.
+/// Appends a chunk for each text. Long texts are compressed with `level`, 1 to 12 (see deflated()).
 void append_texts(std::string& file, const PngTexts& texts, int level);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Callbacks for libpng, which read bytes from memory and leave by longjmp on an error.
+// The callbacks of libpng. They read bytes from memory, and leave by longjmp on an error.
 #include "picture/png_reader.h"
 
 #include <cstring>

@@ -1,7 +1,9 @@
-// The common part of the PNG readers (internal to picture/): libpng on bytes in memory.
+// The common part of the PNG readers, which calls libpng on bytes in memory. Only the files of
+// picture/ include this header.
 //
-// libpng reports errors by longjmp to `guarded`. This is safe only if the skipped frames have no
-// destructors, so actions must not contain objects with a destructor.
+// libpng reports an error by a longjmp into guarded(). This skips the remaining code of the
+// functions in between without calling destructors. So actions must not contain objects with
+// destructors.
 #pragma once
 
 #include <png.h>
@@ -20,10 +22,10 @@ public:
     PngReader(const PngReader&) = delete;
     PngReader& operator=(const PngReader&) = delete;
 
-    /// Creates libpng's structures. Returns false, with an error, if memory runs out.
+    /// Creates libpng's structures. If memory is exhausted, sets an error and returns false.
     bool open();
 
-    /// Runs an action that calls libpng. Returns false, with an error, if libpng fails.
+    /// Runs an action that calls libpng. If libpng fails, sets an error and returns false.
     template <typename Action>
     bool guarded(const Action& action) {
         if (setjmp(png_jmpbuf(png_)) != 0) return false;
@@ -46,7 +48,7 @@ private:
     png_infop info_ = nullptr;
 };
 
-/// Whether the bytes begin with the PNG signature.
+/// Whether the bytes begin with the signature of PNG files.
 bool has_png_signature(std::string_view bytes);
 
 }  // namespace cascade

@@ -1,5 +1,6 @@
 // Each row gets the filter whose differences have the smallest sum, as section 12.8 of the PNG
-// specification recommends. All loops are plain loops over bytes, so that compilers vectorise them.
+// specification recommends. All loops are plain loops over bytes, so that compilers can
+// vectorise them.
 #include "picture/png_rows.h"
 
 #include "core/wide_vectors.h"
@@ -26,14 +27,14 @@ bool are_grey(std::span<const Colour> pixels, unsigned highest) {
     });
 }
 
-/// True if one of the pixels is transparent.
+/// Whether any pixel is transparent.
 WITH_WIDE_VECTORS bool show_background(std::span<const Colour> pixels) {
     int is_one = 0;
     for (const Colour& pixel : pixels) is_one |= static_cast<int>(is_transparent(pixel));
     return is_one != 0;
 }
 
-/// The levels of all channels of the pixels, or only of each pixel's first one.
+/// Finds the levels of the first `channels` channels of each pixel.
 WITH_WIDE_VECTORS void find_levels(std::span<const Colour> pixels, std::size_t channels,
                                    unsigned highest, std::uint16_t* levels) {
     const auto level = [highest](float value) {
@@ -47,7 +48,7 @@ WITH_WIDE_VECTORS void find_levels(std::span<const Colour> pixels, std::size_t c
     for (std::size_t k = 0; k < 3 * pixels.size(); ++k) levels[k] = level(values[k]);
 }
 
-/// The levels of pixels whose channels are equal. Returns false if a pixel's are not.
+/// Finds the levels of grey pixels. Returns false if a pixel has different channels.
 WITH_WIDE_VECTORS bool find_grey_levels(std::span<const Colour> pixels, unsigned highest,
                                         std::uint16_t* levels) {
     int differ = 0;
@@ -59,14 +60,15 @@ WITH_WIDE_VECTORS bool find_grey_levels(std::span<const Colour> pixels, unsigned
     return differ == 0;
 }
 
-/// The levels of values in two greys, as paint() draws them. Returns false if a value is NaN.
+/// Finds the levels of values for a palette with two greys, as paint() would draw them. Returns
+/// false if a value is NaN.
 WITH_WIDE_VECTORS bool find_painted_levels(std::span<const float> values, const Painting& how,
                                            unsigned highest, std::uint16_t* levels) {
     const double low = static_cast<double>(how.range.low);
     const double width = static_cast<double>(how.range.high) - low;
     const double from = static_cast<double>(how.palette.stops[0][0]);
     const double rise = static_cast<double>(how.palette.stops[1][0]) - from;
-    // This is 1, but compilers do not vectorise if they know that.
+    // The number is 1, but compilers do not vectorise the loop if they can see that.
     const double last = static_cast<double>(how.palette.stops.size() - 1);
     int is_one_nan = 0;
     for (std::size_t k = 0; k < values.size(); ++k) {
@@ -81,7 +83,7 @@ WITH_WIDE_VECTORS bool find_painted_levels(std::span<const float> values, const 
     return is_one_nan == 0;
 }
 
-/// A row of pixels. `alpha` is the first pixel's, or null.
+/// A row of pixels. `alpha` points to the opacity of the first pixel, or is null.
 struct PixelRow {
     std::span<const Colour> pixels;
     const float* alpha;
@@ -93,13 +95,14 @@ PixelRow pixel_row(const Image& image, std::int64_t y) {
     return {{&image.pixels[first], width}, image.alpha.empty() ? nullptr : &image.alpha[first]};
 }
 
-/// Writes the samples of rows in one format.
+/// Writes the samples of rows in a fixed format.
 class SampleWriter {
 public:
     SampleWriter(const PngFormat& format, std::size_t width)
         : format_(format), levels_(width * format.colours()) {}
 
-    /// Writes pixels of the commonest format, grey alone. Returns false for others.
+    /// Writes pixels in the most common format, opaque grey. Returns false if the format or a pixel
+    /// differs.
     bool put_grey(const PixelRow& row, Byte* out) {
         if (!format_.is_grey || format_.has_alpha) return false;
         if (!find_grey_levels(row.pixels, highest_, levels_.data())) return false;
@@ -116,7 +119,7 @@ public:
         }
     }
 
-    /// The same for values in two greys. Returns false if a value is NaN.
+    /// Writes values for a palette with two greys. Returns false if a value is NaN.
     bool put_painted(std::span<const float> values, const Painting& how, Byte* out) {
         if (!find_painted_levels(values, how, highest_, levels_.data())) return false;
         put_levels(out);
@@ -135,7 +138,7 @@ private:
         }
     }
 
-    /// Transparent pixels are white, for programs that ignore alpha.
+    /// Writes pixels with alpha. Transparent pixels are white, for programs that ignore alpha.
     void put_with_alpha(const PixelRow& row, Byte* out) const {
         const auto put = [&](unsigned level) {
             if (format_.depth == PngDepth::sixteen) *out++ = static_cast<Byte>(level >> 8);
@@ -154,16 +157,16 @@ private:
 
     PngFormat format_;
     unsigned highest_ = highest_level(format_.depth);
-    std::vector<std::uint16_t> levels_;  ///< A row's colours.
+    std::vector<std::uint16_t> levels_;  ///< The levels of a row.
 };
 
-/// The bytes of a row, with the number of its filter.
+/// The number of bytes in a row, including the number of its filter.
 std::size_t bytes_of_row(const PngFormat& format, std::int64_t width) {
     return 1 + static_cast<std::size_t>(width) * format.pixel_bytes();
 }
 
-/// Writes all rows in the format of `rows`. If a row needs other channels, adds them to the format
-/// and returns false.
+/// Writes all rows in the format of `rows`. If a row needs further channels, adds them to the
+/// format and returns false.
 bool put_rows(const Image& image, PngRows& rows) {
     const PngFormat format = rows.format;
     const std::size_t count = bytes_of_row(format, image.width);
@@ -181,7 +184,7 @@ bool put_rows(const Image& image, PngRows& rows) {
     return true;
 }
 
-/// Writes all rows in a format without colour and alpha. Returns false if they need another one.
+/// Writes all rows as opaque grey. Returns false if that is not possible.
 bool put_painted_rows(const Painting& painting, PngRows& rows) {
     if (!painting.has_two_greys()) return false;
     const PlaneLayout& layout = painting.field.layout();
@@ -201,10 +204,11 @@ Byte byte_distance(Byte one, Byte other) {
 }
 
 /// The prediction of filter 4: the byte on the left, above, or above to the left that is nearest to
-/// left + above − corner. Computes only in bytes, of which a vector holds the most.
+/// left + above − corner. Computes with bytes only, because a vector holds more of them than of
+/// wider numbers.
 Byte paeth(Byte left, Byte above, Byte corner) {
     const Byte by_left = byte_distance(above, corner), by_above = byte_distance(left, corner);
-    // If the corner is not between the others, it is the farthest.
+    // If the corner is not between the two others, it is the farthest.
     const bool is_between = (above >= corner) != (left >= corner);
     const Byte by_corner = is_between ? byte_distance(by_left, by_above) : Byte{255};
     const Byte upper = by_above <= by_corner ? above : corner;
@@ -213,7 +217,7 @@ Byte paeth(Byte left, Byte above, Byte corner) {
 
 constexpr std::size_t filters = 5;
 
-/// A row after each of the five filters. `row` and `above` are preceded by a pixel of zeros.
+/// Applies each of the five filters to a row. `row` and `above` must follow a pixel of zeros.
 WITH_WIDE_VECTORS void filter(const Byte* row, const Byte* above, std::size_t count,
                               std::size_t pixel, std::array<std::vector<Byte>, filters>& results) {
     const Byte* left = row - pixel;
@@ -233,7 +237,7 @@ WITH_WIDE_VECTORS void filter(const Byte* row, const Byte* above, std::size_t co
 
 /// The sum of the absolute values of differences, which are bytes modulo 256.
 WITH_WIDE_VECTORS std::uint32_t size_of(const std::vector<Byte>& differences) {
-    constexpr std::size_t at_once = 256;  // Their sum fits into 16 bits.
+    constexpr std::size_t at_once = 256;  // The sum of this many fits into 16 bits.
     std::uint32_t sum = 0;
     for (std::size_t begin = 0; begin < differences.size(); begin += at_once) {
         const std::size_t end = std::min(differences.size(), begin + at_once);
@@ -261,7 +265,7 @@ void filter_rows(std::span<std::uint8_t> rows, std::size_t count, std::size_t pi
     std::vector<Byte> row(pixel + count), above(pixel + count);
     std::array<std::vector<Byte>, filters> results;
     results.fill(std::vector<Byte>(count));
-    // From below, so that the row above is still unfiltered.
+    // Goes upwards, so that the row above is still unfiltered.
     const auto take = [&](std::size_t end, std::vector<Byte>& to) {
         if (end == 0) std::fill(to.begin(), to.end(), Byte{0});
         else std::copy_n(rows.begin() + (end - count), count, to.begin() + pixel);

@@ -1,5 +1,5 @@
-// The pixels of an image as the rows of a PNG file, before their compression (internal to
-// picture/).
+// Converts an image to the rows of a PNG file before compression. Only the files of picture/
+// include this header.
 #pragma once
 
 #include "picture/image.h"
@@ -23,20 +23,21 @@ struct PngFormat {
     bool operator==(const PngFormat&) const = default;
 };
 
-/// Filters rows in place. Each has a byte, which becomes the number of its filter, before `count`
-/// bytes. A pixel has `pixel` bytes. Throws std::bad_alloc.
+/// Applies PNG's filters to rows, in place. Each row has one byte that receives the number of its
+/// filter, followed by `count` bytes. A pixel has `pixel` bytes. Throws std::bad_alloc.
 void filter_rows(std::span<std::uint8_t> rows, std::size_t count, std::size_t pixel);
 
-/// Filtered rows, in the format with the fewest channels that holds all pixels.
+/// The filtered rows of an image, in the format with the fewest channels that can represent all
+/// pixels.
 struct PngRows {
     PngFormat format;
     std::vector<std::uint8_t> bytes;
 };
 
-/// All rows of an image. Throws std::bad_alloc.
+/// Converts all rows of an image. Throws std::bad_alloc.
 PngRows png_rows(const Image& image, PngDepth depth);
 
-/// The same for the image that paint() draws.
+/// Converts all rows of the image that paint() would draw.
 PngRows png_rows(const Painting& painting, PngDepth depth);
 
 }  // namespace cascade

@@ -12,22 +12,22 @@
 namespace cascade {
 namespace {
 
-// Deflate expands data at most 1032 times, so a small file that promises more is damaged.
+// Deflate expands data at most 1032 times. A small file that declares more pixels is damaged.
 constexpr std::uint64_t largest_growth = 1100;
 constexpr std::uint64_t many_pixels = std::uint64_t{1} << 24;
 
 struct Format {
     std::int64_t width = 0;
     std::int64_t height = 0;
-    std::uint64_t packed_bytes = 0;  ///< All rows, before compression.
+    std::uint64_t packed_bytes = 0;  ///< The size of all rows, before compression.
     std::size_t row_bytes = 0;
-    int channels = 0;  ///< Grey, grey and alpha, colour, colour and alpha.
-    int depth = 0;     ///< Bits per channel, 8 or 16.
-    int passes = 1;    ///< More than 1 if the picture is interlaced.
+    int channels = 0;  ///< 1: grey. 2: grey and alpha. 3: colour. 4: colour and alpha.
+    int depth = 0;     ///< Bits for each channel, 8 or 16.
+    int passes = 1;    ///< Above 1 if the picture is interlaced.
 };
 
-/// Reads the header without allocating as much as a row. Skips ancillary chunks (texts and
-/// profiles), which may inflate to any size.
+/// Reads the header without allocating even a row. Skips ancillary chunks (texts and profiles),
+/// because they may inflate to any size.
 bool read_header(PngReader& reader, Format& format) {
     return reader.open() && reader.guarded([&] {
         png_structp png = reader.png();
@@ -44,12 +44,13 @@ bool read_header(PngReader& reader, Format& format) {
     });
 }
 
-/// Requests whole channels of 8 or 16 bits. libpng allocates its rows.
+/// Makes libpng convert channels to 8 or 16 bits, and allocate its rows.
 bool start_rows(PngReader& reader, Format& format) {
     return reader.guarded([&] {
         png_structp png = reader.png();
         png_infop info = reader.info();
-        png_set_expand(png);  // Palettes to colours, few bits to 8, a transparent colour to alpha.
+        // Palettes become colours, few bits become 8, and a transparent colour becomes alpha.
+        png_set_expand(png);
         png_read_update_info(png, info);
         format.row_bytes = png_get_rowbytes(png, info);
         format.channels = png_get_channels(png, info);
@@ -57,7 +58,7 @@ bool start_rows(PngReader& reader, Format& format) {
     });
 }
 
-/// One channel of a pixel, 0 … 1. 16-bit words are stored big-endian.
+/// One channel of a pixel, 0 … 1. Words of 16 bits are big-endian.
 float level(const png_byte* row, std::size_t channel, int depth) {
     if (depth == 8) return static_cast<float>(row[channel]) / 255.0F;
     const unsigned word = row[2 * channel] * 256U + row[2 * channel + 1];
@@ -85,8 +86,8 @@ float number_of(const png_byte* row, std::size_t pixel, const Format& format,
     return grey * alpha + (1.0F - alpha);
 }
 
-/// Reads all pixels row by row. A pass of an interlaced picture has some of the rows and columns.
-/// Also reads the end of the file, to detect truncation after the pixels.
+/// Reads all pixels row by row. A pass of an interlaced picture has only some rows and columns.
+/// Also reads the end of the file, to find out whether it is complete.
 bool read_pixels(PngReader& reader, const Format& format, PictureChannel channel,
                  std::vector<png_byte>& row, std::vector<float>& values) {
     const bool is_interlaced = format.passes > 1;
@@ -122,7 +123,7 @@ Result<GreyPicture> parse(std::string_view bytes, PictureChannel channel) {
                                    format.height, most_pixels),
                        "make the picture smaller");
     }
-    // With many pixels of few bits each, the file's size would otherwise allow too much memory.
+    // With few bits for each pixel, the size of the file would otherwise permit too much memory.
     const auto pixels = static_cast<std::uint64_t>(format.width * format.height);
     const std::uint64_t least =
         pixels > many_pixels ? std::max(pixels, format.packed_bytes) : format.packed_bytes;

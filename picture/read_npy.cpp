@@ -21,10 +21,10 @@ static_assert(std::endian::native == std::endian::little);
 constexpr std::uint64_t most_elements = std::uint64_t{1} << 31;
 static_assert(largest_npy_file >= most_elements * 8);
 
-/// Converts the elements of a file to numbers. `swapped` means big-endian.
+/// Converts the elements of a file to numbers. `swapped` means that they are big-endian.
 using Convert = void (*)(std::string_view bytes, bool swapped, std::vector<double>& values);
 
-/// Each element of type T is rounded to Number, once.
+/// Converts elements of type T. Each is rounded to Number, once.
 template <typename T, typename Number>
 void convert(std::string_view bytes, bool swapped, std::vector<double>& values) {
     for (std::size_t k = 0; k < values.size(); ++k) {
@@ -61,7 +61,8 @@ constexpr std::array<ElementType, 11> element_types{{
     element_type<std::uint8_t>("b1"),
 }};
 
-/// The type without its byte order, or nullptr. Only one-byte types may have none ('|').
+/// Finds the type without its byte order. Null if it is unknown. Only a type of one byte may lack a
+/// byte order ('|').
 const ElementType* find_type(std::string_view type) {
     if (type.size() != 3 || std::string_view("<>=|").find(type[0]) == std::string_view::npos) {
         return nullptr;
@@ -73,7 +74,7 @@ const ElementType* find_type(std::string_view type) {
     return nullptr;
 }
 
-/// A type's name from a file, made safe for a message.
+/// The name of a type from a file, made safe for a message.
 std::string shown(std::string_view type) {
     std::string text(type.substr(0, 20));
     for (char& c : text) {
@@ -92,7 +93,7 @@ tl::unexpected<Failure> wrong_type(const std::string& type) {
                    hint);
 }
 
-/// The dimensions in a header's shape. Checks that there are fewer than most_elements elements.
+/// Makes an array with the dimensions of a header. Fails if it would have too many elements.
 Result<NpyArray> array_of_shape(const NpyHeader& header) {
     const std::vector<std::uint64_t>& shape = header.shape;
     if (shape.empty()) return failure("it holds one number, not an array of rows and columns");

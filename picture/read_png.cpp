@@ -1,8 +1,9 @@
-// Reads the text chunks of PNG files, which may come from untrusted sources.
+// Reads the text chunks of PNG files, which may come from strangers.
 //
-// libpng reads texts before the picture's data easily, but later ones only by inflating the
-// picture. So this walks over the file's chunks and gives libpng short files of the header and one
-// text. libpng checks and inflates the text within the remaining limit for all texts.
+// libpng can easily read texts before the picture's data, but later ones only by inflating the
+// picture. So this reader goes through the chunks of the file, and gives libpng a short file for
+// each text, with the header and that text alone. libpng checks and inflates the text within the
+// limit that remains for all texts.
 #include "core/enough_memory.h"
 #include "core/file.h"
 #include "picture/image.h"
@@ -20,16 +21,17 @@ namespace {
 
 constexpr std::uint64_t largest_file = std::uint64_t{1} << 30;
 constexpr std::size_t signature_size = 8;
-constexpr std::size_t chunk_frame = 12;        // Length, name and checksum around a chunk's data.
-constexpr std::size_t most_texts = 64;         // Further ones are skipped.
-constexpr std::size_t longest_keyword = 1024;  // Also leaves room for a chunk's other data.
+// The length, name and checksum around a chunk's data.
+constexpr std::size_t chunk_frame = 12;
+constexpr std::size_t most_texts = 64;         // Further texts are skipped.
+constexpr std::size_t longest_keyword = 1024;  // Includes room for the other data of a text chunk.
 
 struct Chunk {
     std::string_view name;
-    std::string_view whole;  ///< With length, name and checksum.
+    std::string_view whole;  ///< Includes length, name and checksum.
 };
 
-/// The chunk at the start of `bytes`; nullopt if it is incomplete.
+/// The chunk at the start of `bytes`. Empty if it is incomplete.
 std::optional<Chunk> first_chunk(std::string_view bytes) {
     if (bytes.size() < chunk_frame) return std::nullopt;
     const std::uint32_t size = png_get_uint_32(reinterpret_cast<png_const_bytep>(bytes.data()));
@@ -37,13 +39,13 @@ std::optional<Chunk> first_chunk(std::string_view bytes) {
     return Chunk{bytes.substr(4, 4), bytes.substr(0, chunk_frame + size)};
 }
 
-/// The parts of a PNG file that are used.
+/// The parts of a PNG file that matter here.
 struct HeaderAndTexts {
     std::string_view header;              ///< Includes the signature.
     std::vector<std::string_view> texts;  ///< Whole chunks.
 };
 
-/// `bytes` must begin with a signature.
+/// Finds these parts. `bytes` must begin with a signature.
 Result<HeaderAndTexts> find_texts(std::string_view bytes) {
     HeaderAndTexts found;
     for (std::size_t position = signature_size;;) {
@@ -59,12 +61,12 @@ Result<HeaderAndTexts> find_texts(std::string_view bytes) {
     }
 }
 
-/// Reads the chunks up to the picture's data. Texts may have `room` bytes.
+/// Reads the chunks before the picture's data. Texts may have `room` bytes.
 bool read_texts(PngReader& reader, std::size_t room) {
     return reader.open() && reader.guarded([&reader, room] {
         png_set_chunk_malloc_max(reader.png(), room + longest_keyword);
-        // Benign errors of libpng, such as a text that does not inflate, are errors here: a picture
-        // is read for its script, and half a script is useless.
+        // Here, benign errors of libpng, such as a text that cannot be inflated, count as errors,
+        // because half a script is useless.
         png_set_benign_errors(reader.png(), 0);
         png_read_info(reader.png(), reader.info());
     });
@@ -109,10 +111,10 @@ Result<PngTexts> parse_png_texts(std::string_view bytes) {
         if (!found) return tl::unexpected<Failure>(found.error());
         PngTexts texts;
         std::size_t room = longest_png_text;
-        // A header without texts is checked, too.
+        // A header without texts is also checked.
         const auto chunks = found->texts.empty() ? std::vector<std::string_view>{""} : found->texts;
         for (const std::string_view chunk : chunks) {
-            // libpng stops where the picture's data begins.
+            // libpng stops at the chunk where the picture's data would begin.
             const std::string short_file =
                 std::string(found->header).append(chunk).append("\0\0\0\0IDAT", 8);
             PngReader reader(short_file);

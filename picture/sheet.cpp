@@ -1,4 +1,4 @@
-// Contact sheets: several pictures side by side, each with a label under it.
+// Draws contact sheets: several pictures side by side, each with a label below it.
 #include "core/check.h"
 #include "picture/image.h"
 #include "picture/lettering.h"
@@ -9,15 +9,15 @@
 namespace cascade {
 namespace {
 
-constexpr std::int64_t comfortable_panel = 192;  // Pictures below half of this are enlarged.
-constexpr std::int64_t label_gap = 6;            // Between a picture's frame and its label.
+constexpr std::int64_t comfortable_panel = 192;  // Smaller pictures than half of this are enlarged.
+constexpr std::int64_t label_gap = 6;            // Between the frame of a picture and its label.
 
-/// Sizes in pixels common to all panels of a sheet.
+/// Sizes in pixels that all panels of a sheet share.
 struct Sizes {
-    std::int64_t enlarge = 1;  ///< Factor for all pictures.
-    std::int64_t width = 0;    ///< Width of the widest picture, enlarged.
-    std::int64_t height = 0;   ///< Height of the tallest picture, enlarged.
-    std::int64_t dot = 1;      ///< Width of one dot of the font.
+    std::int64_t enlarge = 1;  ///< The factor for all pictures.
+    std::int64_t width = 0;    ///< The width of the widest picture after enlarging.
+    std::int64_t height = 0;   ///< The height of the highest picture after enlarging.
+    std::int64_t dot = 1;      ///< The width of a dot of the font.
 };
 
 std::int64_t shown_height(const Image& image, std::int64_t factor) {
@@ -59,7 +59,7 @@ Image make_sheet(std::span<const Panel> panels, int columns) {
         const std::int64_t y = sheet_margin + k / across * panel_height;
         const std::int64_t height = shown_height(panel.image, sizes.enlarge);
         draw_framed(sheet, panel.image, x, y, sizes.enlarge, height);
-        // Directly under the picture, even if others in its row are taller.
+        // The label is directly below the picture, even if others in the row are higher.
         draw_text(sheet, panel.label, x, y + height + label_gap, sizes.width, sizes.dot);
     }
     return sheet;

@@ -1,4 +1,4 @@
-// Copies cell by cell. Across x the slices become columns, across y they become rows.
+// Copies cell by cell.
 #include "picture/slice.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Plane slices of volumes, for pictures.
+// Cuts plane slices out of volumes, for pictures.
 #pragma once
 
 #include "core/axis.h"
@@ -8,21 +8,24 @@
 
 namespace cascade {
 
-/// A slice perpendicular to an axis, at a position along it: 0 is the first cell, 1 the last.
+/// A slice perpendicular to an axis. `place` is the position along the axis, from 0 for the first
+/// cell to 1 for the last.
 struct Slice {
     Axis axis = Axis::z;
     double place = 0.5;
     friend bool operator==(const Slice&, const Slice&) = default;
 };
 
-/// The index of the cell at the slice's position: floor(place · cells), and the last cell at 1.
+/// The index along the axis of the cells in the slice: floor(place · cells), or the last one if
+/// place is 1.
 std::int64_t slice_number(const PlaneLayout& layout, Slice slice);
 
-/// The grid of a slice's picture. Across z, columns are x and rows are y. Across y, columns are x
-/// and rows are z. Across x, columns are z and rows are y.
+/// The grid of a slice's picture. A slice perpendicular to z has x as columns and y as rows.
+/// Perpendicular to y it has x as columns and z as rows. Perpendicular to x it has z as columns and
+/// y as rows.
 Grid slice_grid(const PlaneLayout& layout, Slice slice);
 
-/// The values of a slice as a field on slice_grid(), with a zero halo.
+/// The values of a slice, as a field on the grid that slice_grid() returns. The halo is 0.
 Field cut(const Field& field, Slice slice);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Conversion between sRGB values and linear light: IEC 61966-2-1.
+// Converts between sRGB values and linear light: IEC 61966-2-1.
 #pragma once
 
 #include "core/palette.h"
@@ -8,11 +8,11 @@
 
 namespace cascade {
 
-/// The linear light of an sRGB channel: maps 0 to 0 and 1 to 1. Negative numbers and NaN become 0.
-/// The same bits on every processor.
+/// Converts an sRGB channel to linear light. 0 and 1 stay unchanged. Negative numbers and NaN
+/// become 0. The result has the same bits on every processor.
 float light_of(float stored);
 
-/// The inverse of light_of, clamped to 0 … 1. NaN becomes 0.
+/// The inverse of light_of(), clamped to 0 … 1. NaN becomes 0.
 float stored_of(float light);
 
 inline Colour light_of(const Colour& stored) {
@@ -26,20 +26,22 @@ inline Colour stored_of(const Colour& light) {
     return {red, stored_of(light[1]), stored_of(light[2])};
 }
 
-/// Applies light_of() or stored_of() to each colour, in a fraction of the time.
+/// The following functions apply light_of() or stored_of() to each colour, in a fraction of the
+/// time.
 void convert_to_light(std::span<Colour> colours);
 void convert_to_stored(std::span<Colour> colours);
 
-/// The nearest of a file's levels 0 … `highest` to a value, clamped to 0 … 1. NaN becomes 0.
+/// Clamps a value to 0 … 1 and rounds it to one of the integers 0 … `highest`, which represent this
+/// range. NaN becomes 0.
 inline unsigned level_of(float value, unsigned highest) {
-    // Written so that compilers vectorise it.
+    // This form allows compilers to vectorise it.
     const double most = highest, amount = static_cast<double>(value) * most;
     const double above = amount > 0 ? amount : 0.0;
     return static_cast<unsigned>(static_cast<int>((above < most ? above : most) + 0.5));
 }
 
-/// base ^ exponent, computed in binary64: the library's binary32 functions differ in the last bit
-/// between processors, but rounded binary64 results do not.
+/// base ^ exponent, computed in binary64 and rounded. The standard library's binary32 functions
+/// differ in the last bit between processors. Rounded results of its binary64 functions do not.
 float steady_power(float base, double exponent);
 
 }  // namespace cascade

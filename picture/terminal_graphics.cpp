@@ -1,5 +1,5 @@
-// The protocols: https://sw.kovidgoyal.net/kitty/graphics-protocol/, and DEC, "VT330/VT340
-// Programmer Reference Manual", volume 2, 1988, chapter 14.
+// The protocols are defined in https://sw.kovidgoyal.net/kitty/graphics-protocol/, and in DEC,
+// "VT330/VT340 Programmer Reference Manual", volume 2, 1988, chapter 14.
 #include "picture/terminal_graphics.h"
 
 #include "core/base64.h"
@@ -17,7 +17,7 @@ namespace {
 
 using Bytes = std::array<std::uint8_t, 3>;
 
-/// The colour with its channels rounded to `levels` + 1 levels.
+/// The colour with its channels rounded to `levels` + 1 values.
 Bytes rounded(const Colour& colour, int levels) {
     Bytes bytes{};
     std::transform(colour.begin(), colour.end(), bytes.begin(), [&](float value) {
@@ -36,7 +36,8 @@ struct Indexed {
     std::vector<std::int16_t> pixels;
 };
 
-/// The colours and pixels with this many levels. Returns false if there are too many colours.
+/// Rounds each channel to `levels` + 1 values. Fills `indexed` with the resulting colours and the
+/// index of each pixel's colour. Returns false if there are too many colours.
 bool index(const Image& image, int levels, Indexed& indexed) {
     indexed.colours.clear();
     indexed.pixels.clear();
@@ -57,7 +58,8 @@ bool index(const Image& image, int levels, Indexed& indexed) {
     return true;
 }
 
-/// One character per column, which tells which of the six rows have the colour.
+/// Appends a character for each of `count` columns. Its bits tell which of the six rows have
+/// the colour.
 void append_run(std::string& out, int rows, std::int64_t count) {
     const char sixel = static_cast<char>('?' + rows);
     if (count > 3) out += fmt::format("!{}{}", count, sixel);
@@ -93,7 +95,7 @@ void append_band(std::string& out, const Image& image, const Indexed& indexed, s
             ++count;
         }
         if (rows != 0) append_run(out, rows, count);
-        out += '$';  // Back to the first column.
+        out += '$';  // Goes back to the first column.
     }
     out += '-';
 }
@@ -125,7 +127,7 @@ std::string sixel_picture(const Image& image) {
     for (const int levels : {255, 127, 63, 31, 15, 7, 5}) {
         if (index(image, levels, indexed)) break;
     }
-    // Pixels without a colour leave the background. Pixels are square.
+    // Pixels without a colour keep the background. Pixels are square.
     std::string out = fmt::format("\x1bP0;1;0q\"1;1;{};{}", image.width, image.height);
     for (const auto& [colour, number] : indexed.colours) {
         const auto percent = [&](std::size_t c) {

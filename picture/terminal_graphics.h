@@ -1,4 +1,4 @@
-// Pictures as control sequences of terminals that show pixels.
+// Draws images with the control sequences of terminals that can show pixels.
 #pragma once
 
 #include "picture/image.h"
@@ -9,20 +9,22 @@
 
 namespace cascade {
 
-/// The picture averaged down in proportion to `width` columns, at most its own.
+/// Reduces an image in proportion to `width` columns, by averaging. `width` must not exceed the
+/// image's.
 Image reduce(const Image& image, std::int64_t width);
 
-/// The picture in kitty's graphics protocol, as a PNG in base64, at one pixel per pixel. The cursor
-/// does not move, and the terminal sends no answer. With an id, it replaces an earlier picture with
-/// that id. Empty if it cannot be encoded.
+/// Draws an image with kitty's graphics protocol, as a PNG in base64, without enlarging it. The
+/// cursor does not move, and the terminal sends no answer. If `id` is given, the image replaces an
+/// earlier one with the same id. Empty if the image cannot be encoded.
 std::string kitty_picture(const Image& image, std::optional<std::uint32_t> id = std::nullopt);
 
-/// Removes a picture with an id, wherever it is shown.
+/// Removes the image with this id from the terminal.
 std::string without_kitty_picture(std::uint32_t id);
 
-/// The picture in DEC's sixels: bands of six rows, in at most 256 colours. Colours are rounded to
-/// fewer levels if there are more. The final position of the cursor depends on the terminal. Pixels
-/// that are less than half opaque stay as they are.
+/// Draws an image in DEC's sixel format: bands of six rows, in at most 256 colours. If the image
+/// has more colours, they are rounded to fewer values of each channel. The position of the cursor
+/// afterwards depends on the terminal. Pixels that are less than half opaque stay as they are on
+/// the screen.
 std::string sixel_picture(const Image& image);
 
 }  // namespace cascade

@@ -1,6 +1,6 @@
-// Pictures in a terminal: each character '▀' shows two vertically adjacent pixels, the upper in the
-// foreground colour and the lower in the background colour. As characters are about twice as high
-// as wide, pixels are square.
+// Each character '▀' shows two vertically adjacent pixels: the upper one in the foreground colour,
+// and the lower one in the background colour. Pixels are square, because characters are about twice
+// as high as wide.
 #include "core/check.h"
 #include "picture/image.h"
 #include "picture/terminal_graphics.h"
@@ -17,18 +17,18 @@
 namespace cascade {
 namespace {
 
-/// The length of source pixel k inside [from, to).
+/// The length of the part of pixel k inside [from, to).
 double overlap(std::int64_t k, double from, double to) {
     const auto left = static_cast<double>(k);
     return std::max(0.0, std::min(left + 1, to) - std::max(left, from));
 }
 
-/// The interval of an axis of `size` pixels covered by pixel k of `parts`.
+/// The interval of an axis with `size` pixels that pixel k of `parts` covers.
 struct Stretch {
     double from;
     double to;
     std::int64_t first;
-    std::int64_t last;  ///< One after the last.
+    std::int64_t last;  ///< One after the last pixel.
 
     Stretch(std::int64_t k, std::int64_t parts, std::int64_t size)
         : from(static_cast<double>(k) * static_cast<double>(size) / static_cast<double>(parts)),
@@ -64,7 +64,7 @@ Average average(const Image& image, const Stretch& across, const Stretch& down) 
     return result;
 }
 
-/// Characters and sixels are either drawn or not.
+/// Whether a pixel is drawn. Characters and sixels cannot be drawn in part.
 bool is_seen(double opacity) { return opacity >= 0.5; }
 
 }  // namespace
@@ -89,7 +89,7 @@ namespace {
 
 using Levels = std::array<int, 3>;
 
-/// nullopt for the terminal's background.
+/// The levels of a colour. Empty if the terminal's background is shown.
 std::optional<Levels> bytes_of(const Colour& colour, double opacity) {
     if (!is_seen(opacity)) return std::nullopt;
     Levels bytes{};
@@ -101,7 +101,7 @@ std::optional<Levels> bytes_of(const Colour& colour, double opacity) {
 }
 
 /// Appends the escape sequence of a colour if it differs from the current one. `kind` is 38 for the
-/// foreground, 48 for the background. No colour means the terminal's own.
+/// foreground and 48 for the background. An empty colour means the terminal's own.
 void set_colour(std::string& out, std::optional<Levels>& current,
                 const std::optional<Levels>& wanted, int kind) {
     if (current == wanted) return;
@@ -138,7 +138,7 @@ std::string half_blocks(const Image& image, int columns) {
     for (std::int64_t y = 0; y < image.height; y += 2) {
         std::optional<Levels> ink, ground;
         for (std::int64_t x = 0; x < image.width; ++x) {
-            // If the number of rows is odd, the terminal's background shows below the last one.
+            // If the number of rows is odd, the terminal's background is below the last one.
             const auto bytes = [&](std::int64_t row) -> std::optional<Levels> {
                 if (row >= image.height) return std::nullopt;
                 return bytes_of(image.at(x, row), static_cast<double>(image.opacity(x, row)));

@@ -15,7 +15,7 @@ constexpr const char* without_it = "--volume NAME.vti does without it";
 
 Result<VdbEncoder*> load_encoder() {
 #ifdef CASCADE_OPENVDB_MODULE
-    // Never unloaded, because threads of OpenVDB's libraries may still run.
+    // The module is never unloaded, because threads of OpenVDB's libraries may still run.
     void* const module = ::dlopen(CASCADE_OPENVDB_MODULE, RTLD_LAZY | RTLD_LOCAL);
     if (!module) {
         const char* reason = ::dlerror();

@@ -1,7 +1,8 @@
-// OpenVDB's .vdb files: volumes for Blender, Houdini and renderers (K. Museth, "VDB:
-// High-Resolution Sparse Volumes with Dynamic Topology", ACM Transactions on Graphics 32(3), 2013).
-// OpenVDB's library is in a module of its own, which is built if OpenVDB is installed and loaded
-// for the first file.
+// Writes .vdb files of the library OpenVDB. They contain volumes for Blender, Houdini and renderers
+// (K. Museth, "VDB: High-Resolution Sparse Volumes with Dynamic Topology", ACM Transactions on
+// Graphics 32(3), 2013). Cascade calls OpenVDB in a plug-in, a separate shared library. The
+// plug-in is built if OpenVDB is installed, and is loaded when the first file is checked or
+// written.
 #pragma once
 
 #include "core/result.h"
@@ -18,29 +19,30 @@ namespace cascade {
 
 /// The content of a .vdb file: a grid for each array, and metadata.
 struct VdbVolume {
-    std::span<const VolumeArray> arrays;  ///< At least one; all have one layout.
+    std::span<const VolumeArray> arrays;  ///< At least one. All must have the same layout.
     double spacing = 1;                   ///< The side of a cell.
-    const Mask* inside = nullptr;         ///< Voxels are inactive where it is 0. May be null.
+    const Mask* inside = nullptr;  ///< A mask. Where it is 0, voxels are inactive. May be null.
     std::map<std::string, std::string> texts;
     std::string stage;
     std::int64_t step = 0;
-    double time = 0;  ///< Since the start of the stage. Not written if NaN.
+    double time = 0;  ///< Time since the start of the stage. NaN is not written.
 };
 
-/// The name of the module's only symbol: a function that takes the caller's version and returns the
-/// encoder, or null if the module's own version differs.
+/// The name of the plug-in's only symbol. It is a function that takes the version of its caller and
+/// returns the encoder, or null if the plug-in has another version.
 inline constexpr const char* vdb_encoder_symbol = "cascade_vdb_encoder";
 using VdbEncoder = Result<std::string>(const VdbVolume& volume);
 using VdbEncoderEntry = VdbEncoder*(std::string_view version);
 
-/// Loads the module. Fails, and says what to install, if this build has none or OpenVDB's library
-/// is missing.
+/// Loads the plug-in that writes .vdb files. Fails if this build has no plug-in or if the OpenVDB
+/// library is missing. The error is about the output file `path`, and says what to install.
 Result<void> check_vdb(const std::filesystem::path& path);
 
-/// Writes a file atomically: a fog volume of each array by its name, in the array's precision. The
-/// centre of cell (i, j, k) lies at (i + ½, j + ½, k + ½) · spacing, as in a .vti file. All voxels
-/// of cells inside are active. Each NaN is 0x7fc00000 or 0x7ff8000000000000. Equal volumes give
-/// equal bytes. Fails as check_vdb() and write_file() do, and if memory runs out.
+/// Writes a file atomically. Each array becomes a fog volume with the name and the precision of the
+/// array. The centre of cell (i, j, k) is at (i + ½, j + ½, k + ½) · spacing, as in a .vti file.
+/// The voxels of all cells inside are active. Every NaN is written as 0x7fc00000 or
+/// 0x7ff8000000000000. Equal volumes give equal bytes. Fails like check_vdb() and write_file(), and
+/// if memory is exhausted.
 Result<void> write_vdb(const std::filesystem::path& path, const VdbVolume& volume);
 
 }  // namespace cascade

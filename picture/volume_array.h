@@ -1,4 +1,4 @@
-// A field of a volume with its name in files.
+// A field of a volume, with its name in files.
 #pragma once
 
 #include "core/plane.h"

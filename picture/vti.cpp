@@ -1,4 +1,4 @@
-// XML with offsets first, then the arrays as raw bytes. Cells outside a mask are hidden.
+// Writes XML with the offsets of arrays, and then the arrays as raw bytes.
 #include "picture/vti.h"
 
 #include "core/check.h"
@@ -14,10 +14,10 @@ namespace cascade {
 
 namespace {
 
-/// The number of bytes of an array, stored before its elements.
+/// The number of bytes of an array, which is stored before its elements.
 using BlockSize = std::uint64_t;
 
-/// vtkDataSetAttributes::HIDDENCELL: a blanked cell.
+/// vtkDataSetAttributes::HIDDENCELL, which marks a hidden cell.
 constexpr char hidden_cell = 32;
 
 }  // namespace

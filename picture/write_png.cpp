@@ -1,4 +1,4 @@
-// Writes PNG files: the header, the texts, the rows.
+// Writes PNG files: the header, the texts, and the rows.
 #include "core/check.h"
 #include "core/enough_memory.h"
 #include "core/write_encoded.h"
@@ -15,9 +15,9 @@
 namespace cascade {
 namespace {
 
-constexpr std::int64_t longest_side = 0x7fffffff;  // The format's limit.
+constexpr std::int64_t longest_side = 0x7fffffff;  // The limit of the format.
 
-/// In pixels.
+/// The size of a picture in pixels.
 struct PngSize {
     std::int64_t width, height;
 };
@@ -28,14 +28,14 @@ std::string header_of(PngSize size, const PngFormat& format) {
     append_big_endian(header, static_cast<std::size_t>(size.height));
     header += static_cast<char>(format.depth);
     header += static_cast<char>((format.is_grey ? 0 : 2) | (format.has_alpha ? 4 : 0));
-    return header.append(3, '\0');  // The usual compression and filters, not interlaced.
+    return header.append(3, '\0');  // The standard compression and filters, not interlaced.
 }
 
 std::string compressed_rows(std::vector<std::uint8_t> rows, int level) {
     return deflated({reinterpret_cast<const char*>(rows.data()), rows.size()}, level);
 }
 
-/// A file with the rows that `make_rows` returns.
+/// Encodes a file with the rows that `make_rows` returns.
 Result<std::string> encode_rows(PngSize size, const PngTexts& texts, PngMeaning meaning,
                                 PngEffort effort, const std::function<PngRows()>& make_rows) {
     if (size.width < 1 || size.height < 1) return failure("the picture has no pixels");

@@ -1,4 +1,4 @@
-// Texts in XML files.
+// Prepares texts for XML files.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace cascade {
 
-/// Replaces & < > " by entities, for use in an attribute.
+/// Replaces & < > " with entities, for use in an attribute.
 std::string xml_escaped(std::string_view text);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Framing: the eye moves back and sideways until every vertex is inside the picture.
+// Frames the scene: moves the eye back and sideways until every vertex is inside the picture.
 #include "render/camera.h"
 
 #include <algorithm>
@@ -22,16 +22,17 @@ struct Turn {
 };
 
 /// The range of the scene along one axis of the picture. Seen from the eye, every vertex must be
-/// between the slopes −half and half. This gives a lower bound of the eye's distance that grows
-/// with the vertex's offset and nearness.
+/// between the slopes −half and half. So each vertex gives a lower bound of the eye's distance. The
+/// bound is larger if the vertex is farther from the middle or nearer to the eye.
 struct Extent {
     float low = -INFINITY, high = -INFINITY;
     void add(float offset, float backward, float half) {
         low = std::max(low, -offset + half * backward);
         high = std::max(high, offset + half * backward);
     }
-    /// Adds all points of a circle with its centre at `offset` and `backward`. Its points add the
-    /// sine of an angle times `offset_sine` and `backward_sine`.
+    /// Adds all points of a circle. Its centre is at `offset` along the axis and at the depth
+    /// `backward`. The points differ from the centre by the sine of an angle times `offset_sine`
+    /// and `backward_sine`.
     void add_circle(float offset, float backward, float offset_sine, float backward_sine,
                     float half) {
         low =
@@ -39,7 +40,7 @@ struct Extent {
         high =
             std::max(high, offset + half * backward + std::abs(half * backward_sine + offset_sine));
     }
-    /// The eye's offset and distance at which both edges touch.
+    /// The eye's offset and distance at which the scene touches both edges of the picture.
     float offset() const { return (high - low) / 2; }
     float distance(float half) const { return (low + high) / (2 * half); }
 };
@@ -49,7 +50,7 @@ struct Extent {
 Camera::Camera(const Scene& scene, const View& view, std::int64_t width, std::int64_t height) {
     const Turn around(view.azimuth);
     const Turn above(view.elevation);
-    // The axis towards the viewer at azimuth 0, and the one to the viewer's right.
+    // The axis towards the viewer at azimuth 0, and the axis to that viewer's right.
     const Vector3 front = view.up.z != 0   ? Vector3{0, -1, 0}
                           : view.up.y != 0 ? Vector3{0, 0, 1}
                                            : Vector3{0, 1, 0};
@@ -70,11 +71,12 @@ Camera::Camera(const Scene& scene, const View& view, std::int64_t width, std::in
     if (view.is_turning) {
         middle = bounds(scene).centre();
         scene.visit([&](const Vector3& p) {
-            // Under rotation, a point of the scene describes a circle around the axis.
+            // When the scene rotates, a point of it describes a circle around the axis.
             const float rise = dot(p - middle, view.up);
             const float radius = length(p - middle - view.up * rise);
             const float back = rise * above.sine;
-            // Sideways, the cosine and the sine of the angle combine into one sine.
+            // Along this axis, the terms with the cosine and the sine of the angle combine into one
+            // sine.
             const float slope = half_x * above.cosine;
             const float swing = radius * std::sqrt(1 + slope * slope);
             x.add(swing, back, half_x);

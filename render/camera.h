@@ -12,8 +12,9 @@ struct View {
     float azimuth = 30;    ///< Degrees around the up axis, from the front to the right.
     float elevation = 25;  ///< Degrees above the horizon, −89 … 89.
     Vector3 up{0, 0, 1};   ///< One of the axes x, y, z.
-    /// Frames the scene for all azimuths at once, rotating around the centre of its box, so that
-    /// its position and size stay the same in a series of pictures from all sides.
+    /// Whether one frame must fit for all azimuths. The camera then rotates around the centre of
+    /// the scene's box, and the scene has the same position and size in a series of pictures from
+    /// all sides.
     bool is_turning = false;
     /// The tangent of half the field of view, along the shorter side of the picture.
     float half_field = 0.22F;
@@ -32,7 +33,7 @@ public:
     /// The ray through a point of the picture, in pixels from its upper left corner.
     Ray ray(float x, float y) const;
 
-    /// The width of a pixel at distance 1.
+    /// The width of a pixel at distance 1 from the eye.
     float pixel() const { return pixel_; }
     Vector3 eye() const { return eye_; }
     Vector3 right() const { return right_; }

@@ -1,4 +1,4 @@
-// Rendering of a scene with smooth shading, soft shadows and a ground plane.
+// Renders a scene with smooth shading, soft shadows and a ground plane.
 #pragma once
 
 #include "core/parallel.h"
@@ -15,19 +15,21 @@
 
 namespace cascade {
 
-/// The colour (sRGB) of the surface at a hit. Several threads call it at once.
+/// Gives the colour (sRGB) of the surface at a hit. Several threads call it at once.
 using SurfaceColour = std::function<Colour(const Hit&)>;
 
 struct Sight {
     Hit hit;
     Vector3 direction;  ///< Direction of the ray, of length 1.
-    float width = 0;    ///< Width of the ray's part of the pixel at the hit, across the ray.
+    /// The width of the part of the pixel that the ray samples, at the hit and across the ray.
+    float width = 0;
 };
 
-/// The appearance of the body at a point. Copies have their own colours.
+/// The appearance of the body at a point. It does not apply to copies, which have colours of their
+/// own.
 struct Look {
     Colour light{};  ///< Reflected fractions of red, green and blue light, 0 … 1 (light_of).
-    Vector3 tilt;    ///< Added to the outward unit normal.
+    Vector3 tilt;    ///< Added to the outward normal, which has length 1.
     Colour glow{};   ///< Emitted light, 0 … 1.
     Gloss gloss = {};
 };
@@ -35,27 +37,29 @@ struct Look {
 using SurfaceLook = std::function<Look(const Sight&)>;
 
 struct DrawOptions {
-    std::int64_t width = 800, height = 600;  ///< Pixels, at least 1.
+    std::int64_t width = 800, height = 600;  ///< In pixels, at least 1.
     Quality quality = Quality::normal;
     View view;
     Lighting lighting = Lighting::sun;
-    /// The background of the scene. If nullopt, the picture has `alpha`.
+    /// The colour of the background. If nullopt, the picture has a transparent background and an
+    /// alpha channel.
     std::optional<Colour> background = pure_white;
     bool ground = true;
-    bool round_shadows = false;  ///< Smooths shadows on large facets.
-    /// The opacity of the body at a hit, 0 … 1; empty: opaque. The background shows through, and
-    /// light passes. Several threads call it at once.
+    bool round_shadows =
+        false;  ///< Whether to make shadows on large facets look as if the surface were smooth.
+    /// The opacity of the body at a hit, 0 … 1. If empty, the body is opaque. Where the opacity is
+    /// below 1, what is behind shows through, and light passes. Several threads call it at once.
     std::function<float(const Hit&)> opacity = {};
     /// Called now and then, in the calling thread, with the fraction done, 0 … 1. May be empty. If
-    /// it returns false, drawing stops, and the picture is useless.
+    /// it returns false, drawing stops, and the returned picture is incomplete.
     std::function<bool(double)> report = {};
 };
 
-/// Renders by ray tracing. The picture is the same on any number of threads and on every processor.
-/// Both sides of a surface are drawn. `look` is the body's, and may be empty if there is none.
-/// Without a background, a surface is as opaque as the fraction of the pixel that it covers, and
-/// the shadow on the ground is black: over white it is as dark as on a white background. Throws
-/// std::bad_alloc.
+/// Renders by ray tracing. The picture is the same with any number of threads and on every
+/// processor. Both sides of a surface are drawn. `look` gives the appearance of the body, and may
+/// be empty if there is no body. Without a background, the opacity of a pixel is the fraction that
+/// surfaces cover. The shadow on the ground is then black and partly transparent. Over white, it is
+/// as dark as on a white background. Throws std::bad_alloc.
 Image draw(const RayCaster& caster, const SurfaceLook& look, const DrawOptions& options,
            Team& team);
 
@@ -64,7 +68,7 @@ inline Image empty_picture(const DrawOptions& options) {
     return Image(options.width, options.height, options.background.value_or(transparent));
 }
 
-/// The same as draw() for a body with colours.
+/// Renders a body whose appearance is its colour alone.
 Image draw(const TriangleMesh& mesh, const SurfaceColour& colour, const DrawOptions& options,
            Team& team);
 

@@ -10,12 +10,13 @@ namespace cascade {
 struct Gloss {
     float strength = 0.06F;
     float power = 40;
-    float metalness = 0;  ///< 0 … 1: a metal's highlight has its colour, and it has no other shade.
+    /// 0 … 1. The highlight of a metal has the metal's colour, and a metal has no other shade.
+    float metalness = 0;
 };
 
-/// The gloss for a roughness and metalness as in glTF, 0 … 1. The power gives a lobe as wide as
-/// GGX's (B. Walter et al., 2007), widened by the sun's disc. The strength grows with the power as
-/// the light of a lobe does.
+/// The gloss for a roughness and a metalness, 0 … 1, as defined by glTF. The power gives a lobe as
+/// wide as GGX's (B. Walter et al., 2007), widened by the sun's disc. A narrower lobe is stronger,
+/// so that its total light stays nearly the same.
 inline Gloss gloss_of(float roughness, float metalness) {
     constexpr float of_sun = 0.004F;
     const float width = roughness * roughness;

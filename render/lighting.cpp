@@ -11,12 +11,13 @@ namespace cascade {
 
 namespace {
 
-constexpr float of_glass = 0.04F;  ///< Reflected from the front by glass, skin and most materials.
+/// The fraction of light from the front that glass, skin and most materials reflect.
+constexpr float of_glass = 0.04F;
 
 /// The factors of the Legendre polynomials P0, P1 and P2 of the angle between normal and light.
 ///
 /// The integrals of ((1 + c)/2)^p P_l(c) over c from −1 to 1 follow from powers of t = (1 + c)/2.
-/// For the cosine's lobe they are π, 2π/3 and π/4. The factors are divided by π.
+/// For the cosine, the corresponding factors are π, 2π/3 and π/4. The results are divided by π.
 std::array<float, 3> orders_of(double p) {
     const double flat = 2 / (p + 1);
     const double linear = 4 / (p + 2) - flat;
@@ -80,8 +81,9 @@ Colour Lights::soft(const Vector3& normal) const {
 }
 
 Colour Lights::mirrored(const Vector3& direction, const Gloss& gloss) const {
-    // The half vector turns half as far as the reflected ray: cos^n of the former is about ((1 +
-    // cos)/2)^(n/2) of the latter. Both are near to Gaussians, whose squared widths add.
+    // The angle of the half vector is half the angle of the reflected ray. So the power cos^n of
+    // the former is about ((1 + cos)/2)^(n/2) of the latter. Both lobes are nearly Gaussians, whose
+    // squared widths add.
     const double own = static_cast<double>(gloss.power) / 2;
     Colour sum{};
     for (const SoftLight& light : soft_) {
@@ -95,7 +97,7 @@ Colour Lights::mirrored(const Vector3& direction, const Gloss& gloss) const {
 }
 
 float reflectance(float facing, const Gloss& gloss) {
-    const float width = 2 / (gloss.power + 2);  // The square of the roughness, squared.
+    const float width = 2 / (gloss.power + 2);  // The fourth power of the roughness.
     const float most = std::max(of_glass, 1 - std::sqrt(std::sqrt(width)));
     const float rest = 1 - std::clamp(facing, 0.0F, 1.0F);
     const float fifth = rest * rest * rest * rest * rest;

@@ -1,6 +1,7 @@
-// The light on a scene: a sun that casts shadows, and an environment all around.
+// The light on a scene: a sun that casts shadows, and an environment in all directions.
 #pragma once
 
+#include "core/enum_named.h"
 #include "core/vector3.h"
 #include "picture/image.h"
 #include "render/gloss.h"
@@ -25,38 +26,38 @@ constexpr std::string_view name_of(Lighting lighting) {
 }
 
 constexpr std::optional<Lighting> lighting_named(std::string_view name) {
-    for (std::size_t k = 0; k < lighting_names.size(); ++k) {
-        if (lighting_names[k] == name) return static_cast<Lighting>(k);
-    }
-    return std::nullopt;
+    return enum_named<Lighting>(lighting_names, name);
 }
 
-/// A soft light far away. Its radiance in the direction ω is colour · ((1 + ω·d)/2)^power, so that
-/// a large power makes it small, and the power 1 lights all surfaces except those that face away.
+/// A soft light far away. Its radiance in the direction ω is colour · ((1 + ω·d)/2)^power. So a
+/// large power gives a small light. A light with the power 1 reaches all surfaces that
+/// do not face away.
 struct SoftLight {
-    Vector3 direction;  ///< d, of length 1.
-    Colour colour{};    ///< Some channels may be negative, which darkens that side.
-    double power = 1;   ///< At least 0.
+    Vector3 direction;  ///< The direction d, of length 1.
+    /// Some channels may be negative, which darkens the side that faces the light.
+    Colour colour{};
+    double power = 1;  ///< At least 0.
 };
 
-/// All lights of a scene. Radiances are in units in which a white surface that faces a uniform
-/// environment of radiance 1 has the light 1.
+/// All lights of a scene. In the unit of radiance, a white surface that faces a uniform environment
+/// of radiance 1 has the light 1.
 class Lights {
 public:
-    /// Lights are placed relative to the camera, and the sky and the ground relative to `up`.
+    /// Places the lights relative to the camera, but the sky and the ground relative to `up`.
     Lights(Lighting lighting, const Camera& camera, const Vector3& up);
 
-    Vector3 sun;               ///< The direction to its centre, of length 1.
-    Colour sunlight{};         ///< The light of a white surface that faces it.
-    float sun_radius = 0.12F;  ///< The tangent of its half width.
+    Vector3 sun;               ///< The direction to the centre of the sun, of length 1.
+    Colour sunlight{};         ///< The light that a white surface facing the sun reflects.
+    float sun_radius = 0.12F;  ///< The tangent of half the sun's width.
     Colour even{};             ///< The uniform radiance from all directions.
 
-    /// The light of the soft lights on a white surface with this normal if nothing is hidden: their
-    /// convolution with the cosine up to the second order of spherical harmonics (R. Ramamoorthi
-    /// and P. Hanrahan, "An Efficient Representation for Irradiance Environment Maps", 2001).
+    /// The light that a white surface with this normal reflects from the soft lights, if nothing
+    /// hides them. It is the convolution of the lights with the cosine up to the second order of
+    /// spherical harmonics (R. Ramamoorthi and P. Hanrahan, "An Efficient Representation for
+    /// Irradiance Environment Maps", 2001).
     Colour soft(const Vector3& normal) const;
 
-    /// The soft lights in a mirror, in this direction, widened by the lobe of the gloss.
+    /// The soft lights as seen in a mirror in this direction, blurred by the lobe of the gloss.
     Colour mirrored(const Vector3& direction, const Gloss& gloss) const;
 
 private:
@@ -67,8 +68,8 @@ private:
     std::vector<std::array<float, 3>> orders_;
 };
 
-/// The fraction of the light that a surface reflects from the direction of the viewer's mirror
-/// image: C. Schlick's approximation (1994), reduced at grazing angles for rough surfaces (S.
+/// The fraction of the light from the direction of the viewer's mirror image that a surface
+/// reflects: C. Schlick's approximation (1994), reduced at grazing angles for rough surfaces (S.
 /// Lagarde, 2011). `facing` is the cosine between the normal and the direction to the viewer.
 float reflectance(float facing, const Gloss& gloss);
 

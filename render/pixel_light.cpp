@@ -1,4 +1,4 @@
-// Sums in the order of the rays, so that pictures are the same everywhere.
+// Adds rays in their order, so that pictures are the same on every machine.
 #include "render/pixel_light.h"
 
 #include "picture/srgb.h"
@@ -10,7 +10,7 @@ namespace cascade {
 
 namespace {
 
-constexpr float least_opacity = 0.5F / 65535;  ///< Lower opacities are 0 in files of 16 bits.
+constexpr float least_opacity = 0.5F / 65535;  ///< Lower opacities would be stored as 0 in 16 bits.
 
 void add(const Colour& light, float part, Colour& sum) {
     for (std::size_t c = 0; c < 3; ++c) sum[c] += light[c] * part;

@@ -8,16 +8,17 @@
 
 namespace cascade {
 
-/// Light on a perceptually uniform scale.
+/// Converts light to a perceptually uniform scale.
 Colour tone_of(const Colour& light);
 
-/// The light from a hit to the camera, given the visible parts of the sun and of the sky.
+/// The light that comes from a hit to the camera. `sun` and `sky` are the fractions of the sun and
+/// of the sky that are visible from the hit.
 Colour light_of(const Seen& seen, float sun, float sky);
 
 struct PixelLight {
     Colour light{};
     float open = 0;    ///< The fraction of the pixel without a surface, 0 … 1.
-    float behind = 0;  ///< What a white background adds to each channel of `light`.
+    float behind = 0;  ///< The light that a white background adds to each channel.
 };
 
 /// Adds a fraction of a light to a sum.
@@ -26,14 +27,14 @@ void add(const PixelLight& light, float part, PixelLight& sum);
 /// The light of a pixel with a single ray.
 PixelLight light_of_ray(const Seen& seen, float sun, float sky);
 
-/// The mean of rays through a pixel, and its possible error.
+/// The mean light of several rays through a pixel, and an estimate of its error.
 class MeanLight {
 public:
     void add(const PixelLight& ray);
     PixelLight light() const;
-    /// The standard error of the tone, as if rays were random.
+    /// The standard error of the tone, computed as if rays were random.
     float error() const;
-    /// The same for the fraction without a surface.
+    /// The standard error of the fraction without a surface.
     float error_of_open() const;
 
 private:
@@ -42,8 +43,9 @@ private:
     int count_ = 0;
 };
 
-/// Sets a pixel. Without a background, surfaces are opaque where they cover the pixel. The rest is
-/// black, and as opaque as the shadow is dark. The two are blended in sRGB, as other programs do.
+/// Sets a pixel. Without a background, surfaces are opaque where they cover the pixel. The rest of
+/// the pixel is black, and as opaque as the shadow is dark. The two parts are blended in sRGB,
+/// because other programs blend transparent pictures in this way.
 void put(const PixelLight& light, bool has_background, std::int64_t x, std::int64_t y,
          Image& image);
 

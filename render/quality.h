@@ -1,5 +1,7 @@
-// The amount of work for a rendered picture.
+// How much work is spent on a rendered picture.
 #pragma once
+
+#include "core/enum_named.h"
 
 #include <array>
 #include <cstddef>
@@ -18,24 +20,24 @@ constexpr std::string_view name_of(Quality quality) {
 }
 
 constexpr std::optional<Quality> quality_named(std::string_view name) {
-    for (std::size_t k = 0; k < quality_names.size(); ++k) {
-        if (quality_names[k] == name) return static_cast<Quality>(k);
-    }
-    return std::nullopt;
+    return enum_named<Quality>(quality_names, name);
 }
 
 /// The limits and counts of rays of each quality. A test is a ray towards a light.
 struct Effort {
-    /// One ray is enough for a pixel in uniform parts of the picture. Others have four, and then
-    /// twice as many until they agree or are `most_rays`, a power of 2.
+    /// Whether one ray is enough for pixels in uniform parts of the picture. In other pixels, four
+    /// rays are traced, and their number is doubled until they agree or reach `most_rays`, a power
+    /// of 2.
     bool one_is_enough = true;
     std::uint32_t most_rays = 16;
-    /// The standard error of a pixel's tone (the root of its light) below which its rays agree.
+    /// The rays of a pixel agree if the standard error of their mean tone (the square root of
+    /// light) is below this.
     float error = 0.02F;
-    /// Tests per pixel where a light is partly hidden. Its neighbours' tests count, too.
+    /// The number of tests for a pixel from which a light is partly hidden. Tests of neighbouring
+    /// pixels count towards this number.
     std::uint32_t sun_tests = 8, sky_tests = 3;
 
-    /// The width of the area that the first ray of a pixel samples, in pixels.
+    /// The width of the area, in pixels, that the first ray of a pixel samples.
     float widest_ray() const { return one_is_enough ? 1.0F : 0.5F; }
 };
 

@@ -1,7 +1,9 @@
-// Embree with one instruction set and one building thread, so that all machines draw the same.
+// Embree with one instruction set and one building thread, so that all machines draw the same
+// picture.
 //
-// The body is a geometry of the root. So is each copy: an instance, which refers to the tree of its
-// mesh and has a transformation. So a mesh is stored once, however many copies there are.
+// The root of the scene contains the body, and an instance for each copy. An instance refers to the
+// tree of its mesh and has a transformation. So a mesh is stored once, however many copies there
+// are.
 #include "render/ray_caster.h"
 
 #include "core/late_library.h"
@@ -20,7 +22,7 @@ namespace cascade {
 
 namespace {
 
-/// Embree's functions, by their names without `rtc`.
+/// Embree's functions, named as in Embree but without the prefix `rtc`.
 struct Embree {
     LateLibrary library{CASCADE_EMBREE_LIBRARY};
     decltype(&rtcAttachGeometryByID) attach_geometry = library["rtcAttachGeometryByID"];
@@ -51,13 +53,14 @@ const Embree& embree() {
 
 namespace {
 
-/// The process's only device, which is never released: on releasing the last device, the library
-/// that schedules Embree's tasks starts threads, and aborts if the system denies them.
+/// The process's only device, which is never released. When the last device is released, the
+/// library that schedules Embree's tasks starts threads, and aborts if the system denies them.
 RTCDevice the_device() {
-    // One instruction set for all processors, and one thread for building, which gives one tree.
+    // One instruction set for all processors, and one thread for building, so that trees are always
+    // the same.
     static const RTCDevice device = [] {
         const RTCDevice made = embree().new_device("isa=sse2,threads=1,set_affinity=0");
-        // It only asks the system for memory and threads.
+        // Creating a device can only fail for lack of memory or threads.
         if (!made) throw std::bad_alloc();
         return made;
     }();
@@ -84,7 +87,7 @@ GeometryPointer new_geometry(RTCGeometryType type) {
     return geometry;
 }
 
-/// Gives a geometry to a tree, which keeps it.
+/// Attaches a geometry to a tree, which then shares its ownership.
 void attach(const GeometryPointer& geometry, const TreePointer& tree, std::size_t number) {
     embree().commit_geometry(geometry.get());
     embree().attach_geometry(tree.get(), geometry.get(), static_cast<unsigned>(number));
@@ -134,8 +137,8 @@ struct RayCaster::Tree {
     Tree() = default;
     Tree(const Tree&) = delete;
     Tree& operator=(const Tree&) = delete;
-    /// Embree ends the program when it releases a tree that it had no memory to build, so such
-    /// trees stay.
+    /// Embree ends the program when it releases a tree for which memory ran out, so such trees are
+    /// not released.
     ~Tree() {
         if (is_built) return;
         (void)root.release();
@@ -151,7 +154,7 @@ RayCaster::RayCaster(const Scene& scene) : scene_(scene), tree_(std::make_unique
         attach_mesh(mesh, tree_->of_meshes.back(), 0);
         finish(tree_->of_meshes.back());
     }
-    // Copies are numbered by their placements.
+    // The number of a copy is the index of its placement.
     const std::size_t count = copies.placements.size();
     for (std::size_t k = 0; k < count; ++k) {
         const Placement& placement = copies.placements[k];
@@ -188,8 +191,8 @@ RTCRay ray_of(const Ray& ray, float reach) {
 
 }  // namespace
 
-/// Whether a ray misses the scene's box, or ends before it. Most rays from the ground do, and this
-/// is far less work than asking Embree.
+/// Whether a ray misses the scene's box, or ends before it. This is true for most rays from the
+/// ground, and takes far less time than a search by Embree.
 bool RayCaster::misses_all(const Ray& ray, float reach) const {
     float enters = 0, leaves = reach;
     for (float Vector3::*axis : {&Vector3::x, &Vector3::y, &Vector3::z}) {

@@ -1,4 +1,4 @@
-// Intersections of rays with a scene. The only interface to Embree.
+// Intersections of rays with a scene. Other files use Embree only through this interface.
 #pragma once
 
 #include "render/camera.h"
@@ -9,12 +9,13 @@
 
 namespace cascade {
 
-/// Thread-safe. The contents of the scene must outlive it.
+/// Finds hits of rays. Thread-safe. The contents of the scene must outlive it.
 class RayCaster {
 public:
-    /// Uses the same instructions on every processor, for equal pictures. Throws std::bad_alloc.
+    /// Uses the same instructions on every processor, so that pictures are equal. Throws
+    /// std::bad_alloc.
     explicit RayCaster(const Scene& scene);
-    /// False in a browser's tab, which has no Embree. Then no ray caster can be made.
+    /// False in a browser's tab, which has no Embree. Then a RayCaster cannot be constructed.
     static bool is_available();
     ~RayCaster();
 

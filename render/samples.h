@@ -2,7 +2,7 @@
 //
 // They are points of a low-discrepancy sequence (M. Roberts, "The Unreasonable Effectiveness of
 // Quasirandom Sequences", 2018), shifted in each pixel by a hash of the pixel. So a pixel depends
-// neither on its tile nor on the thread.
+// neither on its tile nor on its thread.
 #pragma once
 
 #include "core/hash.h"
@@ -15,26 +15,28 @@
 
 namespace cascade {
 
-inline constexpr std::uint32_t first_rays = 4;  ///< For a pixel that has several.
+/// The number of first rays of a pixel that has several.
+inline constexpr std::uint32_t first_rays = 4;
 
 inline float to_fraction(std::uint32_t word) {
     return static_cast<float>(word >> 8) * 0x1p-24F;  // In [0, 1).
 }
 
-/// A point of the unit square, and another number from 0 to 1.
+/// A point of the unit square, and a third number from 0 to 1.
 struct Point {
     float x = 0, y = 0, part = 0;
 };
 
-/// Point `k` of a low-discrepancy sequence in the square, shifted by two hashed words: multiples of
-/// 1/p and 1/p² with p³ = p + 1, as fractions of 2^32. Its third number uses the golden section.
+/// Point `k` of a low-discrepancy sequence in the square: multiples of 1/p and 1/p² with p³ = p +
+/// 1, as fractions of 2^32, shifted by two hashed words. The third number is a multiple of the
+/// golden section.
 inline Point even_point(std::uint32_t k, std::uint32_t a, std::uint32_t b) {
     return {to_fraction(a + k * 3242174889u), to_fraction(b + k * 2447445414u),
             to_fraction((a ^ b) + k * 2654435769u)};
 }
 
-/// Positions of the first rays of a pixel that has several: a turned grid. Their mean is the middle
-/// of the pixel, so that a constant slope comes out exactly.
+/// Positions of the first rays of a pixel that has several. They form a rotated grid. Its mean is
+/// the middle of the pixel, so the mean of samples of a linear function is exact.
 inline Point first_point(std::uint32_t k) {
     constexpr std::array<Point, first_rays> turned = {
         {{0.375F, 0.125F}, {0.875F, 0.375F}, {0.125F, 0.625F}, {0.625F, 0.875F}}};

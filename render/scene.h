@@ -12,29 +12,30 @@ namespace cascade {
 struct Hit {
     static constexpr std::uint32_t body = 0xffffffff;
 
-    std::uint32_t triangle = 0;  ///< In the body or in the copy's mesh.
+    std::uint32_t triangle = 0;  ///< Its index in the body or in the copy's mesh.
     float u = 0, v = 0;
     float distance = 0;
-    std::uint32_t copy = body;  ///< The number of its placement.
+    std::uint32_t copy =
+        body;  ///< The index of the copy's placement, or `body` if the ray hit the body.
 
     std::array<float, 3> weights() const { return {1 - u - v, u, v}; }
 };
 
-/// Refers to its meshes, which must outlive it. Has at least one triangle.
+/// Refers to its meshes, which must outlive the scene. Has at least one triangle.
 class Scene {
 public:
-    /// A body alone.
+    /// A scene with a body alone.
     Scene(const TriangleMesh& body) : Scene(&body, nullptr) {}  // NOLINT: the simple case.
-    /// Either may be null.
+    /// One of the two may be null.
     Scene(const TriangleMesh* body, const Instances* copies);
 
     const TriangleMesh* body() const { return body_; }
     const Instances& copies() const { return *copies_; }
 
-    /// A triangle in space.
+    /// A triangle with its vertices in space.
     struct Facet {
         std::array<Vector3, 3> positions, normals;
-        float shade = 1;  ///< At the hit.
+        float shade = 1;  ///< The shade at the hit.
 
         Vector3 normal() const {
             return unit(cross(positions[1] - positions[0], positions[2] - positions[0]));
@@ -43,7 +44,7 @@ public:
     /// The triangle that was hit.
     Facet facet(const Hit& hit) const;
 
-    /// All positions.
+    /// Calls `use` with every position of a vertex in the scene.
     template <typename Use>
     void visit(const Use& use) const {
         if (body_) {

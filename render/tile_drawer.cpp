@@ -1,17 +1,20 @@
-// Few rays where the picture is uniform, more where it is not.
+// Traces few rays where the picture is uniform, and more rays elsewhere.
 //
 // Every pixel begins with one ray through its middle, which tests the sun and the sky once. The
-// tests of 5 × 5 pixels together are evenly spread over a light, so a window of them tells how much
-// of it is hidden.
-// - If adjacent pixels see different things, there is an edge: the pixel sends at least four rays,
-//   each of which tests both lights, until their mean is known well.
-// - If only the colours differ, it sends rays in the same way, but they share its lights.
-// - If a light is partly hidden around a pixel, it is tested more often.
+// tests of 5 × 5 pixels together are evenly spread over a light, so a window of tests shows how
+// much of the light is hidden.
+// - If adjacent pixels show different things, there is an edge. The pixel sends at least four rays,
+// each of which tests both lights, until their mean is accurate enough.
+// - If only the colours differ, the pixel sends rays in the same way, but its rays share the
+// results of its tests of lights.
+// - If a light is partly hidden around a pixel, the light is tested more often.
 // - The visible part of a light varies slowly along a surface. Pixels use the mean over their
-//   neighbours on the same piece. For the sun, which casts outlines, only over the nearest.
-// - If a surface is translucent, a pixel acts as at edges, and each ray continues through it.
-// - If there are copies and edges all around, as in fur, no outline stands out: a pixel sends only
-//   four rays, and takes the visible parts of the lights from the pixels around, too.
+// neighbours on the same piece of the surface. For the sun, which casts outlines, they use only the
+// nearest neighbours.
+// - If a surface is translucent, a pixel is treated as an edge, and each ray continues through the
+// surface.
+// - If there are copies and edges all around, as in fur, no outline stands out. A pixel sends only
+// four rays, and also uses the visible parts of the lights at the pixels around it.
 #include "render/tile_drawer.h"
 
 #include "picture/srgb.h"
@@ -24,16 +27,22 @@ namespace cascade {
 
 namespace {
 
-constexpr int turn_side = 5;  ///< Side of a square of pixels that take turns in testing a light.
-constexpr int sun_reach = 1, sky_reach = 2;  ///< Pixels on each side whose tests count.
-constexpr std::uint32_t enough_tests = 16;   ///< Tests of a light that is partly hidden.
-/// Two hits whose normals have a smaller cosine are not on one piece of a surface.
+/// The side of a square of pixels. Each pixel of the square tests a different part of a light.
+constexpr int turn_side = 5;
+/// How many pixels away from a pixel tests of the sun and of the sky are used for it.
+constexpr int sun_reach = 1, sky_reach = 2;
+/// The number of tests for a light that is partly hidden.
+constexpr std::uint32_t enough_tests = 16;
+/// Two hits count as on different pieces of a surface if the cosine between their normals is
+/// smaller than this.
 constexpr float least_cosine = 0.9F;
-constexpr float sharp_outline = 0.2F;     ///< Difference of a pixel's share of the sun from its
-                                          ///< neighbours'.
-constexpr float contrast_beside = 0.06F;  ///< Contrast beside a pixel above which one ray is too
-                                          ///< few.
-constexpr float dark_share = 0.2F;        ///< Share of the sky below which a pixel is in a crevice.
+/// The largest difference between the visible part of the sun at a pixel and at its neighbours. If
+/// it is larger, there is the outline of a shadow.
+constexpr float sharp_outline = 0.2F;
+/// If the contrast to an adjacent pixel is above this, one ray is not enough.
+constexpr float contrast_beside = 0.06F;
+/// If the visible part of the sky is below this, a pixel is in a crevice.
+constexpr float dark_share = 0.2F;
 
 float contrast(const Colour& a, const Colour& b) {
     float most = 0;
@@ -62,7 +71,8 @@ void TileDrawer::draw(std::int64_t left, std::int64_t top, Image& image) {
     });
 }
 
-/// Visits the pixels of the tile, and those at most `around` beside it in the picture.
+/// Visits the pixels of the tile and of a border of `around` pixels, as far as they are in the
+/// picture.
 template <typename Use>
 void TileDrawer::visit(std::int64_t around, const Use& use) {
     const std::int64_t first = margin - around, last = margin + side + around;
@@ -77,7 +87,8 @@ void TileDrawer::visit(std::int64_t around, const Use& use) {
     }
 }
 
-/// Visits the pixels in the square around a pixel, including itself, in the picture and the room.
+/// Visits the pixels of a square around a pixel, including the pixel itself, if they are in the
+/// picture and have been traced.
 template <typename Use>
 void TileDrawer::visit_around(const Pixel& pixel, int reach, const Use& use) {
     const auto low = [](std::int64_t at, std::int64_t start) {
@@ -104,7 +115,7 @@ void TileDrawer::visit_sides(const Pixel& pixel, const Use& use) const {
     if (top_ + pixel.y + 1 < options_.height) use(room_[at + room_side]);
 }
 
-/// `width` is the width of the area that the ray samples, in pixels.
+/// Traces a ray. The ray samples an area `width` pixels wide.
 Seen TileDrawer::trace(const Pixel& pixel, Point place, float width) const {
     return tracer_.trace(static_cast<float>(left_ + pixel.x) + place.x,
                          static_cast<float>(top_ + pixel.y) + place.y, width);
@@ -117,7 +128,8 @@ TileDrawer::Tally TileDrawer::ask(Light light, const Seen& from, Point place) co
     return {1, sees ? std::uint16_t{1} : std::uint16_t{0}};
 }
 
-/// Neighbouring pixels ask for different parts of a light, and for others in each round.
+/// Tests whether a light is visible. Adjacent pixels test different parts of the light, and each
+/// pixel tests another part in each round.
 TileDrawer::Tally TileDrawer::ask_in_turn(Light light, const Pixel& pixel,
                                           std::uint32_t round) const {
     constexpr std::int64_t above_margin = turn_side;
@@ -127,7 +139,7 @@ TileDrawer::Tally TileDrawer::ask_in_turn(Light light, const Pixel& pixel,
     return ask(light, pixel.seen, even_point(number, 0, 0));
 }
 
-/// Whether two hits, in a pixel or in neighbouring ones, are on one piece of a surface.
+/// Whether two hits, in one pixel or in adjacent pixels, are on one piece of a surface.
 bool TileDrawer::is_one_piece(const Seen& a, const Seen& b) const {
     if (a.kind != b.kind) return false;
     if (a.kind != Seen::Kind::surface) return true;
@@ -145,7 +157,8 @@ void TileDrawer::look(Pixel& pixel) {
     }
 }
 
-/// An edge that crosses a pixel lies between its middle and the middle of a pixel at its side.
+/// Compares a pixel with the pixels at its four sides. If an edge crosses the pixel, the edge is
+/// between the pixel's middle and the middle of one of these pixels.
 void TileDrawer::look_beside(Pixel& pixel) {
     const auto is_lit_alike = [&](const Pixel& other) {
         return other.first.sun.seen == pixel.first.sun.seen &&
@@ -170,7 +183,8 @@ void TileDrawer::ask_more(Light light, Pixel& pixel) {
     Tally around;
     visit_around(pixel, turn_side / 2, [&](const Pixel& other) { around += other.first[light]; });
     pixel.is_partly_hidden[light] = around.is_partial();
-    // Copies cast outlines on each other, but their part of the sky is small and varied anyway.
+    // Copies cast outlines on each other. But the visible part of the sky is small and varied on
+    // copies anyway, so it needs no more tests.
     if (pixel.seen.is_copy && light == Light::sky) return;
     // In a crevice hardly any sky is visible, and noise stands out most in the dark.
     const bool is_dark = light == Light::sky && around.share() < dark_share;
@@ -183,8 +197,8 @@ void TileDrawer::ask_more(Light light, Pixel& pixel) {
 }
 
 PixelLight TileDrawer::light_of_pixel(Pixel& pixel) {
-    const bool is_even = !pixel.is_edge && !pixel.is_varied;
-    const bool one_is_enough = is_even && effort_.one_is_enough;
+    const bool is_uniform = !pixel.is_edge && !pixel.is_varied;
+    const bool one_is_enough = is_uniform && effort_.one_is_enough;
     if (one_is_enough && pixel.seen.kind == Seen::Kind::background) {
         return light_of_ray(pixel.seen, 0, 0);
     }
@@ -216,14 +230,16 @@ PixelLight TileDrawer::light_of_pixel(Pixel& pixel) {
         if (is_torn) own.sky = ask(Light::sky, from, even_point(k, w, t)).share();
         return own;
     };
-    // Four rays that agree may have missed an edge.
-    const std::uint32_t least = is_torn   ? 4 * first_rays
-                                : is_even ? first_rays
-                                          : std::max(first_rays, effort_.most_rays / 4);
+    // At an edge, more than four rays are needed, because four rays that agree may all have missed
+    // the edge.
+    const std::uint32_t least = is_torn      ? 4 * first_rays
+                                : is_uniform ? first_rays
+                                             : std::max(first_rays, effort_.most_rays / 4);
     return light_of_rays(pixel, rays, least, shares_of);
 }
 
-/// Whether its own tests agree, unlike its neighbours'. Where the sun sets slowly they do not.
+/// Whether the pixel's own tests agree with each other, but not with those of its neighbours. In a
+/// slow transition to shadow, the pixel's own tests disagree.
 bool TileDrawer::is_at_outline_of_shadow(const Pixel& pixel, float share) const {
     if (pixel.seen.kind == Seen::Kind::background || pixel.all.sun.is_partial()) return false;
     return std::abs(pixel.all.sun.share() - share) > sharp_outline;
@@ -235,12 +251,12 @@ TileDrawer::Rays TileDrawer::first_rays_of(const Pixel& pixel) const {
     return rays;
 }
 
-/// The visible part of a light.
+/// The visible part of a light at a pixel, using the tests of pixels around it.
 float TileDrawer::share_around(Light light, Pixel& pixel, int reach) {
     if (pixel.seen.kind == Seen::Kind::background) return 1;
     Tally sum;
     if (!pixel.is_partly_hidden[light]) {
-        // If all tests around agree, it does not matter which of them count.
+        // If all tests at the pixels around agree, all of them can be used.
         visit_around(pixel, reach, [&](const Pixel& other) { sum += other.all[light]; });
         if (!sum.is_partial()) return sum.share();
         sum = {};
@@ -250,7 +266,7 @@ float TileDrawer::share_around(Light light, Pixel& pixel, int reach) {
         sum += other.all[light];
     });
     if (!pixel.is_partly_hidden[light]) return sum.share();
-    // On a narrow piece, its own tests continue where they ended.
+    // On a narrow piece of surface few neighbours count, so the pixel adds tests of its own.
     Tally& own = pixel.all[light];
     while (sum.asked < enough_tests) {
         const Tally answer = ask_in_turn(light, pixel, own.asked);
@@ -260,7 +276,7 @@ float TileDrawer::share_around(Light light, Pixel& pixel, int reach) {
     return sum.share();
 }
 
-/// Whether this pixel shows only copies, and half of its neighbours have edges.
+/// Whether this pixel shows only copies, and at least half of the pixels around have edges.
 bool TileDrawer::is_in_thicket(const Pixel& pixel, const Rays& rays) {
     if (!std::all_of(rays.begin(), rays.end(), [](const Seen& seen) { return seen.is_copy; })) {
         return false;
@@ -273,7 +289,7 @@ bool TileDrawer::is_in_thicket(const Pixel& pixel, const Rays& rays) {
     return 2 * edges >= count;
 }
 
-/// The light of four rays, with the shares of the lights visible from here and around.
+/// The light of four rays, with the visible parts of the lights at this pixel and around it.
 PixelLight TileDrawer::light_in_thicket(const Pixel& pixel, const Rays& rays) {
     OfLights<Tally> tally;
     for (const Light light : {Light::sun, Light::sky}) {
@@ -294,8 +310,8 @@ PixelLight TileDrawer::light_in_thicket(const Pixel& pixel, const Rays& rays) {
     return mean.light();
 }
 
-/// The mean of rays through a pixel. `shares(seen, number)` is the part of the lights that reaches
-/// the seen point.
+/// The mean light of several rays through a pixel. `shares(seen, number)` gives the visible parts
+/// of the lights for the hit of ray `number`.
 template <typename Shares>
 PixelLight TileDrawer::light_of_rays(const Pixel& pixel, const Rays& first, std::uint32_t least,
                                      const Shares& shares) {

@@ -13,21 +13,23 @@
 
 namespace cascade {
 
-/// Has room for one tile, so each thread needs its own. Its arguments must outlive it.
+/// Draws tiles. Has memory for one tile, so each thread needs its own drawer. The arguments must
+/// outlive it.
 class TileDrawer {
 public:
-    static constexpr std::int64_t side = 96;  ///< Pixels.
+    static constexpr std::int64_t side = 96;  ///< In pixels.
 
     TileDrawer(const Tracer& tracer, const DrawOptions& options);
 
-    /// Sets the tile's pixels, which depend neither on the other tiles nor on their order.
+    /// Sets the tile's pixels, which depend neither on other tiles nor on their order.
     void draw(std::int64_t left, std::int64_t top, Image& image);
 
 private:
-    static constexpr std::int64_t margin = 4;  ///< Pixels around the tile that it also traces.
+    /// The width, in pixels, of the border around the tile that is traced together with it.
+    static constexpr std::int64_t margin = 4;
     static constexpr std::int64_t room_side = side + 2 * margin;
 
-    /// The results of visibility tests of a light.
+    /// Counts the results of tests whether a light is visible.
     struct Tally {
         std::uint16_t asked = 0, seen = 0;
         Tally& operator+=(Tally other) {
@@ -41,7 +43,7 @@ private:
         }
     };
     enum class Light : std::uint8_t { sun, sky };
-    /// By light.
+    /// A value for each light.
     template <typename T>
     struct OfLights {
         T sun{}, sky{};
@@ -49,13 +51,14 @@ private:
         const T& operator[](Light light) const { return light == Light::sun ? sun : sky; }
     };
     struct Pixel {
-        Seen seen;      ///< Through its middle.
-        Colour tone{};  ///< Tone of the seen point, if no light were hidden.
+        Seen seen;      ///< The hit of the ray through the pixel's middle.
+        Colour tone{};  ///< The tone that the hit would have if no light were hidden.
         OfLights<Tally> first, all;
-        OfLights<bool> is_partly_hidden;  ///< Here or nearby.
-        bool is_edge = false;             ///< Sees other things than its neighbours.
-        bool is_varied = false;           ///< Different colours of one thing.
-        std::int16_t x = 0, y = 0;        ///< Position in the room.
+        /// Whether the light is partly hidden at this pixel or nearby.
+        OfLights<bool> is_partly_hidden;
+        bool is_edge = false;    ///< Whether adjacent pixels show other things.
+        bool is_varied = false;  ///< Whether adjacent pixels show other colours of the same thing.
+        std::int16_t x = 0, y = 0;  ///< Position relative to `left_` and `top_`.
     };
     using Rays = std::array<Seen, first_rays>;
 
@@ -88,8 +91,9 @@ private:
     const Tracer& tracer_;
     const DrawOptions& options_;
     const Effort effort_;
-    std::int64_t left_ = 0, top_ = 0;  ///< The room's position in the picture.
-    std::vector<Pixel> room_;          ///< The tile and the pixels around it.
+    /// The position in the picture from which pixels of the tile are counted.
+    std::int64_t left_ = 0, top_ = 0;
+    std::vector<Pixel> room_;  ///< The tile and the pixels around it.
 };
 
 }  // namespace cascade

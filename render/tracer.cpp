@@ -11,11 +11,11 @@ namespace cascade {
 
 namespace {
 
-constexpr float usual_sun = 0.72F;     ///< The light for which strengths of gloss are given.
+constexpr float usual_sun = 0.72F;     ///< The sunlight for which strengths of gloss are given.
 constexpr float ground_shade = 0.55F;  ///< The fraction of light that the ground's shadow removes.
 
-/// The offset from a point on a facet to the smooth surface implied by the vertex normals: J.
-/// Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021, chapter 4.
+/// The offset from a point on a facet to the smooth surface that the normals at the vertices
+/// describe: J. Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021, chapter 4.
 Vector3 rounding(const Scene::Facet& facet, const std::array<float, 3>& weights, float side) {
     Vector3 place, offset;
     for (std::size_t k = 0; k < 3; ++k) place = place + facet.positions[k] * weights[k];
@@ -85,7 +85,7 @@ Seen Tracer::surface(const Ray& ray, const Hit& hit, float width) const {
     Vector3 facet = corners.normal();
     Look look = look_at(ray, hit, width);
     for (float& channel : look.light) channel *= corners.shade;
-    // Both sides are drawn. The visible one faces the viewer.
+    // Both sides are drawn, so the normal is turned towards the viewer.
     if (dot(facet, ray.direction) > 0) facet = -facet;
     const float side = dot(normal, facet) < 0 ? -1.0F : 1.0F;
     if (look.tilt != Vector3{}) normal = unit(normal + look.tilt);
@@ -101,7 +101,8 @@ Seen Tracer::surface(const Ray& ray, const Hit& hit, float width) const {
     const Colour soft = lights_.soft(normal);
     const Vector3 onwards = ray.direction - normal * (2 * facing);
     const Colour mirrored = lights_.mirrored(onwards, gloss);
-    // Tilted normals would mirror points below the surface, which hides them.
+    // If the normal is tilted, the mirrored direction may point below the surface. The surface then
+    // hides the light from there.
     const float above = std::clamp(1 + dot(onwards, facet), 0.0F, 1.0F);
     const float reflected = reflectance(-facing, gloss);
     const float metal = gloss.metalness, dull = 1 - metal;
@@ -122,7 +123,7 @@ Seen Tracer::surface(const Ray& ray, const Hit& hit, float width) const {
     return seen;
 }
 
-/// The background, darkened by the surface's shadow, which is grey even in coloured lights.
+/// The background, darkened by the shadow of the scene. The shadow is grey even in coloured light.
 Seen Tracer::ground(const Ray& ray) const {
     Seen seen;
     seen.always = background_;
@@ -132,7 +133,7 @@ Seen Tracer::ground(const Ray& ray) const {
     const float distance = (ground_ - dot(ray.origin, up)) / fall;
     if (distance <= 0) return seen;
     const Vector3 place = ray.origin + ray.direction * distance;
-    // Far from the surface there is no shadow to test.
+    // Far from the scene there is no shadow to test.
     if (length(place - box_.centre()) > 1.5F * size_) return seen;
     constexpr std::size_t green = 1;
     const float sun = lights_.sunlight[green] * std::max(0.0F, dot(up, lights_.sun));
@@ -162,7 +163,8 @@ bool Tracer::sees_sky(const Seen& from, DiscPoint disc) const {
     return !is_blocked({from.place, to_sky}, size_, disc.part);
 }
 
-/// Translucent surfaces block as many tests as the light that they absorb.
+/// A translucent surface blocks a fraction of the tests that equals the fraction of light that it
+/// absorbs.
 bool Tracer::is_blocked(const Ray& ray, float reach, float part) const {
     if (!options_.opacity) return caster_.is_blocked(ray, reach);
     float passing = 1, beyond = 0;

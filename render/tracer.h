@@ -1,7 +1,7 @@
 // The hit of a ray from the camera, and the light that reaches it.
 //
 // The sun is a disc instead of a point, for soft shadows. The sky is all other light. Hollows are
-// darker because less of it is visible from them.
+// darker because less of the sky is visible from them.
 #pragma once
 
 #include "render/camera.h"
@@ -14,32 +14,35 @@ namespace cascade {
 /// A point of the unit disc.
 struct DiscPoint {
     float x = 0, y = 0;
-    /// From 0 to below 1. A test passes through a surface if this is below the light that passes.
+    /// From 0 to below 1. A test passes through a surface if this is below the fraction of light
+    /// that passes.
     float part = 0;
 };
 
-/// The hit of a ray: its light is `always` plus the visible contributions of the sun and the sky.
+/// The surface that a ray hits first, and its light. This light is `always`, plus `sun` and `sky`
+/// as far as they are visible from the hit.
 struct Seen {
     enum class Kind : std::uint8_t { background, ground, surface };
-    Kind kind = Kind::background;  ///< The sun and the sky light the other two.
-    bool is_copy = false;          ///< A hit of a small mesh.
-    bool is_translucent = false;   ///< The ray continues through it.
+    /// The sun and the sky contribute to all kinds but `background`.
+    Kind kind = Kind::background;
+    bool is_copy = false;         ///< Whether the hit is on a copy.
+    bool is_translucent = false;  ///< Whether the ray continues through the surface.
     Colour always{0, 0, 0};
     Colour of_sun{0, 0, 0}, of_sky{0, 0, 0};
     Vector3 place, normal;
 };
 
-/// Its arguments must outlive it. Several threads may use it at once.
+/// Traces rays of a picture. The arguments must outlive it. Several threads may use it at once.
 class Tracer {
 public:
     Tracer(const RayCaster& caster, const SurfaceLook& look, const DrawOptions& options);
 
     /// Traces a ray through a point of the picture, in pixels from its upper left corner, to the
-    /// first surface that is not invisible. The ray samples a square of `width` pixels.
+    /// first surface that is not fully transparent. The ray samples a square of `width` pixels.
     Seen trace(float x, float y, float width) const;
 
-    /// Visits all points that the same ray sees, from front to back: use(seen, weight) with weights
-    /// that sum to 1.
+    /// Visits all hits of the same ray, from front to back: use(seen, weight), with weights that
+    /// sum to 1.
     template <typename Use>
     void trace_through(float x, float y, float width, const Use& use) const {
         const Ray ray = camera_.ray(x, y);
@@ -59,8 +62,9 @@ public:
     /// Whether a point of the sun's disc is visible.
     bool sees_sun(const Seen& from, DiscPoint disc) const;
 
-    /// Whether the sky is visible in the direction that projects to this point of the unit disc:
-    /// uniform points give cosine-weighted directions.
+    /// Whether the sky is visible from a hit in a direction. The direction is given by its
+    /// projection to a point of the unit disc, so that uniform points of the disc give
+    /// cosine-weighted directions.
     bool sees_sky(const Seen& from, DiscPoint disc) const;
 
     /// The width of a pixel at a point in space.
@@ -69,13 +73,15 @@ public:
     }
 
 private:
-    static constexpr float least_rest = 1.0F / 512;  ///< Less light from behind is ignored.
+    /// A ray is not continued behind a surface if it would contribute less than this fraction to
+    /// its light.
+    static constexpr float least_rest = 1.0F / 512;
 
     Seen surface(const Ray& ray, const Hit& hit, float width) const;
     Seen behind(const Ray& ray) const;
     Seen ground(const Ray& ray) const;
     float opacity_of(const Hit& hit) const;
-    /// A distance beyond a hit, so that it is not found again.
+    /// A distance slightly beyond a hit, so that the next search does not find it again.
     static float past(const Hit& hit) { return hit.distance * (1 + 1e-6F) + 1e-7F; }
     bool is_blocked(const Ray& ray, float reach, float part) const;
     Look look_at(const Ray& ray, const Hit& hit, float width) const;

@@ -16,7 +16,7 @@ namespace cascade {
 
 bool keeps_copy(const Schedule& schedule, std::size_t species, const Grid& grid,
                 Precision precision) {
-    // An error estimate makes it possible to take a step back without a kept copy.
+    // If the error of every step is estimated, a step can be undone without a stored copy.
     if (schedule.judges_all) return false;
     const auto bytes = PlaneLayout(grid).size() * static_cast<std::int64_t>(bytes_of(precision));
     return bytes * static_cast<std::int64_t>(species) <= schedule.most_kept_bytes;
@@ -68,7 +68,7 @@ public:
         if (begins && !outcome_.ended) lengths_.choose();
         bool going_on = true;
         stepper_.leave_on(control.cancel);
-        // A step that is abandoned leaves the state of the last complete one.
+        // If a step is abandoned, the values are those after the last complete step.
         complete([&] {
             while (going_on && is_to_go_on() && !control.cancel) going_on = batch(control, observe);
         });
@@ -88,14 +88,21 @@ public:
 private:
     bool is_to_go_on() const { return !outcome_.ended && clock_.step < schedule_.last_step; }
 
-    /// Takes some steps and does everything that is due after them; false ends the loop.
+    /// Takes some steps and does everything that is due after them. Returns false to end the loop.
     bool batch(RunControl& control, const Observer& observe) {
         const std::int64_t next = clock_.next_check();
         const std::int64_t stop = std::min(next, schedule_.last_step);
-        const std::int64_t count = tuner_.begin_batch(stop - clock_.step);
-        const bool is_kept = schedule_.keep_is_due && schedule_.keep_is_due();
-        const bool at_stop = clock_.step + count == stop;
-        const bool look = is_kept || (at_stop && (stop == next || !may_check_later_));
+        LoopDecision decision;
+        decision.steps = tuner_.begin_batch(stop - clock_.step);
+        decision.is_kept = schedule_.keep_is_due && schedule_.keep_is_due();
+        const bool at_stop = clock_.step + decision.steps == stop;
+        decision.is_looked_at =
+            decision.is_kept || (at_stop && (stop == next || !may_check_later_));
+        if (SharedSteps* const shared = stepper_.executor().shared_steps()) {
+            decision = shared->agree(decision);
+            if (control.cancel) return true;
+        }
+        const auto [count, look, is_kept] = decision;
         const bool good = clock_.judges_next() ? take_judged_step() : take_steps(count, look);
         const BatchTuner::Clock::time_point now = BatchTuner::Clock::now();
         tuner_.end_batch(count, now);
@@ -104,12 +111,14 @@ private:
         if (look && !do_what_is_due(observe)) return false;
         if (is_kept && !outcome_.ended) {
             const SpeciesLoan loan(stepper_, species_);
-            schedule_.keep(clock_.step, clock_.now(), lengths_.time());
+            if (schedule_.keep_is_due) {
+                schedule_.keep(clock_.step, clock_.now(), lengths_.time());
+            }
         }
         return true;
     }
 
-    /// The error of a step is not finite if one of its values is not.
+    /// The estimate finds spoiled values, because the error is not finite if a value is not.
     bool take_judged_step() {
         if (!tuner_.take_judged_step([this] { return lengths_.take_judged_step(outcome_); })) {
             return false;
@@ -118,7 +127,7 @@ private:
         return true;
     }
 
-    /// Steps of one length.
+    /// Takes steps of one length. If `look` is true, checks their values.
     bool take_steps(std::int64_t count, bool look) {
         if (!tuner_.take_steps(lengths_.plain(), count, look)) {
             find_spoiled_step();
@@ -129,7 +138,7 @@ private:
         return true;
     }
 
-    /// Looks at the steps that no look has followed.
+    /// Checks the values of the steps since the last check.
     void check() {
         if (stepper_.is_finite()) {
             found_finite();
@@ -148,8 +157,8 @@ private:
         clock_.step = replay(stepper_, clock_.last_look, clock_.step, outcome_);
     }
 
-    /// Does everything that is due at a check besides finding values that are not finite; false
-    /// ends the loop.
+    /// Does everything else that is due when values have been found finite. Returns false to end
+    /// the loop.
     bool do_what_is_due(const Observer& observe) {
         const std::int64_t step = clock_.step;
         const double t = clock_.now();
@@ -189,10 +198,12 @@ private:
     BatchTuner tuner_;
     Progress progress_;
     std::int64_t steps_of_stage_;
-    bool is_known_to_be_finite_ = false;  ///< The state in which the first call begins.
-    bool is_checked_ = true;        ///< Are all values of the present step known to be finite?
-    bool may_check_later_ = false;  ///< After the last step of the present call.
-    StageOutcome outcome_;          ///< The outcome of that call.
+    /// Whether the values before the first call are known to be finite.
+    bool is_known_to_be_finite_ = false;
+    bool is_checked_ = true;  ///< Whether all values of the present step are known to be finite.
+    /// Whether a later call may check the last step of the present call.
+    bool may_check_later_ = false;
+    StageOutcome outcome_;  ///< The outcome of the present call.
 };
 
 TimeLoop::TimeLoop(const StepProblem& problem, Schedule schedule, std::vector<Field>& species,

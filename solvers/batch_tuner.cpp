@@ -1,4 +1,4 @@
-// Measures batches, from which the tuners of threads and of tiles choose.
+// Times batches. From these times the tuners choose threads and tiles.
 #include "solvers/batch_tuner.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ std::int64_t BatchTuner::begin_batch(std::int64_t most) {
         const std::int64_t sweeps = sweeps_of_step();
         steps = std::min(steps, (tile_tuner_.sweeps_of_trial() + sweeps - 1) / sweeps);
     }
-    // Measurements of interpreted steps, or of a mixture of both kinds, are useless for tuning.
+    // Measurements are useless for tuning if steps are interpreted, wholly or in part.
     is_good_measure_ = !stepper_.problem().is_provisional() && !tile_tuner_.is_trying();
     began_ = Clock::now();
     return steps;
@@ -43,7 +43,8 @@ bool BatchTuner::take_steps(const StepProblem& problem, std::int64_t count, bool
         renew_tile_tuner();
     }
     const bool is_native = !problem.is_provisional();
-    // Trials time steps without the checks, and only while the number of threads is fixed.
+    // Trials of tilings measure steps without checks, and only while the number of threads is
+    // fixed.
     const bool is_trial = tile_tuner_.is_trying();
     stepper_.set_clock(clock_.time.clock);
     const Clock::time_point before = Clock::now();
@@ -58,7 +59,7 @@ bool BatchTuner::take_steps(const StepProblem& problem, std::int64_t count, bool
 }
 
 bool BatchTuner::take_judged_step(const std::function<bool()>& take) {
-    // If only a few steps are judged, the others are measured.
+    // If the errors of only some steps are estimated, the other steps are measured.
     if (!schedule_.judges_all) return take();
     const StepProblem& problem = stepper_.problem();
     const bool is_native = !problem.is_provisional();
@@ -71,8 +72,8 @@ bool BatchTuner::take_judged_step(const std::function<bool()>& take) {
     return true;
 }
 
-/// Begins again if the passes have other candidates. Otherwise measurements of tilings stay valid.
-/// Returns whether it began again.
+/// Restarts the tile tuner if the passes have other candidates than before. Otherwise its
+/// measurements remain valid. Returns whether it was restarted.
 bool BatchTuner::renew_tile_tuner() {
     auto tilings = tilings_to_try();
     if (tilings == tile_tuner_.candidates()) return false;
@@ -98,7 +99,7 @@ std::int64_t BatchTuner::sweeps_of_step() const {
     return static_cast<std::int64_t>(stepper_.problem().passes.size());
 }
 
-/// Steps that share one pass through memory, at least 1.
+/// The number of steps taken in one pass through memory, at least 1.
 std::int64_t BatchTuner::steps_at_once() const {
     const std::int64_t sweeps = sweeps_of_step();
     return (stepper_.executor().levels() + sweeps - 1) / sweeps;

@@ -1,5 +1,5 @@
-// Decides the number of steps in a batch, the number of threads and the tiling. All of them affect
-// speed only, never results.
+// Decides the number of steps in a batch, the number of threads and the tiling. These choices
+// affect speed only, never results.
 #pragma once
 
 #include "solvers/loop_clock.h"
@@ -19,24 +19,27 @@ class BatchTuner {
 public:
     using Clock = std::chrono::steady_clock;
 
-    /// Steps `stepper` and sets its threads and tiling. All arguments must outlive this.
+    /// Takes steps with `stepper`, and sets its threads and tiling. All arguments must outlive the
+    /// tuner.
     BatchTuner(const Schedule& schedule, LoopClock& clock, Stepper& stepper);
 
-    /// Must be called when the loop resumes after a pause.
+    /// Must be called when the time loop continues after a pause, so that the pause is not
+    /// measured.
     void go_on();
-    /// The number of steps in the next batch, at most `most`. Sets threads and tiles for it.
+    /// Returns the number of steps in the next batch, at most `most`. Sets the stepper's threads
+    /// and tiling for this batch.
     std::int64_t begin_batch(std::int64_t most);
     /// Records the end of a batch.
     void end_batch(std::int64_t count, Clock::time_point now);
-    /// Takes `count` steps of equal length with the passes of `problem`. Returns whether all values
-    /// are finite, or true if `look` is false.
+    /// Takes `count` steps of equal length with the passes of `problem`. If `look` is true, returns
+    /// whether all values are finite, otherwise returns true.
     bool take_steps(const StepProblem& problem, std::int64_t count, bool look);
-    /// Takes one step with an estimated error by calling `take`, and returns its result.
+    /// Takes one step whose error is estimated, by calling `take`, and returns its result.
     bool take_judged_step(const std::function<bool()>& take);
 
     int threads() const { return thread_tuner_.threads(); }
     Pace& pace() { return pace_; }
-    /// How the last steps went through memory.
+    /// How the last steps passed through memory; see Stepping.
     Stepping stepping() const;
 
 private:
@@ -55,8 +58,8 @@ private:
     Pace pace_;
     ThreadTuner thread_tuner_;
     TileTuner tile_tuner_;
-    Clock::time_point began_;       ///< The start of the present batch.
-    bool is_good_measure_ = false;  ///< The present batch measures the speed of threads.
+    Clock::time_point began_;       ///< When the present batch began.
+    bool is_good_measure_ = false;  ///< Whether the present batch measures the speed of threads.
     Seconds spent_{};               ///< The time in batches so far.
 };
 

@@ -1,5 +1,5 @@
 // BiCGSTAB (H. van der Vorst, "Bi-CGSTAB: a fast and smoothly converging variant of Bi-CG", 1992)
-// for planes that threads share: all of them take the same decisions, since each knows the same
+// for planes that threads share. All threads take the same decisions, because all compute the same
 // products.
 #pragma once
 
@@ -11,17 +11,17 @@
 
 namespace cascade {
 
-/// The planes of a solution x of L x = b. Rows belong to the threads that compute them.
+/// The planes for a solution x of L x = b. Each row belongs to the thread that computes it.
 struct BicgstabPlanes {
     Field& solution;
-    Field& residual;  ///< b − L x, at the beginning and at the end.
+    Field& residual;  ///< The residual b − L x, before the first iteration and after the last.
     Field &shadow, &direction, &image, &other_image;
-    const Field& preconditioned;  ///< Where a system writes what precondition() gives.
+    const Field& preconditioned;  ///< The plane to which `System::precondition` writes its result.
 };
 
 struct BicgstabOutcome {
     int iterations = 0;
-    double rest = 0;  ///< The norm of the residual, as a part of what it was.
+    double rest = 0;  ///< The norm of the residual, as a fraction of its initial norm.
 };
 
 /// `System` has these members, which all threads call:
@@ -40,13 +40,15 @@ public:
           r_(planes.residual.origin<Number>()),
           y_(planes.preconditioned.origin<Number>()) {}
 
-    /// Adds to the solution until the norm of the residual is this part of what it was, or after
-    /// `most` iterations. Where the residual is not finite, the solution becomes NaN.
+    /// Improves the solution until the norm of the residual is at most `tolerance` times its
+    /// initial norm, or for `most` iterations. If the residual is not finite, the solution becomes
+    /// NaN.
     BicgstabOutcome run(double tolerance, int most);
 
 private:
-    /// Iterations begin again from a residual that is this close to a right angle to their shadow
-    /// residual: the next directions would be rounding errors.
+    /// The least cosine of the angle between the residual and its shadow residual. Below this, the
+    /// next directions would be rounding errors, so iterations begin again from the present
+    /// residual.
     static constexpr double least_overlap = sizeof(Number) == sizeof(float) ? 1e-7 : 1e-15;
 
     void begin_again();
@@ -54,7 +56,7 @@ private:
     bool go_along_direction();
     bool damp_rest();
     void measure_rest() { left_ = std::sqrt(system_.dot(planes_.residual, planes_.residual)); }
-    /// Adds a multiple of the preconditioned plane, whose L is `image`.
+    /// Adds a multiple of the preconditioned plane to the solution. `image` is L of that plane.
     void add(double times, const Field& image) {
         const auto factor = static_cast<Number>(times);
         const Number* const of_image = image.origin<Number>();
@@ -70,14 +72,14 @@ private:
     Number *const x_, *const r_;
     const Number* const y_;
     double rho_ = 1, alpha_ = 1, omega_ = 1;
-    double left_ = 0, size_of_shadow_ = 0;  ///< Norms of the residual and of its shadow.
+    double left_ = 0, size_of_shadow_ = 0;  ///< Norms of the residual and of the shadow residual.
 };
 
 template <typename Number, typename System>
 BicgstabOutcome Bicgstab<Number, System>::run(double tolerance, int most) {
     measure_rest();
     const double whole = left_;
-    if (!std::isfinite(whole)) {  // Nothing hides what is not finite.
+    if (!std::isfinite(whole)) {  // Makes the solution NaN, so that the failure is visible.
         system_.each_cell(
             [&](std::int64_t i) { x_[i] = std::numeric_limits<Number>::quiet_NaN(); });
         return {};

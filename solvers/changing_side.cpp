@@ -25,7 +25,7 @@ std::vector<Number> strip_of(const Field* field, Side side, SideCells cells, std
     return strip;
 }
 
-/// A buffer for values in some cells beside a side. Its padding is undefined.
+/// Computes the side's values beside some of its cells. The padding of the buffer is undefined.
 template <typename Number>
 std::vector<Number> compute(const ChangingSide& side, SideMoment moment,
                             const SpeciesPlanes& present, SideCells cells) {

@@ -1,10 +1,11 @@
 // Sides whose values change: with time, as in u.left: fixed(sin(t)), or with the species in the
 // cells beside them, as in u.left: slope(w - u).
 //
-// The thread that fills a halo first computes the side's values for the moment at which the halo
-// will be read. The cells beside a side are numbered along it, so that a small kernel computes only
-// the values that a few rows need. Species are read where the pass that computed the plane has just
-// written them, so a halo never waits for another thread.
+// The values at a side determine the halo beyond it. So before a thread fills a halo, it computes
+// the side's values for the moment at which the halo will be read. The cells beside a side are
+// numbered along it, so that a small kernel computes only the values that a few rows need. The
+// thread reads species in the cells that the current pass has just written, so it never waits for
+// another thread.
 #pragma once
 
 #include "core/parallel.h"
@@ -23,28 +24,34 @@ namespace cascade {
 
 /// The moment for which side values are computed.
 struct SideMoment {
-    std::int64_t step = 0;  ///< Complete steps.
+    std::int64_t step = 0;  ///< Number of complete steps.
     double t = 0;           ///< The stage's time.
 };
 
 struct ChangingSide {
     SpeciesId species;
     Side side = Side::left;
-    KernelPointer kernel;                         ///< One result; reads no neighbours or positions.
-    Precision precision = Precision::single;      ///< Precision of the kernel.
-    std::vector<std::vector<double>> strips;      ///< Per field slot: values along the side …
-    std::vector<std::optional<SpeciesId>> reads;  ///< … or the species whose values are read.
+    KernelPointer kernel;  ///< Computes the side's values. The kernel has one result and reads no
+                           ///< neighbours or positions.
+    Precision precision = Precision::single;  ///< The precision of the kernel.
+    /// Per field slot of the kernel: the values along the side if they are constant. Empty for a
+    /// slot that reads a species.
+    std::vector<std::vector<double>> strips;
+    /// Per field slot of the kernel: the species that it reads; nullopt if the slot has constant
+    /// values.
+    std::vector<std::optional<SpeciesId>> reads;
     std::vector<double> uniforms;
-    std::optional<std::uint32_t> time_slot, step_slot;  ///< Uniforms set by a moment.
-    bool varies = false;                                ///< Values vary along the side.
+    std::optional<std::uint32_t> time_slot, step_slot;  ///< The uniforms that depend on the moment.
+    bool varies = false;                                ///< Whether values vary along the side.
 };
 
 /// The planes of all species at one moment; null if no side reads the species.
 using SpeciesPlanes = std::vector<const Field*>;
 SpeciesPlanes planes_of(std::span<const Field> species);
 
-/// Sets the rules of a species for a moment, in the halo filled from these rows. `present` has the
-/// values at that moment in these rows. Must run inside a FlushDenormals.
+/// Computes the values at a species' sides for `moment` and stores them in `rules`, as far as the
+/// halo cells that depend on `cells` need them. `present` holds all species at that moment in these
+/// cells. Must run inside a FlushDenormals.
 void set_side_values(std::span<const ChangingSide> sides, SpeciesId species, SideMoment moment,
                      const SpeciesPlanes& present, const PlaneLayout& layout, const Patch& cells,
                      SideRules& rules);

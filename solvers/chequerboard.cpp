@@ -19,7 +19,7 @@ constexpr std::int64_t many_cells = std::int64_t{1} << 14, most_cells = std::int
 /// The limits of correlation, for neighbours on a grid and for linked cells.
 constexpr double grid_limit = 0.5, link_limit = 0.3;
 
-/// The correlation of pairs of deviations, and whether it shows that they alternate.
+/// Correlates the deviations of neighbouring cells, and decides whether neighbours alternate.
 class Pairs {
 public:
     void add(double a, double b) {
@@ -39,7 +39,7 @@ private:
     std::int64_t count_ = 0;
 };
 
-/// Part of an axis: cells [begin, end).
+/// A part of an axis: cells [begin, end).
 struct Stretch {
     std::int64_t begin = 0, end = 0;
 };
@@ -108,7 +108,7 @@ private:
     }
     double part() const { return cells_ > 0 ? alternating_ / cells_ : 0; }
 
-    /// Calls `visit(i, row)` for the cells of a block that count.
+    /// Calls `visit(i, row)` for the cells of a block that are inside the mask.
     template <typename Visit>
     void for_each_cell(const Block& block, Visit visit) const {
         for (std::int64_t k = block.k.begin; k < block.k.end; ++k) {
@@ -123,8 +123,8 @@ private:
 
     struct Level {
         double cells = 0, mean = 0;
-        bool is_even = true;  ///< Deviations that are rounding, or small compared to the field's,
-                              ///< are no pattern.
+        /// Whether deviations are only rounding, or small compared to the field's.
+        bool is_uniform = true;
     };
     Level level_of(const Block& block) const {
         Level level;
@@ -140,14 +140,14 @@ private:
         });
         const double variance = level.cells > 0 ? squares / level.cells : 0;
         const double rounding = 1e-6 * level.mean;
-        level.is_even = !(variance >= least_variance_ && variance > rounding * rounding);
+        level.is_uniform = !(variance >= least_variance_ && variance > rounding * rounding);
         return level;
     }
 
     void look_at(const Block& block) {
         const Level level = level_of(block);
         cells_ += level.cells;
-        if (level.is_even) return;
+        if (level.is_uniform) return;
         if (alternates(block, level.mean, {1, 0, 0}) || alternates(block, level.mean, {0, 1, 0}) ||
             alternates(block, level.mean, {0, 0, 1})) {
             alternating_ += level.cells;
@@ -172,7 +172,7 @@ private:
     void look_at(const LinkTable<Number>& table, Stretch columns, std::int64_t row) {
         const Level level = level_of({columns, {row, row + 1}, {0, 1}});
         cells_ += level.cells;
-        if (level.is_even) return;
+        if (level.is_uniform) return;
         constexpr std::int64_t lanes = LinkTable<Number>::slice_cells;
         const std::int64_t slices_of_row = (layout_.width + lanes - 1) / lanes;
         Pairs pairs;
@@ -182,7 +182,7 @@ private:
             for (std::uint32_t entry = table.starts[slice]; entry < table.starts[slice + 1];
                  ++entry) {
                 const std::int64_t link = entry * lanes + i % lanes;
-                if (table.weights[link] == 0) continue;  // Padding of the slice.
+                if (table.weights[link] == 0) continue;  // This is padding of the slice.
                 pairs.add(plane_.row(row)[i] - level.mean,
                           plane_.origin()[table.target(link)] - level.mean);
             }

@@ -1,4 +1,4 @@
-// All threads take the same decisions, since each sums the same sums of rows.
+// All threads take the same decisions, because all add the same sums of rows.
 #include "solvers/constraint_solver.h"
 
 #include "ir/reduction.h"
@@ -13,15 +13,15 @@
 namespace cascade {
 namespace {
 
-/// On grids and on linked cells.
+/// Limits for grids and for linked cells.
 constexpr int most_iterations_on_grids = 200, most_iterations_on_links = 2000;
-/// The Laplacian is no help as a preconditioner if its part of L is smaller than this fraction of
-/// the rest, measured on a field that alternates from cell to cell.
+/// The Laplacian is not used as a preconditioner if the Laplacian's part of L is smaller than this
+/// fraction of the rest of L. Both are measured on a field that alternates from cell to cell.
 constexpr double least_laplacian = 1e-3;
-/// The number that is subtracted from the Laplacian has this many binary digits, so that its
-/// factors can be kept while it changes a little.
+/// The number that is subtracted from the Laplacian is rounded to this many binary digits, so that
+/// the Laplacian's factors can be reused when the number changes a little.
 constexpr int digits_of_shift = 5;
-/// The solver stops when the norm of e is this part of the norm of b.
+/// The solver stops when the norm of e is this fraction of the norm of b.
 template <typename Number>
 constexpr double tolerance = sizeof(Number) == sizeof(float) ? 1e-5 : 1e-12;
 
@@ -53,7 +53,7 @@ void ConstraintSolver<Number>::each_row(const Worker& worker, const Act& act) co
     }
 }
 
-/// By the cell's distance from cell (0, 0, 0).
+/// Calls `act` with each cell's distance in elements from cell (0, 0, 0).
 template <typename Number>
 template <typename Act>
 void ConstraintSolver<Number>::each_cell(const Worker& worker, const Act& act) const {
@@ -84,7 +84,7 @@ ConstraintSolver<Number>::ConstraintSolver(const StepProblem::Solve& solve,
     stencil_.emplace(outer.grid, problem_.sides, areas_of_cells());
 }
 
-/// Runs a plan and takes its results.
+/// Runs the passes of a problem and copies its results to `results`.
 template <typename Number>
 void ConstraintSolver<Number>::apply(Worker& worker, PassRunner& runner,
                                      PassRunner::Worker& of_runner, std::vector<Field*> results) {
@@ -100,7 +100,7 @@ void ConstraintSolver<Number>::apply(Worker& worker, PassRunner& runner,
     }
 }
 
-/// The sides of the field at the moment of the step at which it is found.
+/// The rules at the field's sides, with values for the moment at which the field is found.
 template <typename Number>
 SideRules ConstraintSolver<Number>::sides_at(const Worker& worker) const {
     if (!problem_.rules || outer_.changing_sides.empty()) return problem_.sides;
@@ -110,7 +110,8 @@ SideRules ConstraintSolver<Number>::sides_at(const Worker& worker) const {
     return outer_.sides_of(*problem_.rules, moment, present, {{0, layout_.row_count()}});
 }
 
-/// The sides of the field itself, or those of a change of it: 0 in place of their values.
+/// Fills the halo by the rules at the field's sides. With `is_linear`, the plane is a change of the
+/// field, so values at sides are 0.
 template <typename Number>
 void ConstraintSolver<Number>::fill_halo_of_unknown(Worker& worker, bool is_linear) {
     worker.team.barrier();
@@ -127,14 +128,14 @@ void ConstraintSolver<Number>::fill_halo_of_unknown(Worker& worker, bool is_line
     worker.team.barrier();
 }
 
-/// L of the plane `unknown`, whose rows have been written.
+/// Writes L of the plane `unknown`, whose rows have been written, to `result`.
 template <typename Number>
 void ConstraintSolver<Number>::apply_linear(Worker& worker, Field& result) {
     fill_halo_of_unknown(worker, true);
     apply(worker, linear_, worker.linear, {&result});
     const Number* const areas = areas_of_cells();
     if (areas == nullptr || !outer_.grid.linked) return;
-    // Padding has the links of the last cell, but counts nowhere.
+    // Padding cells have the links of the last cell, but must not count in sums.
     Number* const cells = result.template origin<Number>();
     each_cell(worker, [&](std::int64_t i) {
         if (areas[i] == 0) cells[i] = 0;
@@ -197,7 +198,8 @@ double ConstraintSolver<Number>::subtract_mean(Worker& worker, Field& from) {
     return mean;
 }
 
-/// Writes L of a plane, given by its columns, into `image_`.
+/// Sets column i of every row of the plane `unknown` to `value(i)`, and writes L of this plane to
+/// `image_`. Cells with area 0 are set to 0.
 template <typename Number>
 template <typename Value>
 void ConstraintSolver<Number>::respond(Worker& worker, const Value& value) {
@@ -212,8 +214,8 @@ void ConstraintSolver<Number>::respond(Worker& worker, const Value& value) {
     apply_linear(worker, image_);
 }
 
-/// Finds the preconditioner of linked cells, and whether L of a constant is 0, which is computed
-/// exactly for operators of derivatives.
+/// Finds the preconditioner of linked cells, and whether L of a constant is 0. For operators of
+/// derivatives, L of a constant is computed exactly.
 template <typename Number>
 bool ConstraintSolver<Number>::probe(Worker& worker) {
     respond(worker, [](std::int64_t) { return Number{1}; });
@@ -243,8 +245,8 @@ void ConstraintSolver<Number>::find_stencil(Worker& worker) {
     worker.team.barrier();
 }
 
-/// Finds a and s for which a (Δ − s) is like L, from the factor by which L multiplies a constant
-/// and from its response to waves, which is in `image_`.
+/// Finds a and s for which a (Δ − s) approximates L, from the factor `constant` by which L
+/// multiplies a constant and from L of a wave, which is in `image_`.
 template <typename Number>
 void ConstraintSolver<Number>::find_shift(Worker& worker, double constant) {
     const Number* const unknown = problem_.unknown->template origin<Number>();
@@ -269,7 +271,8 @@ void ConstraintSolver<Number>::find_shift(Worker& worker, double constant) {
     worker.team.barrier();
 }
 
-/// Writes the preconditioner's inverse of `from` into the plane `unknown`.
+/// Applies the inverse of the preconditioner to `from` and writes the result into the plane
+/// `unknown`.
 template <typename Number>
 void ConstraintSolver<Number>::precondition(Worker& worker, const Field& from) {
     Number* const to = problem_.unknown->template origin<Number>();
@@ -293,7 +296,7 @@ void ConstraintSolver<Number>::precondition(Worker& worker, const Field& from) {
     });
 }
 
-/// L as the iteration sees it.
+/// The operator L for Bicgstab.
 template <typename Number>
 struct ConstraintSolver<Number>::System {
     ConstraintSolver& solver;
@@ -306,7 +309,7 @@ struct ConstraintSolver<Number>::System {
     void leave_if_cancelled() { worker.moment.leave_if_cancelled(); }
 };
 
-/// Adds to the solution until what remains, `residual_`, is small.
+/// Improves the solution until `residual_` is small.
 template <typename Number>
 void ConstraintSolver<Number>::iterate(Worker& worker, Field& solution) {
     System system{*this, worker};
@@ -322,7 +325,7 @@ void ConstraintSolver<Number>::iterate(Worker& worker, Field& solution) {
                                                       : std::numeric_limits<double>::infinity();
 }
 
-/// Gives the cells that complete the last row of linked cells the value of the last cell.
+/// Copies the last cell's value to the padding cells of the last row of linked cells.
 template <typename Number>
 void ConstraintSolver<Number>::pad(Number* cells) const {
     const std::int64_t last = outer_.counted_cells() - 1;
@@ -353,7 +356,7 @@ void ConstraintSolver<Number>::solve(Team& team, int thread, int threads, Regist
     if (stencil_) find_stencil(worker);
     worker.knows_factors = stencil_ && stencil_->has_factors();
     const bool is_singular = probe(worker);
-    // b is what e is without the field.
+    // b is the value of e when the field is 0.
     Number* const unknown = problem_.unknown->template origin<Number>();
     Number* const x = target.origin<Number>();
     each_row(worker, [&](std::int64_t start) {
@@ -367,7 +370,7 @@ void ConstraintSolver<Number>::solve(Team& team, int thread, int threads, Regist
     each_cell(worker, [&](std::int64_t i) {
         r[i] = areas == nullptr || areas[i] != 0 ? -r[i] : Number{0};
     });
-    // If L of a constant is 0, L u has the mean 0.
+    // If L of a constant is 0, L u has mean 0.
     if (is_singular) {
         const double size = std::sqrt(dot(worker, residual_, residual_) /
                                       static_cast<double>(outer_.counted_cells()));

@@ -1,11 +1,11 @@
 // Finds the field u for which e = L u + b is 0, where L is a linear operator that kernels apply.
 //
 // BiCGSTAB (solvers/bicgstab.h) is preconditioned by the inverse of an operator that is the same in
-// all cells. On grids the operator has a stencil, the mean of the responses of L to single cells,
-// and fast Fourier transforms apply its inverse. On linked cells it is a (Δ − s), with a and s from
-// the responses of L to a constant and to cells of both signs, and its factors are known. So if L
-// is the same everywhere, the first iteration finds the solution up to rounding. A mask, sides or
-// coefficients that vary take a few more.
+// all cells. On grids, this operator is a stencil: the mean of the responses of L to single cells.
+// Fast Fourier transforms apply its inverse. On linked cells, the operator is a (Δ − s), with a and
+// s from the responses of L to a constant and to an alternating field. A factorisation applies its
+// inverse. So if L is the same everywhere, the first iteration finds the solution up to rounding.
+// If the domain has a mask, or if sides or coefficients vary, a few more iterations are needed.
 #pragma once
 
 #include "core/parallel.h"
@@ -25,12 +25,13 @@ namespace cascade {
 template <typename Number>
 class ConstraintSolver {
 public:
-    /// Both must outlive the solver. Throws std::bad_alloc.
+    /// `solve` and `outer` must outlive the solver. Throws std::bad_alloc.
     ConstraintSolver(const StepProblem::Solve& solve, const StepProblem& outer);
 
     /// Writes the field into `target`, including its halo. The first `threads` threads of the team
     /// call this, each with its number and otherwise the same arguments. Begins and ends with a
-    /// barrier of the team. Bits depend neither on `threads` nor on earlier solutions.
+    /// barrier of the team. The result is the same bit for bit with any number of threads and after
+    /// any earlier solutions.
     void solve(Team& team, int thread, int threads, Registers registers, const StepMoment& moment,
                Field& target);
 
@@ -54,7 +55,7 @@ private:
     void iterate(Worker& worker, Field& solution);
     void pad(Number* cells) const;
 
-    /// Null if all cells are alike.
+    /// The areas of the cells; null if all cells have the same area.
     const Number* areas_of_cells() const {
         return problem_.areas ? problem_.areas->template origin<Number>() : nullptr;
     }
@@ -69,12 +70,13 @@ private:
     PassRunner whole_, linear_;
     std::optional<PassRunner> parts_;
     Field residual_, shadow_, direction_, image_, other_image_;
-    // Sums of the rows of successive products, which threads share between barriers.
+    // The number of arrays for sums of rows. All threads read an array until the next barrier, so
+    // successive products use the arrays in turn.
     static constexpr std::size_t sums_in_use = 4;
     std::vector<double> row_sums_[sums_in_use];
-    std::optional<StencilInverse<Number>> stencil_;  ///< The preconditioner of grids
-    std::unique_ptr<LinkedLaplacian> laplacian_;     ///< and of linked cells.
-    double factor_ = 0;  ///< Factor of the Laplacian; 0 if it does not precondition.
+    std::optional<StencilInverse<Number>> stencil_;  ///< The preconditioner on grids.
+    std::unique_ptr<LinkedLaplacian> laplacian_;     ///< The preconditioner on linked cells.
+    double factor_ = 0;  ///< The factor of the Laplacian; 0 if it is not used as a preconditioner.
 };
 
 extern template class ConstraintSolver<float>;

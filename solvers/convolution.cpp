@@ -1,7 +1,7 @@
 // Transforms turn rows of real numbers into rows of complex waves. Columns along y and z are then
 // transformed in place, sixteen elements at a time, for any number of threads. On the last axis,
-// waves are multiplied by the weights' waves. The same transforms, inverted, lead back. Along an
-// axis whose sides are not periodic, zeros after the cells separate the two ends.
+// waves are multiplied by the waves of the weights. The inverse transforms lead back. Along an axis
+// whose sides are not periodic, zeros after the cells separate the two ends.
 #include "solvers/convolution.h"
 
 #include "solvers/fftw_transform.h"
@@ -48,7 +48,8 @@ std::int64_t wrapped(std::int64_t n, std::int64_t period) {
     return rest < 0 ? rest + period : rest;
 }
 
-/// The next number without prime factors above 7, for which transforms are fast.
+/// The least number, from `least` on, without prime factors above 7. Transforms of such sizes are
+/// fast.
 std::int64_t fast_size(std::int64_t least) {
     for (std::int64_t size = least;; ++size) {
         std::int64_t rest = size;
@@ -118,7 +119,7 @@ struct ConvolutionRunner<Number>::Implementation {
         add_range(width - shift, width, shift - width);
     }
 
-    /// The number of a row or slice at a lag; nullopt beyond a side.
+    /// The number of a row or slice at this lag; nullopt if it is beyond a side.
     std::optional<std::int64_t> place(std::size_t axis, std::int64_t at) const {
         const Extent& extent = axes[axis];
         if (extent.is_periodic) return wrapped(at, extent.cells);
@@ -159,7 +160,8 @@ struct ConvolutionRunner<Number>::Implementation {
         buffer = make_buffer();
         kernel = make_buffer();
         make_transforms();
-        // The sum over lags at +l is the product with the waves of a kernel at −l.
+        // A sum over lags +l is a convolution with the kernel mirrored to lags −l, so it multiplies
+        // waves by those of the mirrored kernel.
         const double scale = 1.0 / static_cast<double>(size[0] * size[1] * size[2]);
         for (std::size_t k = 0; k < weighted.lags.size(); ++k) {
             const Lag& lag = weighted.lags[k];
@@ -209,7 +211,7 @@ struct ConvolutionRunner<Number>::Implementation {
     }
     /// The distance from one wave to the next along an axis, in waves.
     std::int64_t step(std::size_t axis) const { return axis == 1 ? stride : stride * size[1]; }
-    /// Blocks of columns along an axis.
+    /// The number of blocks of columns along an axis.
     std::int64_t pieces(std::size_t axis) const {
         if (size[axis] == 1) return 0;
         return blocks * (axis == 1 ? size[2] : size[1]);
@@ -291,7 +293,7 @@ struct ConvolutionRunner<Number>::Implementation {
     WeightedLags direct;
     bool is_direct = false;
     std::array<std::int64_t, 3> size{1, 1, 1};  ///< Size of the transforms.
-    std::int64_t blocks = 0;                    ///< Blocks of columns in a row of waves.
+    std::int64_t blocks = 0;                    ///< Number of blocks of columns in a row of waves.
     std::int64_t stride = 0;                    ///< Distance between rows, in waves.
     Buffer buffer, kernel;
     Transform there, back;
@@ -309,7 +311,7 @@ ConvolutionRunner<Number>::~ConvolutionRunner() = default;
 template <typename Number>
 void ConvolutionRunner<Number>::apply(Team& team, int thread, int threads, const Number* from,
                                       Number* to) {
-    team.barrier();  // All rows are written, and no thread reads the target any more.
+    team.barrier();  // All threads have written their rows, and none reads the target any more.
     if (self_->is_direct) {
         const RowRange own = split_rows(self_->layout.row_count(), thread, threads);
         for (std::int64_t row = own.begin; row < own.end; ++row) self_->sum_row(row, from, to);

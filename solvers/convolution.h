@@ -13,7 +13,7 @@
 
 namespace cascade {
 
-/// The offset from one cell to another, in cells along each axis.
+/// The offset from one cell to another: numbers of cells along each axis.
 struct Lag {
     std::int64_t x = 0, y = 0, z = 0;
     friend bool operator==(const Lag&, const Lag&) = default;
@@ -22,23 +22,25 @@ struct Lag {
 /// The largest number of lags that a convolution may have.
 inline constexpr std::int64_t most_lags = std::int64_t{1} << 24;
 
-/// The number of lags in the bounding box of lags_within(), or a number above most_lags.
+/// The number of lags in the bounding box of lags_within(), or a number above most_lags if there
+/// are more.
 std::int64_t lags_in_box(const Grid& grid, std::optional<double> reach);
 
 /// The lags up to a distance `reach` in the unit of Grid::spacing, in order of z, y and x. Along an
-/// axis whose sides are not periodic, they are limited to the extent of the grid. Along a periodic
-/// axis, they wrap around as often as the reach requires. Without a reach, each cell of a periodic
-/// axis has one lag, the shortest (of two equal ones the positive). nullopt if above most_lags.
+/// axis whose sides are not periodic, lags are limited to the extent of the grid. Along a periodic
+/// axis, they wrap around as often as the reach requires. Without a reach, a periodic axis has one
+/// lag for each of its cells: the shortest lag that leads there, and the positive lag if two are
+/// equally short. nullopt if there would be more than most_lags.
 std::optional<std::vector<Lag>> lags_within(const Grid& grid, std::optional<double> reach);
 
-/// The sum of the products of `weights` and the values at `lags`.
+/// A weighted sum over the cells at `lags`.
 struct WeightedLags {
     std::vector<Lag> lags;
     std::vector<double> weights;  ///< One for each lag.
     friend bool operator==(const WeightedLags&, const WeightedLags&) = default;
 };
 
-/// Up to this number of lags, sums are computed directly. Transforms are faster for more.
+/// Up to this number of lags, sums are computed directly. For more lags, transforms are faster.
 inline constexpr std::size_t most_direct_lags = 32;
 
 template <typename Number>
@@ -50,10 +52,11 @@ public:
     ~ConvolutionRunner();
     ConvolutionRunner(ConvolutionRunner&&) noexcept;
 
-    /// Writes the sums for all cells of a plane into another one. Planes are given by the addresses
-    /// of their cells (0, 0, 0). The first `threads` threads of the team call this, each with its
-    /// number. Begins and ends with a barrier of the team. After the last one, all threads see the
-    /// rows of the target, but not its halo. Bits do not depend on `threads`.
+    /// Writes the sums for all cells of a plane into another plane. Planes are given by the
+    /// addresses of their cells (0, 0, 0). The first `threads` threads of the team call this, each
+    /// with its number. Begins and ends with a barrier of the team. After the last barrier, all
+    /// threads see the rows of the target, but not its halo. The result is the same bit for bit
+    /// with any number of threads.
     void apply(Team& team, int thread, int threads, const Number* from, Number* to);
 
 private:

@@ -1,6 +1,6 @@
-// The step is compared with the trapezoidal rule: the error is the mean of the rates at both ends
-// times the step, minus the change of the step. The last filter of etdrk4 and the last equations of
-// ros2 have an estimate of their own.
+// Compares the step with the trapezoidal rule: the error is the mean of the rates at both ends
+// times the step, minus the change of the step. etdrk4 estimates the error in its last filter, and
+// ros2 in its last equations.
 #include "solvers/error_estimate.h"
 
 #include "solvers/rosenbrock.h"
@@ -15,7 +15,8 @@ namespace {
 using Source = SweepTerm::Source;
 using Weight = SweepTerm::Weight;
 
-/// Inputs: the new step, the old step and its rates. Outputs: the error, the new step's rates.
+/// Inputs: the new step, the old step and the rates at the old step. Outputs: the error and the
+/// rates at the new step.
 SweepForm error_form() {
     SweepForm form;
     form.inputs = 3;

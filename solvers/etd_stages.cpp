@@ -1,5 +1,6 @@
-// φ₁(z) = (e^z − 1)/z and φ_{k+1}(z) = (φ_k(z) − 1/k!)/z suffer from cancellation where z is small.
-// So they are computed at z/2⁸ by their series and doubled eight times by
+// φ₁(z) = (e^z − 1)/z and φ_{k+1}(z) = (φ_k(z) − 1/k!)/z suffer from cancellation if z is small. So
+// the functions are computed at z/2⁸ by their series, and their arguments are doubled eight times
+// by
 //
 //     φ_k(2z) = 2^−k (e^z φ_k(z) + Σ_{j=1}^{k} φ_j(z)/(k − j)!),
 //
@@ -12,7 +13,7 @@
 namespace cascade {
 namespace {
 
-/// φ₁, φ₂ and φ₃ of −damping/2. Loops are short, so that compilers vectorise them.
+/// Computes φ₁, φ₂ and φ₃ of −damping/2. Loops are short, so that compilers vectorise them.
 template <typename Number>
 void find_phi(const std::vector<Number>& damping, Number* __restrict phi1, Number* __restrict phi2,
               Number* __restrict phi3) {
@@ -57,7 +58,7 @@ void find_phi(const std::vector<Number>& damping, Number* __restrict phi1, Numbe
     }
 }
 
-/// The waves of a line, with `parts` elements each.
+/// A line of waves. `parts` is the number of elements of each wave.
 template <typename Number>
 struct Line {
     Number* rate;
@@ -73,7 +74,7 @@ void take_stage(const Line<Number>& at, const std::vector<Number>& damping, Wave
     const Number* const x = damping.data();
     const auto for_waves = [&](const auto& act) {
         for (std::ptrdiff_t n = 0; n < count; ++n) {
-            // For half a step; e is exp(z/2).
+            // For half a step. e is exp(z/2).
             const Number p1 = at.phi1[n], p2 = at.phi2[n], e = 1 - x[n] / 2 * p1;
             for (int c = 0; c < parts; ++c) act(n, n * parts + c, p1, p2, e);
         }

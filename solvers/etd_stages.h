@@ -9,15 +9,15 @@
 
 namespace cascade {
 
-/// What a step stores for each wave between stages: the rate at the old step, two differences from
-/// it, and φ₁, φ₂, φ₃ of half a step.
+/// The numbers that a step stores for each wave between stages: the rate at the old step, two
+/// differences from it, and φ₁, φ₂, φ₃ of half a step.
 template <typename Number>
 using EtdMemory = std::array<Number*, etd_registers>;
 
-/// Stage `response` of the exponential Runge-Kutta method of fourth order by S. Krogstad
+/// Takes stage `response` of the exponential Runge-Kutta method of fourth order by S. Krogstad
 /// ("Generalized integrating factor methods for stiff PDEs", Journal of Computational Physics 203,
-/// 2005, 72-88), written for changes. With L the diffusion, z = h L, and D_i = f(U_i) − f(old) − L
-/// (U_i − old) the change of the rest of the rates,
+/// 2005, 72-88), written in terms of changes instead of values. With L the diffusion, z = h L, and
+/// D_i = f(U_i) − f(old) − L (U_i − old) the change of the rest of the rates,
 ///
 ///     U₂  = old + h/2 φ₁(z/2) f(old),                  U₃ = U₂ + h φ₂(z/2) D₂,
 ///     U₄  = old + h (φ₁(z) f(old) + 2 φ₂(z) D₃),

@@ -2,6 +2,7 @@
 #include "solvers/exchange.h"
 
 #include "core/check.h"
+#include "solvers/layers_in_memory.h"
 
 #include <algorithm>
 #include <cstring>
@@ -9,38 +10,41 @@
 namespace cascade {
 namespace {
 
-/// Parts consist of layers: slices of a grid that has several, else rows. The rows of a layer:
+/// Copies rows with their halo columns to the rows from `first` on.
+void copy_rows(const Field& from, RowRange rows, Field& to, std::int64_t first) {
+    if (rows.empty()) return;
+    const std::span<const std::byte> source = memory_of(from, rows);
+    std::memcpy(memory_of(to, {first, first + rows.count()}).data(), source.data(), source.size());
+}
+
+}  // namespace
+
 std::int64_t rows_of_layer(const PlaneLayout& layout) {
     return layout.has_halo_slices() ? layout.height : 1;
 }
 
-/// All rows in a plane's memory.
 RowRange held(const PlaneLayout& layout) {
     const std::int64_t halo = rows_of_layer(layout);
     return {layout.rows.begin - halo, layout.rows.end + halo};
 }
 
-RowRange common(RowRange one, RowRange other) {
-    return {std::max(one.begin, other.begin), std::min(one.end, other.end)};
-}
-
-/// Copies rows, or whole slices, and their halo columns to the rows from `first` on.
-void copy_rows(const Field& from, RowRange rows, Field& to, std::int64_t first) {
-    if (rows.empty()) return;
-    const PlaneLayout& layout = from.layout();
+std::span<const std::byte> memory_of(const Field& field, RowRange rows) {
+    const PlaneLayout& layout = field.layout();
+    const RowRange all = held(layout);
+    CHECK(rows.begin >= all.begin && rows.end <= all.end, "a plane holds the rows to be copied");
     const std::int64_t stride = layout.has_halo_slices() ? layout.slice_stride : layout.stride;
-    const std::int64_t elements = rows.count() / rows_of_layer(layout) * stride;
-    const auto start = [&](auto& plane, std::int64_t row) {
-        const std::int64_t halo_row = layout.has_halo_slices() ? layout.stride : 0;
-        return plane.origin() + layout.row_start(row) - halo_row - PlaneLayout::row_pad;
-    };
-    to.visit([&]<typename Number>(Plane<Number>& target) {
-        std::memcpy(start(target, first), start(from.plane<Number>(), rows.begin),
-                    static_cast<std::size_t>(elements) * sizeof(Number));
+    const std::int64_t halo_row = layout.has_halo_slices() ? layout.stride : 0;
+    const std::int64_t before = layout.row_start(rows.begin) - halo_row - PlaneLayout::row_pad;
+    const auto count = static_cast<std::size_t>(rows.count() / rows_of_layer(layout) * stride);
+    return field.visit([&](const auto& plane) {
+        return std::as_bytes(std::span(plane.origin() + before, count));
     });
 }
 
-}  // namespace
+std::span<std::byte> memory_of(Field& field, RowRange rows) {
+    const std::span<const std::byte> memory = memory_of(std::as_const(field), rows);
+    return {const_cast<std::byte*>(memory.data()), memory.size()};
+}
 
 std::vector<RowRange> cut_grid(const Grid& grid, int count) {
     const std::int64_t layer = rows_of_layer(PlaneLayout(grid));

@@ -1,9 +1,10 @@
-// What the parts of a grid tell each other while each takes its own share of the steps.
+// Exchanges planes and sums between the parts of a grid, each of which takes its own share of the
+// steps.
 //
-// A part of a grid is a range of rows, or of whole slices where there are several, and keeps the
-// numbers of its cells (core/grid.h). All parts call the same functions in the same order, each
-// with its own planes. Sums keep their bits, because they are made of the sums of rows, in the
-// order of rows.
+// A part of a grid is a range of rows or, if there are several slices, of whole slices. Its cells
+// keep their numbers in the grid (core/grid.h). All parts call the same functions in the same
+// order, each with its own planes. Sums equal those of an undivided grid bit for bit, because the
+// sums of rows are added in the order of rows.
 #pragma once
 
 #include "core/grid.h"
@@ -18,20 +19,21 @@
 
 namespace cascade {
 
-/// Cuts a grid into nearly equal parts: `count`, or fewer if it has fewer rows or slices.
+/// Cuts a grid into `count` nearly equal parts, or fewer if there are fewer rows or slices.
 std::vector<RowRange> cut_grid(const Grid& grid, int count);
 
-/// A part's rows with `width` rows on both sides, or slices of a grid with several. If `wraps`,
-/// rows before the first and after the last one of the grid count as well. A plane that holds them
-/// has a halo of that width and one more.
+/// A part's rows and `width` more rows on both sides. If the grid has several slices, `width`
+/// counts slices. If `wraps` is true, the last rows of the grid precede the first rows, and the
+/// first rows follow the last. A plane that holds these rows has a halo of width `width` plus one.
 RowRange with_neighbours(const Grid& grid, RowRange part, std::int64_t width, bool wraps);
 
 class Exchange {
 public:
-    /// A plane that lies in parts.
+    /// A plane that is divided among parts.
     struct Shared {
-        Field* field = nullptr;  ///< Holds the part, and its halo.
-        bool wraps = false;      ///< The first rows or slices follow the last ones.
+        Field* field = nullptr;  ///< Holds this part and its halo.
+        bool wraps = false;      ///< Whether the axis is periodic, so that the first rows or slices
+                                 ///< follow the last.
     };
 
     Exchange(const Grid& grid, std::vector<RowRange> parts, std::size_t number)
@@ -42,18 +44,19 @@ public:
 
     std::size_t count() const { return parts_.size(); }
     RowRange rows() const { return parts_[number_]; }
-    /// Does this part compute what takes the whole grid?
+    /// Whether this part does the computations that need the whole grid.
     bool is_root() const { return number_ == 0; }
 
-    /// Fills `width` rows or slices on both sides of the part from the parts that compute them.
-    /// They come with the columns of their halo.
+    /// Fills `width` rows or slices on both sides of this part with the values of the parts that
+    /// compute them, halo columns included.
     virtual void fill_halos(std::span<const Shared> planes, std::int64_t width) = 0;
-    /// Completes vectors of one number per row of the grid, of which each part has set its own.
+    /// Completes vectors that have one number per row of the grid. Before the call, each part has
+    /// set the numbers of its own rows. After it, every part has all numbers.
     virtual void share_rows(std::span<std::vector<double>* const> rows) = 0;
-    /// Puts all parts of planes, the halo of the grid included, into whole planes of the root. At
+    /// Collects all parts of planes, the halo of the grid included, in whole planes of the root. In
     /// other parts `whole` may be empty.
     virtual void gather(std::span<const Field* const> own, std::span<Field* const> whole) = 0;
-    /// Gives every part its rows of the root's planes, its halo included.
+    /// Copies to every part its rows and halo from the root's planes.
     virtual void scatter(std::span<const Field* const> whole, std::span<Field* const> own) = 0;
 
 protected:
@@ -62,10 +65,10 @@ protected:
     const std::size_t number_;
 };
 
-/// Parts in one process, each in a thread of a team.
+/// Exchange between parts in one process, each in a thread of a team.
 class LocalExchange final : public Exchange {
 public:
-    /// What the parts show each other, which they share.
+    /// Pointers to each part's data, which all parts can read.
     struct Board {
         Team& team;
         std::vector<std::span<const Shared>> shared;
@@ -87,7 +90,7 @@ private:
     Board& board_;
 };
 
-/// Copies all rows that both planes hold, halos included.
+/// Copies all rows that both planes have in memory, halos included.
 void copy_held(const Field& from, Field& to);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// FFTW's functions are looked up by name in the library for the precision at first use.
+// FFTW's functions are looked up by name at first use, in the library for the precision.
 #include "solvers/fftw_transform.h"
 
 #include "core/check.h"
@@ -10,37 +10,27 @@
 namespace cascade {
 namespace {
 
-/// FFTW's functions in both precisions.
+/// FFTW's functions for a precision.
 template <typename Number>
 struct Fftw;
-template <>
-struct Fftw<float> {
-    using Complex = fftwf_complex;
-    LateLibrary library{CASCADE_FFTW_FLOAT_LIBRARY};
-    decltype(&fftwf_plan_many_r2r) plan_real = library["fftwf_plan_many_r2r"];
-    decltype(&fftwf_plan_many_dft) plan_complex = library["fftwf_plan_many_dft"];
-    decltype(&fftwf_plan_many_dft_r2c) plan_there = library["fftwf_plan_many_dft_r2c"];
-    decltype(&fftwf_plan_many_dft_c2r) plan_back = library["fftwf_plan_many_dft_c2r"];
-    decltype(&fftwf_execute_r2r) run_real = library["fftwf_execute_r2r"];
-    decltype(&fftwf_execute_dft) run_complex = library["fftwf_execute_dft"];
-    decltype(&fftwf_execute_dft_r2c) run_there = library["fftwf_execute_dft_r2c"];
-    decltype(&fftwf_execute_dft_c2r) run_back = library["fftwf_execute_dft_c2r"];
-    decltype(&fftwf_destroy_plan) destroy = library["fftwf_destroy_plan"];
-};
-template <>
-struct Fftw<double> {
-    using Complex = fftw_complex;
-    LateLibrary library{CASCADE_FFTW_LIBRARY};
-    decltype(&fftw_plan_many_r2r) plan_real = library["fftw_plan_many_r2r"];
-    decltype(&fftw_plan_many_dft) plan_complex = library["fftw_plan_many_dft"];
-    decltype(&fftw_plan_many_dft_r2c) plan_there = library["fftw_plan_many_dft_r2c"];
-    decltype(&fftw_plan_many_dft_c2r) plan_back = library["fftw_plan_many_dft_c2r"];
-    decltype(&fftw_execute_r2r) run_real = library["fftw_execute_r2r"];
-    decltype(&fftw_execute_dft) run_complex = library["fftw_execute_dft"];
-    decltype(&fftw_execute_dft_r2c) run_there = library["fftw_execute_dft_r2c"];
-    decltype(&fftw_execute_dft_c2r) run_back = library["fftw_execute_dft_c2r"];
-    decltype(&fftw_destroy_plan) destroy = library["fftw_destroy_plan"];
-};
+#define CASCADE_FFTW(Number, prefix, file)                                                        \
+    template <>                                                                                   \
+    struct Fftw<Number> {                                                                         \
+        using Complex = prefix##_complex;                                                         \
+        LateLibrary library{file};                                                                \
+        decltype(&prefix##_plan_many_r2r) plan_real = library[#prefix "_plan_many_r2r"];          \
+        decltype(&prefix##_plan_many_dft) plan_complex = library[#prefix "_plan_many_dft"];       \
+        decltype(&prefix##_plan_many_dft_r2c) plan_there = library[#prefix "_plan_many_dft_r2c"]; \
+        decltype(&prefix##_plan_many_dft_c2r) plan_back = library[#prefix "_plan_many_dft_c2r"];  \
+        decltype(&prefix##_execute_r2r) run_real = library[#prefix "_execute_r2r"];               \
+        decltype(&prefix##_execute_dft) run_complex = library[#prefix "_execute_dft"];            \
+        decltype(&prefix##_execute_dft_r2c) run_there = library[#prefix "_execute_dft_r2c"];      \
+        decltype(&prefix##_execute_dft_c2r) run_back = library[#prefix "_execute_dft_c2r"];       \
+        decltype(&prefix##_destroy_plan) destroy = library[#prefix "_destroy_plan"];              \
+    }
+CASCADE_FFTW(float, fftwf, CASCADE_FFTW_FLOAT_LIBRARY);
+CASCADE_FFTW(double, fftw, CASCADE_FFTW_LIBRARY);
+#undef CASCADE_FFTW
 
 template <typename Number>
 const Fftw<Number>& fftw() {

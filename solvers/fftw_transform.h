@@ -1,4 +1,4 @@
-// A transform of lines of numbers by FFTW (internal to solvers/). The first one loads FFTW.
+// Transforms lines of numbers by FFTW (internal to solvers/). The first object loads FFTW.
 #pragma once
 
 #include <fftw3.h>
@@ -8,33 +8,35 @@
 
 namespace cascade {
 
-/// An estimated plan, because measuring would choose differently from run to run. Memory for run()
-/// must be aligned like the constructor's.
+/// A transform of lines by a plan that FFTW estimates. FFTW could also measure, but would then
+/// choose different plans in different runs. The memory given to run() must be aligned like that
+/// given to the constructor.
 template <typename Number>
 class FftwTransform {
 public:
-    /// The layout of lines: the elements from one number to the next and from one line to the next.
+    /// The layout of lines: the numbers of elements from one number to the next, and from one line
+    /// to the next.
     struct Lines {
         Number* at;
         std::int64_t stride, distance;
     };
     enum Kind : std::uint8_t {
         real,     ///< FFTW's "r2r".
-        complex,  ///< "dft": lines of complex numbers, two elements each.
-        there,    ///< "r2c", on one contiguous line of real numbers.
-        back      ///< "c2r", its inverse.
+        complex,  ///< FFTW's "dft": lines of complex numbers, two elements each.
+        there,    ///< FFTW's "r2c", on one contiguous line of real numbers.
+        back      ///< FFTW's "c2r", the inverse of "r2c".
     };
 
     FftwTransform() = default;
-    /// `count` lines of `cells` numbers each. `direction` is FFTW's kind of a real transform and
-    /// the sign of a complex one. Neither reads nor writes the lines.
+    /// Plans `count` lines of `cells` numbers each. `direction` is FFTW's kind of a real transform
+    /// or the sign of a complex one. Neither reads nor writes the lines.
     FftwTransform(Kind kind, int direction, std::int64_t cells, std::int64_t count,
                   const Lines& from, const Lines& to);
     FftwTransform(FftwTransform&& other) noexcept;
     FftwTransform& operator=(FftwTransform&& other) noexcept;
     ~FftwTransform();
 
-    /// Threads may share a transform.
+    /// Transforms the lines. Several threads may call this at the same time.
     void run(Number* from, Number* to) const;
 
 private:

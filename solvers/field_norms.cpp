@@ -11,8 +11,8 @@
 namespace cascade {
 namespace {
 
-/// Sums value(i) for i in [0, count): sixteen partial sums, which compilers can hold in vectors,
-/// then the partial sums one by one.
+/// Sums value(i) for i in [0, count): first sixteen partial sums, which compilers can hold in
+/// vectors, then the total of these.
 template <typename Value>
 [[gnu::always_inline]] inline double sum(std::int64_t count, Value value) {
     constexpr std::int64_t lanes = 16;
@@ -29,16 +29,16 @@ template <typename Value>
     return total;
 }
 
-/// A row of a field, or of the difference of two.
+/// A row of a field, or of the difference of two fields.
 template <typename Number>
 struct Row {
     const Number* cells;
     const Number* subtracted;    ///< May be null.
-    const std::uint8_t* counts;  ///< Only cells where it is not 0 count; null: all.
+    const std::uint8_t* counts;  ///< Only cells where this is not 0 count; null: all.
     std::int64_t width;
 
-    /// Calls `use(value, counts)` with functions of the cell. Branches on the kind of row here,
-    /// outside the loops.
+    /// Calls `use(value, counts)` with two functions of the cell: its value, and whether it counts.
+    /// The kind of row is tested here, outside of loops.
     template <typename Use>
     [[gnu::always_inline]] auto visit(Use use) const {
         const auto with_counts = [&](auto value) __attribute__((always_inline)) {
@@ -100,7 +100,8 @@ FieldMoments moments_of(const PlaneLayout& layout, RowAt row_at) {
     FieldMoments result;
     result.mean = values / cells;
     result.root_mean_square = root_mean_square_about(0, layout, row_at);
-    // About the mean, because a difference of squares would lose a pattern of small amplitude.
+    // Sums squares about the mean, because a difference of squares would lose a pattern of small
+    // amplitude.
     result.deviation = root_mean_square_about(result.mean, layout, row_at);
     return result;
 }
@@ -160,7 +161,7 @@ double sum_of_squares(const Field& field, std::int64_t row, std::int64_t cells) 
         const std::int64_t width = plane.layout().width;
         const auto* const values = plane.row(row);
         if (cells >= width) return sum_of_squares(values, width);
-        // In the same order as in a whole row.
+        // Adds zeros for the other cells, so that numbers are added in the order of a whole row.
         return sum(width,
                    [&](std::int64_t i) { return i < cells ? double{values[i]} * values[i] : 0.0; });
     });

@@ -10,8 +10,8 @@ namespace cascade {
 namespace {
 
 /// A number is infinite or NaN if all bits of its exponent are set. Adding one to the exponent then
-/// carries into the sign. Integer operations without branches vectorise everywhere, and no compiler
-/// flag can remove them.
+/// carries into the sign. Integer operations without branches are vectorised on all machines, and
+/// no compiler flag can remove them.
 template <typename Number, typename Word>
 bool row_is_finite_in(const Number* row, std::int64_t width, Word sign, Word exponent_one) {
     Word carried = 0;
@@ -35,12 +35,13 @@ bool row_is_finite(const double* row, std::int64_t width) {
 
 namespace {
 
-/// Numbers added at once: one vector of the widest kind, or a few narrower ones.
+/// Numbers added at once: one vector of the widest kind, or a few narrower vectors.
 template <typename Number>
 struct Lanes {
     typedef Number Vector [[gnu::vector_size(64)]];
     static constexpr std::int64_t count = 64 / sizeof(Number);
-    Vector even{}, odd{}, last{};  ///< Two independent sums do not wait for each other.
+    /// `even` and `odd` are independent sums, so neither waits for the other.
+    Vector even{}, odd{}, last{};
 };
 
 template <typename Number>
@@ -78,8 +79,9 @@ WITH_WIDE_VECTORS void add_rows(const Plane<double>& plane, RowRange rows, Colum
 bool are_finite(const Field& field, const Patch& cells) {
     const ColumnRange columns = cells.columns.within(field.layout().width);
     return field.visit([&]<typename Number>(const Plane<Number>& plane) {
-        // An infinity or a NaN never leaves a sum again. Finite sums may overflow too, so rows are
-        // checked one by one.
+        // If a sum has an infinite or NaN term, the sum cannot become finite again. A sum of finite
+        // terms may overflow, too, so the values of a row whose sum is not finite are checked one
+        // by one.
         Lanes<Number> sums{};
         add_rows(plane, cells.rows, columns, sums);
         Number all[3 * Lanes<Number>::count];

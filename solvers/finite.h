@@ -15,7 +15,7 @@ struct CellPlace {
     friend bool operator==(const CellPlace&, const CellPlace&) = default;
 };
 
-/// Are all these cells finite? Ignores halo and padding, which may hold anything.
+/// Whether all values in `cells` are finite. Ignores halo and padding, which may contain anything.
 bool are_finite(const Field& field, const Patch& cells);
 
 /// The first non-finite cell, row by row.

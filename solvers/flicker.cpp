@@ -12,7 +12,7 @@
 namespace cascade {
 namespace {
 
-/// A change that dies out shrinks below this fraction.
+/// A change whose size falls below this fraction of the previous one is dying out.
 constexpr double lasting = 0.95;
 
 /// The changes of a row of cells in two steps.
@@ -22,7 +22,7 @@ struct Changes {
 
     double first(std::int64_t i) const { return double{between[i]} - before[i]; }
     double second(std::int64_t i) const { return double{after[i]} - between[i]; }
-    /// Do both have the size `least`, with opposite signs?
+    /// Whether both changes are at least `least` in size and have opposite signs.
     bool is_undone(std::int64_t i, double least) const {
         const double one = first(i), other = second(i);
         return one * other < 0 && std::abs(one) >= least && std::abs(other) >= least;
@@ -74,7 +74,7 @@ void FlickerWatch::compare(Species& seen, const Field& now) const {
             const std::uint8_t* const counts = inside_ != nullptr ? inside_->row(row) : nullptr;
             std::uint8_t* const steady = seen.steady.row(row);
             seen.cells += static_cast<double>(cells_that_count(counts, layout.width));
-            // In most rows of most runs no change is undone.
+            // A quick test for rows without any undone change, which are most rows in most runs.
             if (undone_in(changes, layout.width, least) == 0) {
                 std::fill_n(steady, layout.width, std::uint8_t{0});
                 continue;

@@ -10,23 +10,23 @@
 namespace cascade {
 
 /// Receives the state after each of a few steps and compares each change with the previous one. A
-/// change counts if it is at least a tenth of the species' deviation and a thousandth of its root
-/// mean square. Smaller ones are harmless, or rounding.
+/// change counts if it is at least a tenth of the species' deviation and at least a thousandth of
+/// its root mean square. Smaller changes are harmless or rounding errors.
 class FlickerWatch {
 public:
-    /// `inside` says which cells count; nullptr: all.
+    /// `inside` marks the cells that count. If it is null, all cells count.
     explicit FlickerWatch(const Mask* inside = nullptr) : inside_(inside) {}
 
     /// Adds the state after one more step. The first call sets the state to compare with.
     void see(std::span<const Field> species);
 
     struct Finding {
-        /// The fraction of cells in which each change undid the previous one and was at most a
-        /// twentieth smaller.
+        /// The fraction of cells that flicker: each change undid the previous change and was at
+        /// most a twentieth smaller.
         double flickering = 0;
-        /// The fraction of all changes of all cells that undid the previous one, to any degree:
-        /// high if steps are too long even to settle into a regular oscillation, one half for
-        /// random numbers.
+        /// The fraction of all changes, in all cells, that undid a part of the previous change. It
+        /// is one half for random numbers, and higher if steps are so long that values do not
+        /// settle into a regular oscillation.
         double undone = 0;
         double largest = 0;  ///< The largest last change of a flickering cell.
     };
@@ -35,9 +35,9 @@ public:
 private:
     struct Species {
         Field before_last, last;
-        Mask steady;                         ///< 1 where all changes so far undid each other.
-        double cells = 0, flickering = 0;    ///< At the last comparison.
-        double comparisons = 0, undone = 0;  ///< Over all comparisons.
+        Mask steady;  ///< 1 where every change so far has undone the previous one.
+        double cells = 0, flickering = 0;    ///< Numbers of cells at the last comparison.
+        double comparisons = 0, undone = 0;  ///< Numbers of cells, summed over all comparisons.
         double largest = 0;
     };
     void compare(Species& seen, const Field& now) const;

@@ -1,4 +1,4 @@
-// The only file of the room that includes Eigen.
+// Encloses the use of Eigen: no other file in solvers/ includes it.
 #include "solvers/linked_laplacian.h"
 
 #include <Eigen/SparseCholesky>
@@ -10,13 +10,14 @@
 namespace cascade {
 namespace {
 
-/// The smallest s, relative to the mean of the diagonal, times the number of cells: a hundredth of
-/// the second eigenvalue of −Δ on a sphere. A smaller one would drown in rounding where the surface
-/// has several parts, each with a constant of its own.
+/// The smallest s is this factor times the mean of the diagonal of −Δ, divided by the number of
+/// cells. On a sphere this is a hundredth of the second eigenvalue of −Δ. If the surface has
+/// several parts, each has an eigenvalue 0, and the effect of a smaller s would be lost in
+/// rounding.
 constexpr double least_shift = 0.03;
 
-/// Calls `use(row, column, target, weight)` for each link of some rows. Elements count from cell
-/// (0, 0).
+/// Calls `use(row, column, target, weight)` for each link of some rows. Elements are counted from
+/// cell (0, 0).
 template <typename Number>
 void each_link(const LinkTable<Number>& table, const PlaneLayout& layout, RowRange rows,
                const auto& use) {
@@ -39,17 +40,20 @@ void each_link(const LinkTable<Number>& table, const PlaneLayout& layout, RowRan
 }  // namespace
 
 struct LinkedLaplacian::Factors {
-    std::vector<std::int64_t> elements;  ///< Cells that count, from cell (0, 0) on.
-    Eigen::VectorXd roots;               ///< Roots of their areas.
-    Eigen::SparseMatrix<double> matrix;  ///< The lower half of −Δ, made symmetric by the roots.
+    /// The elements of cells that are not left out, counted from cell (0, 0).
+    std::vector<std::int64_t> elements;
+    Eigen::VectorXd roots;  ///< The square roots of the cells' areas.
+    /// The lower half of −Δ, made symmetric by the square roots.
+    Eigen::SparseMatrix<double> matrix;
     double least_s = 0;
     Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver;
-    std::optional<double> shift;  ///< The s of the factors: as given, or the smallest one.
+    std::optional<double> shift;  ///< The s of the present factorisation.
 
     bool is_singular() const { return shift == least_s; }
 
-    /// Subtracts the area-weighted mean, which is undetermined if s is 0. Values are times roots.
-    /// The order of summation must not depend on vectors.
+    /// Subtracts the area-weighted mean, which is undetermined if s is 0. `values` are already
+    /// multiplied by the square roots of areas. The order of summation must not depend on the width
+    /// of vectors.
     void subtract_mean(Eigen::VectorXd& values) const {
         double sum = 0, area = 0;
         for (Eigen::Index k = 0; k < values.size(); ++k) {
@@ -62,7 +66,8 @@ struct LinkedLaplacian::Factors {
 
 LinkedLaplacian::LinkedLaplacian(const Links& links, const PlaneLayout& layout, const Field* areas)
     : links_(links), layout_(layout), factors_(std::make_unique<Factors>()) {
-    std::vector<Eigen::Index> unknowns;  // Per element; −1 for cells left out.
+    // For each element, its index in `elements`; −1 for cells left out.
+    std::vector<Eigen::Index> unknowns;
     std::vector<double> roots;
     for (std::int64_t row = 0; row < layout.row_count(); ++row) {
         for (std::int64_t column = 0; column < layout.width; ++column) {

@@ -1,4 +1,4 @@
-// The inverse of a Laplacian of linked cells minus a number, as a preconditioner.
+// Preconditioning by the inverse of a Laplacian of linked cells minus a number.
 #pragma once
 
 #include "core/links.h"
@@ -9,14 +9,15 @@
 
 namespace cascade {
 
-/// Solves a (Δ − s) u = f by a sparse Cholesky factorisation in double precision (Eigen). Cells
-/// times the roots of their areas make the matrix symmetric.
+/// Solves a (Δ − s) u = f by a sparse Cholesky factorisation in double precision (Eigen).
+/// Multiplying cells by the square roots of their areas makes the matrix symmetric.
 class LinkedLaplacian {
 public:
-    /// From this number of cells on, the factors would take gigabytes.
+    /// With this number of cells or more, the factors would take gigabytes.
     static constexpr std::int64_t most_cells = std::int64_t{1} << 20U;
 
-    /// Cells with area 0 are left out. Without `areas`, all are alike. Throws std::bad_alloc.
+    /// Cells with area 0 are left out. Without `areas`, all cells have the same area. Throws
+    /// std::bad_alloc.
     LinkedLaplacian(const Links& links, const PlaneLayout& layout, const Field* areas);
     ~LinkedLaplacian();
     LinkedLaplacian(const LinkedLaplacian&) = delete;
@@ -26,12 +27,12 @@ public:
     template <typename Number>
     void apply(const Number* u, Number* result, RowRange rows) const;
 
-    /// Factorises for s ≥ 0, unless that was done last. For 0, uses a number that is small compared
-    /// to all eigenvalues but the first. Returns false on failure, which is possible if links have
-    /// weights below 0. Throws std::bad_alloc.
+    /// Factorises Δ − s for s ≥ 0, unless the last call had the same s. For s = 0, uses a number
+    /// that is small compared to every eigenvalue of −Δ except the smallest, which is 0. Returns
+    /// false on failure, which is possible if links have weights below 0. Throws std::bad_alloc.
     bool factorise(double s);
-    /// Writes u for the s of factorise(), and 0 in the cells left out. If s is 0, subtracts the
-    /// means of f and u, weighted by areas.
+    /// Solves for f with the s of the last factorise(). Writes u, and 0 in cells that are left out.
+    /// If s is 0, subtracts the area-weighted means of f and u.
     template <typename Number>
     void solve(const Number* f, Number* u, double a);
 

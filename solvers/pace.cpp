@@ -9,7 +9,7 @@ namespace {
 
 constexpr double batch_seconds = 0.02, patient_seconds = 0.5;
 constexpr std::chrono::milliseconds between_reports{100};
-constexpr std::size_t most_samples = 21;  // Two seconds of reports.
+constexpr std::size_t most_samples = 21;  // Reports of two seconds.
 
 }  // namespace
 
@@ -22,7 +22,8 @@ void Pace::took(std::int64_t count, std::chrono::duration<double> duration) {
     const auto steps_in = [&](double seconds) {
         return static_cast<std::int64_t>(std::clamp(std::floor(seconds / per_step), 1.0, 1e9));
     };
-    // The average grows gradually, because the first steps, with cold caches, say little.
+    // Batches grow gradually, because the first steps, with cold caches, are slower than later
+    // ones.
     batch_ = std::min(steps_in(batch_seconds), batch_ * 8);
     patient_batch_ = steps_in(patient_seconds);
 }

@@ -1,5 +1,5 @@
-// How fast a run proceeds: batch sizes that let it respond quickly, and the rate and remaining time
-// for the user.
+// How fast a run proceeds. Gives sizes of batches with which the run responds quickly, and the rate
+// and remaining time for the user.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace cascade {
 
-/// Callers pass times in, so that a test can choose them.
+/// Callers pass in the time, so that a test can choose it.
 class Pace {
 public:
     using Time = std::chrono::steady_clock::time_point;
@@ -17,7 +17,8 @@ public:
     Pace(Time now, std::int64_t step);
 
     /// The number of steps to take before the clock and `cancel` are read again: about 20 ms of
-    /// work. At least `wanted`, which are faster together, if they take at most half a second.
+    /// work. The result is at least `wanted`, the number of steps that are fastest together, if so
+    /// many steps take at most half a second.
     std::int64_t batch(std::int64_t wanted = 1) const {
         return std::max(batch_, std::min(wanted, patient_batch_));
     }
@@ -27,7 +28,7 @@ public:
     /// Continues after a pause: reports leave out the pause, and batches keep their size.
     void go_on(Time now, std::int64_t step);
 
-    /// Is it time for a report? About ten times a second.
+    /// Whether it is time for a report, about ten times a second.
     bool report_due(Time now) const;
     /// Records the time of a report and the number of complete steps.
     void reported(Time now, std::int64_t step);

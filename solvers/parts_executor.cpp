@@ -1,5 +1,5 @@
-// A grid in parts that have only their own planes and the halos which they exchange, as processes
-// on several machines would. The time loop sees whole planes.
+// Runs a grid in parts. As processes on several machines would, each part has only its own planes
+// and the halos that it gets from other parts. The time loop sees whole planes.
 #include "core/parallel.h"
 #include "solvers/executor.h"
 #include "solvers/pass_runner.h"

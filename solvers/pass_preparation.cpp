@@ -1,6 +1,6 @@
-// What precedes the kernel of a pass: constraints, convolutions, aggregates and filters of waves.
-// Each thread folds the aggregates of all rows itself, which takes one barrier instead of two. Of a
-// grid in parts, the root computes on whole planes what takes all cells.
+// Prepares the kernel of a pass: constraints, convolutions, aggregates and filters of waves. Each
+// thread adds up the aggregates of all rows itself. This takes one barrier instead of two. If the
+// grid is in parts, the root does the computations that need all cells, on whole planes.
 #include "solvers/constraint_solver.h"
 #include "solvers/pass_runner.h"
 #include "solvers/tiling.h"
@@ -24,7 +24,7 @@ struct PassRunner::WholeGrid {
     std::vector<std::span<Field>> registers;
     std::vector<Worker> workers;
 
-    /// Planes for these registers, and a worker for each of `threads` threads.
+    /// Makes whole planes for the registers `parts`, and a worker for each of `threads` threads.
     WholeGrid(const StepProblem& problem, Registers parts, int threads)
         : runner(problem), workers(static_cast<std::size_t>(threads)) {
         for (const std::span<Field> part : parts) {
@@ -74,7 +74,9 @@ PassRunner::PassRunner(const StepProblem& problem, Exchange* others)
             const auto made = std::make_shared<ConvolutionRunner<Number>>(problem.grid, weights);
             return all.emplace_back(&weights, made).second;
         };
-        if (others != nullptr) return;  // The whole grid's runner has them.
+        if (others != nullptr)
+            return;  // If the grid is in parts, only the runner of the whole grid needs these
+                     // helpers.
         for (const StepProblem::Pass& pass : problem.passes) {
             auto& solvers = helpers.solvers.emplace_back();
             for (const StepProblem::Solve& each : pass.solves) {
@@ -190,7 +192,7 @@ void PassRunner::solve(const Worker& worker, std::size_t pass_number, Team& team
     }
 }
 
-/// The threads that wrote the rows beside the halo fill it.
+/// Fills the halos of results. Each halo is filled by the threads that wrote the rows beside it.
 template <typename Number>
 void PassRunner::convolve(const Worker& worker, std::size_t pass_number, Team& team,
                           Registers registers) {
@@ -245,7 +247,8 @@ void PassRunner::reduce(Worker& worker, Arguments<Number>& arguments, std::size_
     }
 }
 
-/// Every thread knows all aggregates, so all threads damp the same waves.
+/// Needs no barrier: every thread has computed all aggregates itself, so all threads use the same
+/// factors.
 template <typename Number>
 void PassRunner::filter(Worker& worker, Arguments<Number>& arguments, const SweepFilter& filter,
                         Team& team, Registers registers, const StepMoment& moment) const {

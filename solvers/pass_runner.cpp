@@ -1,5 +1,5 @@
-// Rows are computed in bands that fit into a cache, and the halo of a band is filled while the band
-// is cached.
+// Computes rows in bands that fit into a cache, and fills the halo of a band while the band is
+// cached.
 #include "solvers/pass_runner.h"
 
 #include "core/check.h"
@@ -14,11 +14,11 @@
 namespace cascade {
 namespace {
 
-/// The halo's columns are beside rows that were just written. If they are filled band by band, the
-/// rows are still in the cache.
+/// The number of rows in a band. The halo columns beside the rows of a band are filled as soon as
+/// the band has been written, while its rows are still in the cache.
 template <typename Number>
 std::int64_t rows_of_a_band(const PlaneLayout& layout, std::size_t results) {
-    // A quarter of a MiB of results.
+    // How many values fit into a quarter of a MiB.
     constexpr auto elements_in_cache = static_cast<std::int64_t>(262144 / sizeof(Number));
     return std::max<std::int64_t>(8, elements_in_cache /
                                          (layout.stride * static_cast<std::int64_t>(results)));
@@ -90,7 +90,7 @@ void PassRunner::set_uniforms(std::vector<Number>& uniforms, const StepProblem::
             [&](Sweep::Coefficient by) {
                 value = static_cast<Number>(by.times_step ? by.value * moment.length : by.value);
             },
-            [](AggregateId) {},  // Its reduction sets it.
+            [](AggregateId) {},  // Its reduction sets an aggregate.
         };
         std::visit(set, uniform.value);
     }
@@ -161,7 +161,7 @@ void PassRunner::run_level(const Level<Number>& level, const Patch& cells) const
                 fill_halo_of(level, k, part);
                 continue;
             }
-            // Only the first and the last row have copies in rows of the halo.
+            // Only the first and the last row are copied to rows of the halo.
             const std::int64_t last = layout_.height - 1;
             if (part.rows.begin == 0) fill_halo_of(level, k, {{0, 1}, part.columns});
             if (part.rows.end == last + 1) fill_halo_of(level, k, {{last, last + 1}, part.columns});
@@ -170,7 +170,7 @@ void PassRunner::run_level(const Level<Number>& level, const Patch& cells) const
     }
 }
 
-/// Does a kernel fill these columns of a result's halo?
+/// Whether the kernel itself fills these columns of a result's halo.
 template <typename Number>
 bool PassRunner::has_copied_columns(const Level<Number>& level, std::size_t number) const {
     const auto& [rules, copied] = sides_[level.pass];
@@ -193,7 +193,8 @@ void PassRunner::fill_halo_of(const Level<Number>& level, std::size_t number,
     const bool is_next = result.read_at == StepProblem::Result::next_step;
     const SideMoment when{is_next ? moment.complete + 1 : moment.complete,
                           is_next ? moment.next_t : moment.t + result.read_at * moment.length};
-    // Sides read the species that this pass has written beside them into the same register.
+    // The rules at sides read the species in the cells beside the side. This pass has just written
+    // these cells into the same register.
     SpeciesPlanes present(problem_.species_needs_halo.size());
     const std::vector<StepProblem::Result>& results = problem_.passes[level.pass].results;
     for (std::size_t k = 0; k < results.size(); ++k) {

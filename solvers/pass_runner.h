@@ -1,8 +1,9 @@
-// Runs the passes of a step on a team of threads: temporaries, aggregates and the barriers between
-// passes.
+// Runs the passes of a step on a team of threads, with temporaries, aggregates and the barriers
+// between passes.
 //
-// A worker binds a pass to planes and to a moment as a *level*, and runs levels on any rows. run()
-// is the plain loop with one level at a time. solvers/tile_runner.h runs several.
+// A *level* is a pass that is bound to planes and to a moment. A worker is the data of one thread.
+// It binds levels and runs them on any rows. run() runs one level after the other.
+// solvers/tile_runner.h runs several levels together.
 #pragma once
 
 #include "core/parallel.h"
@@ -23,15 +24,16 @@
 
 namespace cascade {
 
-/// The moment of a step.
+/// When a step begins and ends.
 struct StepMoment {
-    std::int64_t complete = 0;                  ///< Steps taken before it.
-    double t = 0;                               ///< The stage's time at its start.
-    double length = 0;                          ///< The time step.
-    double next_t = 0;                          ///< The stage's time when the next step begins.
-    const std::atomic<bool>* cancel = nullptr;  ///< If this is true, the step may be abandoned.
+    std::int64_t complete = 0;  ///< Steps taken before this one.
+    double t = 0;               ///< The stage's time when the step begins.
+    double length = 0;          ///< The time step.
+    double next_t = 0;          ///< The stage's time when the next step begins.
+    /// If this becomes true, the step may be abandoned.
+    const std::atomic<bool>* cancel = nullptr;
 
-    /// Abandons the step if it is cancelled. Any thread may call it at any time.
+    /// Abandons the step if the run was cancelled. Any thread may call it at any time.
     void leave_if_cancelled() const {
         if (cancel != nullptr && cancel->load(std::memory_order_relaxed)) abandon_work();
     }
@@ -40,22 +42,23 @@ struct StepMoment {
 /// The planes of every register, one per species, in the problem's precision.
 using Registers = std::span<const std::span<Field>>;
 
-/// Called for rows that a pass has just written, by the thread that wrote them while they are in
-/// the cache. If grids are cut along columns, any thread calls it.
+/// Called for rows that a pass has just written, by the thread that wrote them, while they are in
+/// the cache. If the grid is cut along columns, any thread may call it.
 using RowsWritten = std::function<void(RowRange)>;
 
 template <typename Number>
 class ConstraintSolver;
 
-/// The planes of a problem in this process: of the whole grid, or of a part with as much of the
-/// other parts as passes read.
+/// The layout of a problem's planes in this process. They cover the whole grid or, if `others` is
+/// not null, a part of the grid and as many rows of other parts as passes read.
 PlaneLayout layout_of(const StepProblem& problem, const Exchange* others);
 
 class PassRunner {
 public:
-    /// Allocates temporaries. `others` are the other parts of the grid; null: it computes all of
-    /// it. The work of all threads in use then begins and ends with that of other parts. What
-    /// `problem` refers to lies on the whole grid. Both must outlive the runner.
+    /// Allocates temporaries. `others` are the other parts of the grid, or null if this process
+    /// computes the whole grid. With other parts, all threads begin and end their work together
+    /// with them. Fields and masks that `problem` refers to cover the whole grid. `problem` and
+    /// `others` must outlive the runner.
     explicit PassRunner(const StepProblem& problem, Exchange* others = nullptr);
     ~PassRunner();
 
@@ -76,15 +79,16 @@ public:
     struct Arguments {
         std::vector<Level<Number>> levels;
         std::vector<std::vector<Number>>
-            uniforms;  ///< Per pass. Aggregates have their latest values.
+            uniforms;  ///< The uniforms of each pass, with the latest values of aggregates.
         IdVector<AggregateId, Number> aggregates;
     };
     /// The data of one thread.
     struct alignas(64) Worker {
         int number = 0;  ///< The thread's number among the `count` threads in use.
         int count = 1;
-        RowRange rows;  ///< This thread's rows,
-        Patch cells;    ///< and its cells, a fair share even if there are few rows.
+        RowRange rows;  ///< This thread's rows.
+        Patch cells;    ///< This thread's cells. All threads have nearly equal shares even if the
+                        ///< grid has few rows.
         std::vector<DiffusionSymbol> symbols;
         std::variant<Arguments<float>, Arguments<double>> arguments;
         std::vector<double> row_values;
@@ -92,32 +96,33 @@ public:
     /// Prepares a worker for its rows, as thread `number` of `count`.
     void prepare(Worker& worker, int number, int count) const;
 
-    /// One thread's share of a step. All threads of the team in use call it with the same registers
-    /// and moment. When it returns, this thread's rows of the results are written and their halo
-    /// filled. After another barrier of the team, every thread sees them.
+    /// Does one thread's share of a step. All threads of the team in use call it with the same
+    /// registers and moment. When it returns, this thread's rows of the results are written and
+    /// their halo is filled. After another barrier of the team, every thread sees them.
     void run(Worker& worker, Team& team, Registers registers, const StepMoment& moment);
 
-    /// Runs all passes once. The team shares the rows.
+    /// Runs all passes once. The threads of the team share the rows.
     void run_once(Team& team, Registers registers, const StepMoment& moment);
 
-    /// Does what must precede the pass's kernel: constraints, convolutions, reductions and filters.
-    /// All threads of the team call it, as they call run().
+    /// Does what must precede the kernel of a pass: constraints, convolutions, reductions and
+    /// filters. All threads of the team call it, as they call run().
     void prepare_pass(Worker& worker, Team& team, std::size_t pass, Registers registers,
                       const StepMoment& moment);
-    /// Binds a pass as level `level` of the worker. Reads registers now, not later. `is_near` says
-    /// that the values it reads will be in a near cache. `when_written` may be null and must
-    /// outlive the level.
+    /// Binds a pass as level `level` of the worker. Reads `registers` during this call only. If
+    /// `is_near` is true, the pass will find the values that it reads in a near cache.
+    /// `when_written` may be null and must outlive the level.
     void bind(Worker& worker, std::size_t level, std::size_t pass, Registers registers,
               const StepMoment& moment, bool is_near = false,
               const RowsWritten* when_written = nullptr);
-    /// Runs a bound level on some cells, and fills the halo that copies them.
+    /// Runs a bound level on some cells, and fills the halo cells that depend on them.
     void run_cells(Worker& worker, std::size_t level, const Patch& cells) const;
 
-    // For parts of a grid only. One thread calls these when all threads have written their rows.
+    // The next two functions are for parts of a grid only. One thread calls them when all threads
+    // have written their rows.
 
     /// Fills the halos of all results of a pass from other parts.
     void share_results(std::size_t pass, Registers registers);
-    /// The same of all species in one register.
+    /// Fills the halos of all species of one register from other parts.
     void share_species(std::span<Field> species) const;
 
     const StepProblem& problem() const { return problem_; }
@@ -125,11 +130,12 @@ public:
     const PlaneLayout& layout() const { return layout_; }
 
 private:
-    /// The cells that columns of the halo copy; nullopt if a side has a value of its own.
+    /// The cells whose values a kernel copies to the halo columns; nullopt if a side has a value of
+    /// its own.
     static std::optional<HaloColumns> copied_columns(const SideRules& sides, std::int64_t width);
-    /// Whole planes, on which the root of all parts computes what takes all cells.
+    /// Whole planes, on which the root of all parts does the computations that need all cells.
     struct WholeGrid;
-    /// Calls `work` with the runner, a worker and the registers of the whole grid.
+    /// Calls `work` with the runner, the worker and the registers of the whole grid.
     template <typename Work>
     void on_whole_grid(Worker& worker, Team& team, Registers registers, const Work& work);
     void share(std::span<const Exchange::Shared> planes) const;
@@ -166,23 +172,25 @@ private:
     std::unique_ptr<WholeGrid> whole_;  ///< Null until it is needed.
     PlaneLayout layout_;
     RowRange rows_;  ///< The rows that are computed here.
-    /// What passes need besides kernels.
+    /// Objects that passes need besides kernels.
     template <typename Number>
     struct Helpers {
-        std::optional<WaveFilter<Number>> waves;  ///< If the problem has diffusion for filters.
-        /// By pass and convolution of the pass; equal ones share a runner.
+        /// Empty unless the problem has filters of waves, which need its diffusion.
+        std::optional<WaveFilter<Number>> waves;
+        /// By pass and convolution of the pass. Equal convolutions share a runner.
         std::vector<std::vector<std::shared_ptr<ConvolutionRunner<Number>>>> convolutions;
-        /// By pass and constraint of the pass.
+        /// The solvers by pass, one for each constraint of the pass.
         std::vector<std::vector<std::unique_ptr<ConstraintSolver<Number>>>> solvers;
     };
     std::variant<Helpers<float>, Helpers<double>> helpers_;
     struct PassSides {
-        std::vector<SideRules> rules;       ///< Per result, before any side changes.
-        std::optional<HaloColumns> copied;  ///< The source of halo columns that a kernel fills.
+        std::vector<SideRules> rules;       ///< Per result: the rules before any side changes.
+        std::optional<HaloColumns> copied;  ///< The columns that a kernel copies to the halo.
     };
-    std::vector<PassSides> sides_;  ///< Per pass.
+    std::vector<PassSides> sides_;  ///< One per pass.
     IdVector<TemporaryId, Field> temporaries_;
-    IdVector<AggregateId, std::vector<double>> row_values_;  ///< Per aggregate and row.
+    /// For each aggregate: one value per row.
+    IdVector<AggregateId, std::vector<double>> row_values_;
 };
 
 }  // namespace cascade

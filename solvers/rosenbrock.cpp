@@ -1,5 +1,5 @@
-// The scheme as two sweeps. It stores the point of the second evaluation instead of k1, since h k1
-// is its difference from the old step.
+// Builds the scheme from two sweeps. Stores the point of the second evaluation instead of k1, since
+// h k1 is the difference between this point and the old step.
 #include "solvers/rosenbrock.h"
 
 #include <numbers>
@@ -51,7 +51,7 @@ Scheme ros2() {
 }
 
 Scheme with_embedded_error(Scheme scheme) {
-    constexpr std::uint32_t half = 4;  // The coefficient of the solution.
+    constexpr std::uint32_t half = 4;  // The index of the coefficient of the solution.
     scheme.error_register = scheme.add_register();
     scheme.forms.back().outputs.push_back({SweepOutput::Kind::change,
                                            {{Source::difference, 0, Weight::coefficient, half},

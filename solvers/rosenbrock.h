@@ -1,4 +1,4 @@
-// A Rosenbrock method: the reaction of each cell is implicit (internal to solvers/).
+// A Rosenbrock method, implicit in the reaction of each cell (internal to solvers/).
 #pragma once
 
 #include "solvers/scheme.h"
@@ -13,16 +13,16 @@ namespace cascade {
 ///     (1 − γ h J) k2 = f(old + h k1) − 2 k1
 ///     new = old + h (3/2 k1 + 1/2 k2)
 ///
-/// It is of second order for any matrix J (a W-method), and L-stable for the part of the rates that
-/// J differentiates. Here J has the derivatives within each cell, so that the equations of cells
-/// are independent and diffusion is explicit, as in Heun's method. As in H. H. Rosenbrock's own
-/// methods (The Computer Journal 5, 1963) J is evaluated at old for k1 and at old + h k1 for k2.
-/// The difference is a multiple of h, which does not affect the order, and J shares subexpressions
-/// with the rates there.
+/// The method is of second order for any matrix J (a W-method), and L-stable for the part of the
+/// rates whose derivatives are in J. Here J has the derivatives within each cell, so that the
+/// equations of cells are independent and diffusion is explicit, as in Heun's method. Like in H. H.
+/// Rosenbrock's own methods (The Computer Journal 5, 1963), J is evaluated at old for k1 and at old
+/// + h k1 for k2. The difference between the two is of order h and does not affect the method's
+/// order, and J shares subexpressions with the rates at the same point.
 Scheme ros2();
 
-/// The same step with an estimate of its error: h/2 (k1 + k2), its difference from old + h k1,
-/// which is of first order.
+/// ros2() with an estimate of its error: h/2 (k1 + k2), which is the difference between the new
+/// step and old + h k1, a step of first order.
 Scheme with_embedded_error(Scheme scheme);
 
 }  // namespace cascade

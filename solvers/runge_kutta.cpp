@@ -1,6 +1,6 @@
 // Butcher tableaux as sweeps.
 //
-// A step without an error estimate stores its stages and not its rates. Step · k_j is a sum of
+// A step without an error estimate stores its stages instead of its rates. Step · k_j is a sum of
 // differences between stages, so a sweep writes only one plane of each species.
 #include "solvers/runge_kutta.h"
 
@@ -33,7 +33,7 @@ double time_of(const std::vector<double>& row) {
     return std::accumulate(row.begin(), row.end(), 0.0);
 }
 
-/// Each stage is in a register. Differences from the old step replace rates.
+/// A scheme with each stage in a register. Differences from the old step replace rates.
 class StateScheme {
 public:
     explicit StateScheme(const ButcherTableau& tableau) : tableau_(tableau) {}
@@ -46,8 +46,8 @@ public:
     }
 
 private:
-    /// Stage 0 is the old step. The stage after the last is the new step, which overwrites stage 1
-    /// cell by cell unless rates are evaluated there.
+    /// Stage 0 is the old step. The stage after the last is the new step. It overwrites stage 1
+    /// cell by cell, unless rates are evaluated at the new step.
     RegisterId register_of(std::uint32_t stage) const {
         if (stage == 0) return old_register;
         if (stage == tableau_.b.size()) return new_register;
@@ -58,8 +58,9 @@ private:
         return stage < tableau_.b.size() ? tableau_.a[stage] : tableau_.b;
     }
 
-    /// The weights of the differences stage − old that express Σ weights[j] step k_j without the
-    /// last rate: row j + 1 of the tableau gives k_j from stage j + 1 and the earlier rates.
+    /// The weights that turn the differences (stage − old) into Σ weights[j] step k_j, without the
+    /// term of the last rate. Row j + 1 of the tableau gives k_j from stage j + 1 and the earlier
+    /// rates.
     std::vector<double> weights_of_stages(std::vector<double> weights) const {
         std::vector<double> of_stages(weights.size(), 0);
         for (std::size_t stage = weights.size() - 1; stage > 0; --stage) {
@@ -97,7 +98,7 @@ private:
             sweep.coefficients.push_back({weights[other], false});
         }
         state.terms.push_back(own_rate(form, sweep, row.back()));
-        // The old values come last, so that the small terms are added to each other first.
+        // Adds the old values last, so that the small terms are added to each other first.
         state.terms.push_back({Source::value, form.base_input});
         form.outputs = {std::move(state)};
         add(scheme_, std::move(form), std::move(sweep));
@@ -107,8 +108,8 @@ private:
     Scheme scheme_;
 };
 
-/// Each rate is in a register, because the error is a small difference of large rates. The error
-/// includes the new step's rate, which is also the first rate of the next step.
+/// A scheme with each rate in a register, because the error is a small difference of large rates.
+/// The error includes the new step's rate, which is also the first rate of the next step.
 class EmbeddedScheme {
 public:
     explicit EmbeddedScheme(const ButcherTableau& tableau)
@@ -133,7 +134,7 @@ private:
         return stage + 1 < tableau_.b.size() ? tableau_.a[stage + 1] : tableau_.b;
     }
 
-    /// Is the rate of a stage read by any row but the next?
+    /// Whether any row after the next reads the rate of a stage.
     bool is_read_later(std::uint32_t stage) const {
         for (std::uint32_t later = stage + 1; later < tableau_.b.size(); ++later) {
             if (row_after(later)[stage] != 0) return true;
@@ -141,7 +142,8 @@ private:
         return tableau_.error[stage] != 0;
     }
 
-    /// Adds step · weights[j] · k_j from the registers of rates, except for the last weight.
+    /// Adds the terms step · weights[j] · k_j from the registers of rates, except for the last
+    /// weight.
     void add_kept_rates(SweepForm& form, Sweep& sweep, SweepOutput& output,
                         const std::vector<double>& weights) const {
         for (std::size_t j = 0; j + 1 < weights.size(); ++j) {
@@ -153,7 +155,7 @@ private:
         }
     }
 
-    /// Returns the register of the rate.
+    /// Stores the rate that a sweep evaluates. Returns its register.
     RegisterId keep_rate(SweepForm& form, Sweep& sweep) {
         form.outputs.push_back({SweepOutput::Kind::change, {{Source::rate}}});
         return sweep.outputs.emplace_back(scheme_.add_register());
@@ -167,7 +169,8 @@ private:
         add(scheme_, std::move(form), std::move(sweep));
     }
 
-    /// Evaluates no rate, because the step's length was unknown when the first rate was evaluated.
+    /// Adds the sweep that writes stage 1 from the first rate. It evaluates no rate, because the
+    /// step's length was unknown when the first rate was evaluated.
     void add_second_state() {
         SweepForm form;
         Sweep sweep;
@@ -220,9 +223,10 @@ private:
 
     const ButcherTableau& tableau_;
     Scheme scheme_;
-    /// Stages alternate between the two.
+    /// Stages alternate between these two registers.
     std::array<RegisterId, 2> state_registers_{scheme_.add_register(), scheme_.add_register()};
-    std::vector<std::optional<RegisterId>> rate_register_;  ///< By stage; nullopt if not stored.
+    /// By stage: the register of its rate; nullopt if the rate is not stored.
+    std::vector<std::optional<RegisterId>> rate_register_;
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Explicit Runge-Kutta methods from their Butcher tableaux (internal to solvers/).
+// Explicit Runge-Kutta methods, made from their Butcher tableaux (internal to solvers/).
 #pragma once
 
 #include "solvers/scheme.h"
@@ -12,8 +12,8 @@ namespace cascade {
 struct ButcherTableau {
     std::vector<std::vector<double>> a;  ///< Row i has i entries.
     std::vector<double> b;
-    /// The error is step · Σ error[j] k_j. An additional last k is the rate of the new step itself.
-    /// Empty if the method has no estimate.
+    /// The error is step · Σ error[j] k_j. This sum has one term more than the sum with `b`: the
+    /// last k is the rate at the new step. Empty if the method has no estimate.
     std::vector<double> error;
 };
 

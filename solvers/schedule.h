@@ -15,89 +15,105 @@
 
 namespace cascade {
 
-/// Called on the caller's thread with the number of complete steps, except for `first_step`. The
-/// species (the vector that was given to the loop) hold that step's values, which have been found
-/// finite. Returns false to end the stage there.
+/// Called on the thread that called the loop, with the number of complete steps, but not at
+/// `first_step`. The vector of species that was given to the loop holds the values after these
+/// steps, which have been checked to be finite. Returns false to end the stage.
 using Observer = std::function<bool(std::int64_t step, double t, std::span<const Field> species)>;
-/// Called likewise, but returns true to end the stage.
+/// Called like an Observer, but returns true to end the stage.
 using EndTest = Observer;
-/// Called likewise; cannot influence the run.
+/// Called like an Observer, but cannot influence the run.
 using Onlooker = std::function<void(std::int64_t step, double t, std::span<const Field> species)>;
 
-/// Called on the caller's thread at a complete step. A run that resumes from its arguments gets the
-/// same bits. Species are as for an Observer.
+/// Called on the thread that called the loop, after a complete step. A run that resumes with these
+/// arguments and the present species continues with the same bits.
 using Keeper = std::function<void(std::int64_t step, double t, const TimeState& time)>;
 
 /// The length and the passes of the next steps.
 struct StepChoice {
     double step = 0;                       ///< Length of the steps.
-    const StepProblem* problem = nullptr;  ///< The passes of a step,
-    const StepProblem* judged = nullptr;   ///< and of a step with an estimated error, if any.
+    const StepProblem* problem = nullptr;  ///< The passes of a step without an estimated error.
+    const StepProblem* judged = nullptr;  ///< The passes of a step with an estimated error, if any.
 };
-/// Chooses the next steps from the present values, in the caller's vector, and from the `time` so
-/// far. May change any part of `time` except the clock and the controller. `rejected` says that the
-/// last choice was too long.
+/// Chooses the next steps from the present values, which are in the vector of species given to the
+/// loop, and from the `time` so far. May change any part of `time` except the clock and the
+/// controller. If `rejected` is true, the step chosen last was too long.
 using StepChooser = std::function<StepChoice(std::int64_t step, TimeState& time, bool rejected)>;
 
 /// Which steps to take, and how often to check and observe them.
 struct Schedule {
-    std::int64_t first_step = 0;  ///< Complete steps so far (more than 0 after a resume).
-    std::int64_t last_step = 0;   ///< Stop when this number is complete.
-    /// Later calls will probably continue up to this step, so trials for speed may pay off.
+    std::int64_t first_step = 0;  ///< Number of complete steps so far (more than 0 after a resume).
+    std::int64_t last_step = 0;   ///< Stop when this number of steps is complete.
+    /// The step up to which later calls will probably continue. If it is far ahead, longer trials
+    /// for speed are worth their cost.
     std::int64_t planned_step = 0;
-    TimeState time = {};  ///< At `first_step`.
+    TimeState time = {};  ///< The time at `first_step`.
     /// Stop when t reaches this. The last step is shortened to end there.
     double end_time = std::numeric_limits<double>::infinity();
-    /// `observe` is called at multiples of this. If it is 0 and there is an end time, `observe` is
-    /// called at the first step that reaches a tenth of it, two tenths, …
+    /// If above 0, a step ends at each multiple of this time. A step that would pass it is shorter.
+    double every = 0;
+    /// The length of all other steps, unless they are chosen.
+    double fixed_step = 0;
+    /// The interval of observations: `observe` is called at multiples of this number of steps. If
+    /// it is 0, `observe` is called at the first step that reaches a mark, two marks, and so on: a
+    /// multiple of `every`, or else a tenth of the end time.
     std::int64_t interval = 0;
-    /// The first moment after t, or infinity: the loop also stops at the last step that begins
-    /// before it and at the one after that, and observes all its stops. No step becomes shorter.
+    /// Returns the first moment to observe after t, or infinity. The loop observes at the last
+    /// complete step before that moment and at the step after it. It shortens no step to reach the
+    /// moment.
     std::function<double(double t)> next_moment = {};
-    bool tenths = false;     ///< Also observe at tenths if `interval` is not 0.
+    bool marks = false;      ///< Whether `observe` is called at marks as well if `interval` is
+                             ///< not 0.
     std::int64_t check = 0;  ///< `ends` is called at multiples of this; 0: never.
     EndTest ends = {};
-    /// `choose` is called at multiples of this, including 0, or with a tolerance after every step
-    /// with an estimated error.
+    /// `choose` is called at multiples of this number of steps, including 0. With a tolerance, it
+    /// is called after every step with an estimated error instead.
     std::int64_t choose_every = 0;
     StepChooser choose = {};
-    /// If the steps before `first_step` are unknown, as when a run continues with other equations,
-    /// `choose` is called there, too.
+    /// Set if the steps before `first_step` are unknown, for example if a run continues with other
+    /// equations. `choose` is then called at `first_step`, too.
     bool begins_anew = false;
-    /// If above 0, errors are estimated, of all steps or of the steps that `choose` selects. A step
+    /// If above 0, errors are estimated: for all steps, or for those that `choose` selects. A step
     /// whose error exceeds this fraction of the values is repeated with a shorter length.
     double tolerance = 0;
-    double largest_step = std::numeric_limits<double>::infinity();  ///< Limit of their length,
-    std::function<double(double t)> longest_step = {};  ///< and the limit for a step that begins at
-                                                        ///< t.
-    /// If rates jump, the step after one that ends at t begins a rounding error later.
+    /// The largest length of any step.
+    double largest_step = std::numeric_limits<double>::infinity();
+    /// The largest length of a step that begins at t.
+    std::function<double(double t)> longest_step = {};
+    /// If rates jump at certain times: maps the time t at which a step ends to the time at which
+    /// the next step begins, which is later by a rounding error.
     std::function<double(double t)> time_after = {};
-    int error_order = 1;  ///< The error is proportional to this power of the step.
+    int error_order = 1;  ///< The error is proportional to the step to this power.
     /// With a tolerance: the passes of a step with an estimated error, if not all steps have one.
     const StepProblem* judged = nullptr;
-    bool judges_all = false;        ///< The error of every step is estimated.
-    std::int64_t check_every = 64;  ///< Steps between two checks for non-finite values.
-    Onlooker onlooker = {};         ///< Sees the species at each of those checks.
-    /// At each check, a copy of all species is stored to find the step that spoils a value, unless
-    /// it takes more than this number of bytes, memory that the user needs for cells.
+    bool judges_all = false;        ///< Whether the error of every step is estimated.
+    std::int64_t check_every = 64;  ///< Number of steps between two checks for non-finite values.
+    Onlooker onlooker = {};         ///< Called at each check for non-finite values.
+    /// The largest size of a copy of all species, in bytes. Such a copy is stored at each check, so
+    /// that the step that spoils a value can be found. If the copy would be larger, it is not
+    /// stored, because the user needs that memory for cells.
     std::int64_t most_kept_bytes = std::int64_t{256} << 20;
-    /// Called before each batch of steps (about 20 ms): must the state after it be saved? If so,
-    /// that state is also checked for non-finite values, and `keep` is called. Results do not
-    /// depend on it.
+    /// Called before each batch of steps (about 20 ms). Returns whether the state after the batch
+    /// must be saved. If so, that state is also checked for non-finite values, and `keep` is
+    /// called. The answer does not influence the run's results.
     std::function<bool()> keep_is_due = {};
     Keeper keep = {};
     int threads = 1;
-    MakeExecutor executor = make_thread_executor;  ///< What takes the steps.
-    /// The tiling; none: chosen by size and by time. No result depends on it.
+    MakeExecutor executor = make_thread_executor;  ///< Makes the executor of the steps.
+    /// The tiling to use. If empty, it is chosen by the sizes of caches and by measured times. No
+    /// result depends on the tiling.
     std::optional<Tiling> tiling = {};
-    /// Knows the fastest tiling of earlier runs and receives this run's; may be null.
+    /// Gives the fastest tiling of earlier runs and receives the fastest tiling of this run; may be
+    /// null.
     TilingMemory* tilings = nullptr;
 };
 
-/// The number of tenths of the end time that have passed; 0 without an end time.
-double tenths_reached(double t, double end_time);
+/// The number of marks that t has reached: multiples of `every`, or if it is 0, tenths of the end
+/// time; 0 without either.
+double marks_reached(double t, double end_time, double every);
+/// The next multiple of `every`; infinity if it is 0.
+double next_mark(double t, double every);
 
-/// Does Schedule::most_kept_bytes allow a copy of such species?
+/// Whether a copy of species with this grid and precision is within Schedule::most_kept_bytes.
 bool keeps_copy(const Schedule& schedule, std::size_t species, const Grid& grid,
                 Precision precision);
 

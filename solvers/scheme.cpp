@@ -1,5 +1,6 @@
 // Schemes of one sweep and stabilised schemes. Butcher tableaux are in runge_kutta.cpp, schemes
-// that filter waves in semi_implicit.cpp, and one that solves equations in cells in rosenbrock.cpp.
+// that filter waves in semi_implicit.cpp, and the scheme that solves equations in each cell in
+// rosenbrock.cpp.
 //
 // Stabilised Runge-Kutta-Legendre: C. D. Meyer, D. S. Balsara, T. D. Aslam, "A stabilized
 // Runge-Kutta-Legendre method for explicit super-time-stepping of parabolic and mixed equations",
@@ -36,7 +37,8 @@ Scheme euler(bool by_item) {
     return scheme;
 }
 
-/// One sweep for each species, in order of writing. It sees the new values of earlier species.
+/// One sweep for each species, in order of writing. Each sweep reads the new values of earlier
+/// species.
 Scheme symplectic(std::uint32_t species, bool by_item) {
     const Scheme whole = euler(by_item);
     Scheme scheme;
@@ -50,8 +52,9 @@ Scheme symplectic(std::uint32_t species, bool by_item) {
     return scheme;
 }
 
-/// The register of the state after part j of a step: the old step, then two in turn, because part j
-/// may overwrite part j − 2 cell by cell. The last part is the new step.
+/// The register of the state after part j of a step. Part 0 is the old step and the last part the
+/// new one. Parts between them alternate between two registers, because part j may overwrite part j
+/// − 2 cell by cell.
 RegisterId register_of_part(std::uint32_t j, std::uint32_t parts) {
     if (j == 0) return old_register;
     return (parts - j) % 2 == 0 ? new_register : first_scratch_register;
@@ -66,9 +69,9 @@ SweepForm first_legendre_form() {
     return form;
 }
 
-/// Y_j = ((j − 1)/j (Y_{j−1} − Y_{j−2}) + μ̃ τ L(Y_{j−1})) + Y_{j−1}, the paper's sum in another
-/// order: its factors of Y_{j−1} and Y_{j−2} add up to 1. A sweep thus reads no third stage.
-/// Inputs: Y_{j−1}, Y_{j−2}.
+/// Y_j = ((j − 1)/j (Y_{j−1} − Y_{j−2}) + μ̃ τ L(Y_{j−1})) + Y_{j−1}. This is the paper's sum in
+/// another order, whose factors of Y_{j−1} and Y_{j−2} add up to 1, so a sweep reads no third
+/// stage. Inputs: Y_{j−1}, Y_{j−2}.
 SweepForm rkl1_form() {
     SweepForm form;
     form.inputs = 2;
@@ -103,7 +106,7 @@ Scheme rkl1(std::uint32_t stages) {
     return scheme;
 }
 
-/// Coefficients of one stage j of rkl2, by their names in the paper.
+/// The coefficients of stage j of rkl2, by their names in the paper.
 struct LegendreStage {
     double mu = 0, nu = 0, mu_tilde = 0, gamma_tilde = 0;
 };
@@ -137,8 +140,8 @@ double rkl2_time(std::uint32_t j, std::uint32_t stages) {
     return (n * n + n - 2) / (s * s + s - 2);
 }
 
-/// Y_j = ((μ (Y_{j−1} − Y₀) + ν (Y_{j−2} − Y₀)) + μ̃ τ L(Y_{j−1}) + γ̃ τ L(Y₀)) + Y₀, the paper's
-/// sum in another order. Inputs: Y_{j−1}, Y₀, then Y_{j−2} unless it is Y₀, then L(Y₀).
+/// Y_j = ((μ (Y_{j−1} − Y₀) + ν (Y_{j−2} − Y₀)) + μ̃ τ L(Y_{j−1}) + γ̃ τ L(Y₀)) + Y₀. This is the
+/// paper's sum in another order. Inputs: Y_{j−1}, Y₀, then Y_{j−2} unless it is Y₀, then L(Y₀).
 SweepForm rkl2_form(bool second) {
     SweepForm form;
     form.inputs = 2;
@@ -156,7 +159,7 @@ SweepForm rkl2_form(bool second) {
     return form;
 }
 
-/// The register after the stages holds L(Y₀).
+/// L(Y₀) is stored in the register that follows the registers of the stages.
 Scheme rkl2(std::uint32_t stages) {
     Scheme scheme;
     scheme.registers = registers_of_parts;

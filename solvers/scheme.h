@@ -1,7 +1,9 @@
-// Time integrators: how a step is composed of sweeps of the rates.
+// Time integrators: how a step is composed of sweeps. A sweep evaluates the rates once in all cells
+// (ir/sweep_form.h).
 //
-// A scheme is data: forms (each becomes a kernel) and the sweeps of one step. The coefficients
-// multiply the time step when a step is taken, so that it may change from step to step.
+// A scheme is data: forms, each of which becomes a kernel, and the sweeps of one step. Coefficients
+// are multiplied by the time step only when a step is taken, so the time step may change from step
+// to step.
 #pragma once
 
 #include "ir/solver.h"
@@ -14,7 +16,7 @@
 
 namespace cascade {
 
-/// For a method whose last rate is the first rate of the next step ("first same as last").
+/// Registers of a method whose last rate is the first rate of the next step ("first same as last").
 struct RateRegisters {
     RegisterId first, last;
 
@@ -24,29 +26,30 @@ struct RateRegisters {
 struct Scheme {
     std::uint32_t registers = 2;
     std::vector<SweepForm> forms;
-    std::vector<Sweep> sweeps;  ///< In order. One of the last writes the new step.
+    std::vector<Sweep> sweeps;  ///< In order. One of the last sweeps writes the new step.
     /// An estimate of the step's error, of order order_of() in the length of the step.
     std::optional<RegisterId> error_register;
-    /// If set, sweep 0 only writes the first rate, and the last sweep writes the last one. In a
+    /// If set, sweep 0 writes only the first rate, and the last sweep writes the last rate. In a
     /// step that follows another, the two registers are swapped and sweep 0 is left out.
     std::optional<RateRegisters> rate_registers;
 
     RegisterId add_register() { return RegisterId(registers++); }
-    /// Evaluations of the rates in a step that follows another.
+    /// The number of evaluations of the rates in a step that follows another.
     std::size_t evaluations() const;
 };
 
 /// Builds the scheme of a solver.
 ///
-/// `species` is the number of species of the system. With `by_item`, the step of `euler` and
-/// `symplectic` is the stage's item `speed`, which may vary by cell, instead of the time loop's.
-/// `stages` is for stabilised solvers only: an odd number, at least least_stages().
+/// `species` is the number of species of the system. If `by_item` is true, `euler` and `symplectic`
+/// take the length of the step from the stage's setting `speed`, which may vary by cell, instead of
+/// from the time loop. `stages` is for stabilised solvers only: an odd number, at least
+/// least_stages().
 Scheme make_scheme(Solver solver, std::uint32_t species, bool by_item, std::uint32_t stages = 3);
 
-/// Writes only the rates at input 0.
+/// A form that writes only the rates at input 0.
 SweepForm rate_form();
 
-/// An explicit Euler step divided into `count` equal parts, at least 2.
+/// The scheme of explicit Euler steps, each divided into `count` equal parts, at least 2.
 Scheme make_substeps(std::uint32_t count);
 
 }  // namespace cascade

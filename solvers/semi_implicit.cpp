@@ -1,4 +1,4 @@
-// The schemes as lists of sweeps: rates, then sums of the old step and a filter's results.
+// The schemes as lists of sweeps. Each evaluates rates, or adds a filter's results to the old step.
 #include "solvers/semi_implicit.h"
 
 #include <utility>
@@ -12,7 +12,8 @@ using Weight = SweepTerm::Weight;
 /// c · change + old. The change is the second input.
 SweepForm sum_form() {
     SweepForm form;
-    form.holds = true;  // A filter spreads the changes of free cells into frozen ones.
+    // A filter spreads the changes of free cells into frozen ones, which must keep their values.
+    form.holds = true;
     form.inputs = 2;
     form.coefficients = 1;
     form.outputs = {{SweepOutput::Kind::state,
@@ -20,7 +21,8 @@ SweepForm sum_form() {
     return form;
 }
 
-/// Adds the rates at `from`, and the old step plus the filtered rates.
+/// Adds two sweeps. The first writes the rates at `from`. The second filters them and adds the
+/// result to the old step.
 void add_stage(Scheme& scheme, RegisterId change, RegisterId from, double time,
                SweepFilter filter) {
     Sweep rate, sum;
@@ -52,7 +54,7 @@ Scheme etdrk4() {
     std::vector<RegisterId> kept;
     for (std::size_t k = 0; k < etd_registers; ++k) kept.push_back(scheme.add_register());
     scheme.forms = {rate_form(), sum_form()};
-    // Points before the last are stored in the new step's register.
+    // All points but the last are stored in the new step's register.
     add_stage(scheme, change, old_register, 0, {change, WaveResponse::etd_first, kept});
     add_stage(scheme, change, new_register, 0.5, {change, WaveResponse::etd_second, kept});
     add_stage(scheme, change, new_register, 0.5, {change, WaveResponse::etd_third, kept});

@@ -1,4 +1,4 @@
-// How well the fields of constraints were found.
+// The accuracy with which the fields of constraints were found.
 #pragma once
 
 namespace cascade {
@@ -6,9 +6,11 @@ namespace cascade {
 /// Statistics of a constraint's solutions.
 struct SolveReport {
     int most_iterations = 0;
-    double largest_rest = 0;  ///< The residual's norm over the constraint's without the field.
-    /// The constraint's mean without the field, over its root mean square. No field balances it.
-    /// Only for fields to which any constant may be added.
+    /// The norm of the residual, divided by the norm that the constraint has if its field is 0. The
+    /// largest of all solutions.
+    double largest_rest = 0;
+    /// The mean of the constraint if its field is 0, divided by the root mean square. No field can
+    /// balance this mean. Set only for fields to which any constant may be added.
     double largest_mean = 0;
 };
 

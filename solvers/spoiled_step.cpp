@@ -1,4 +1,4 @@
-// Replays steps to find the one that spoiled a value.
+// Replays steps to find the step that spoiled a value.
 #include "solvers/spoiled_step.h"
 
 #include "core/check.h"
@@ -22,7 +22,7 @@ std::int64_t replay(Stepper& stepper, std::int64_t last_finite, std::int64_t spo
         outcome.not_finite = find_not_finite(stepper.species(), spoiled, last_finite);
         return spoiled;
     }
-    // If the replay is abandoned.
+    // This remains the answer if the replay is abandoned.
     outcome.not_finite = find_not_finite(stepper.species(), spoiled, last_finite);
     stepper.back();
     for (const Field& field : stepper.species()) outcome.last_checked.push_back(field.clone());

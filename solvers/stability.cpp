@@ -1,12 +1,13 @@
 // Eigenvalues of the Jacobian of the rates by power iteration.
 //
-// The Jacobian J is never formed: J v is the central difference of the rates along v. Species of
-// different size are measured in units of their own root mean square, which changes no eigenvalue.
-// Plain iteration finds the eigenvalue of largest magnitude. If it is positive, iterating with J −
-// c, c > 0 its magnitude, moves the spectrum to the left and finds the most negative one. The
-// eigenvalue is computed from the last three iterates w, Jw, JJw: λ² + pλ + q = 0 with p and q by
-// least squares holds for a single leading eigenvalue and for a leading pair, real or complex (J.
-// H. Wilkinson, "The Algebraic Eigenvalue Problem", 1965, chapter 9).
+// The Jacobian J is never formed: J v is the central difference of the rates along v. Each species
+// is measured in units of its own root mean square, because species may differ in size. This
+// changes no eigenvalue. Plain iteration finds the eigenvalue of largest magnitude. If it is
+// positive, iterating with J − c, where c > 0 is its magnitude, moves the spectrum to the left and
+// finds the most negative eigenvalue. Eigenvalues are computed from the last three iterates w, Jw,
+// JJw: least squares fit p and q in JJw + p Jw + q w = 0, and the roots of λ² + pλ + q = 0 are the
+// eigenvalues. This covers a single leading eigenvalue and a leading pair, real or complex (J. H.
+// Wilkinson, "The Algebraic Eigenvalue Problem", 1965, chapter 9).
 #include "solvers/stability.h"
 
 #include "core/check.h"
@@ -22,14 +23,14 @@
 namespace cascade {
 namespace {
 
-/// The error for diffusion on a plane is about 1 / (2 · iterations). Big grids get fewer, so that a
-/// user whose run has failed need not wait.
+/// The error for diffusion on a plane is about 1 / (2 · iterations). Large grids get fewer
+/// iterations, so that a user whose run has failed need not wait.
 constexpr std::size_t least_iterations = 16, most_iterations = 200;
 constexpr std::size_t entries_to_visit = 50'000'000;
 
-/// The largest change of a value in a difference, in units of its species' root mean square: near
-/// the cube root of the rounding error, where the errors of truncation and of rounding of a central
-/// difference are equal.
+/// The largest change of a value in a difference, in units of its species' root mean square. It is
+/// near the cube root of the rounding error, where the truncation error and the rounding error of a
+/// central difference are equal.
 double difference_step(Precision precision) {
     return precision == Precision::single ? 0.005 : 6e-6;
 }
@@ -42,8 +43,8 @@ double dot(const Vector& a, const Vector& b) {
     return sum;
 }
 
-/// Fixed noise in (−1, 1) that contains every mode: the SplitMix64 mixer of a counter (G. Steele,
-/// D. Lea, C. Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014).
+/// Fixed noise in (−1, 1) that contains every mode, made by the SplitMix64 mixer of a counter (G.
+/// Steele, D. Lea, C. Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014).
 double noise(std::uint64_t number) {
     std::uint64_t word = (number + 1) * 0x9e3779b97f4a7c15ULL;
     word = (word ^ (word >> 30)) * 0xbf58476d1ce4e5b9ULL;
@@ -75,8 +76,9 @@ public:
             scales_.push_back(
                 field.visit([&](const auto& plane) { return root_mean_square(plane); }));
         }
-        // A species that is zero everywhere gets the scale of the others. For a species that has
-        // almost died out, differences would be lost among denormals.
+        // A species that is zero everywhere gets the scale of the largest species. A species that
+        // has almost died out gets at least a billionth of that scale. With a smaller scale,
+        // differences would be lost among denormals.
         const double largest = *std::max_element(scales_.begin(), scales_.end());
         for (double& scale : scales_) {
             if (!(scale > 0)) scale = largest > 0 ? largest : 1;
@@ -133,7 +135,8 @@ private:
         return std::sqrt(squares / static_cast<double>(cells()));
     }
 
-    /// Adds weight · rates(state + step · v), in units of the scales. Frozen cells have rate 0.
+    /// Adds weight · rates(state + step · v) to `sum`, in units of the scales. Frozen cells have
+    /// rate 0.
     void add_rates(const Vector& v, double step, double weight, Vector& sum) {
         with_number(rates_.precision,
                     [&](auto zero) { add_rates_of<decltype(zero)>(v, step, weight, sum); });
@@ -157,7 +160,8 @@ private:
             const double scaled_weight = weight / scales_[k];
             const Plane<Number>& rates = rates_of_[k].template plane<Number>();
             for_each_cell([&](std::size_t n, std::int64_t i, std::int64_t row) {
-                // Not a product: a frozen cell may have any rate, even an infinite one.
+                // A test instead of a product with the mask, because a frozen cell may have any
+                // rate, even an infinite one.
                 if (moves_.row(row)[i] != 0) entries[n] += scaled_weight * rates.row(row)[i];
             });
         }
@@ -166,7 +170,7 @@ private:
     void run_kernel() {
         rates_.fill_halos(moved_);
         const std::array<std::span<Field>, 2> registers{moved_, rates_of_};
-        // White noise needs a step of nonzero length. It cancels in differences.
+        // White noise needs a step whose length is not 0. The noise cancels in differences.
         team_.run([&](int) { runner_.run(worker_, team_, registers, {0, 0, 1, 1, cancel_}); });
     }
 
@@ -183,7 +187,7 @@ private:
 };
 
 /// Chooses p and q so that |w₂ + p w₁ + q w₀| is smallest, where w₀ has length 1. Returns the root
-/// of λ² + pλ + q of larger magnitude, or either one of a complex pair.
+/// of λ² + pλ + q of larger magnitude, or either root of a complex pair.
 std::complex<double> leading_root(const Vector& w0, const Vector& w1, const Vector& w2) {
     const double along = dot(w0, w1);  // The Rayleigh quotient.
     const double across = dot(w1, w1) - along * along;
@@ -228,7 +232,7 @@ StabilityEstimate estimate_stability(const StepProblem& rates, std::span<const F
         const double shift = std::abs(fastest);
         fastest = shift + leading_eigenvalue(jacobian, shift);
     }
-    // A decay that differences cannot tell from zero counts as none.
+    // Ignores a decay that differences cannot distinguish from zero.
     if (fastest.real() < -1e-4 * std::abs(estimate.eigenvalue)) {
         estimate.largest_speed = -2 * fastest.real() / std::norm(fastest);
     }

@@ -15,19 +15,19 @@ struct StabilityEstimate {
     /// The eigenvalue of largest magnitude, in 1 / time, or the real part of a leading complex
     /// pair. 0 if the rates at the state are not finite.
     double eigenvalue = 0;
-    /// The largest explicit Euler step that damps the fastest decaying mode: 2 / |λ| of the most
-    /// negative eigenvalue λ (−2 Re λ / |λ|² of a complex pair). Empty if no eigenvalue is
-    /// negative. In that case, or if the speed in use is well below this one, growth has another
-    /// cause than the step.
+    /// The largest explicit Euler step that damps the fastest decaying mode: 2 / |λ| for the most
+    /// negative eigenvalue λ (−2 Re λ / |λ|² for a complex pair). Empty if no eigenvalue is
+    /// negative. If this is empty, or if the step in use is much shorter, the values grow for
+    /// another reason than the length of the step.
     std::optional<double> largest_speed;
 };
 
-/// Estimates stability at the state `species` by finite differences of the kernel of rates (one
-/// result per species, slots as for the step). Cells marked by `frozen` (nullptr: none) do not
-/// change. Takes at most about 800 evaluations of the rates on one thread. The error is within 2 %
-/// for diffusion, within 4 % above a million values. Deterministic. Only useful at a state before a
-/// blow-up, because at 1e20 any reaction looks stiff. Abandons its work when `cancel`, which may be
-/// null, becomes true.
+/// Estimates stability at the state `species` by finite differences of the kernel of rates, which
+/// has one result per species and the slots of a step. Cells marked by `frozen`, which may be null,
+/// do not change. Takes at most about 800 evaluations of the rates on one thread. For diffusion the
+/// error is at most 2 %, or 4 % with more than a million values. The result is the same in every
+/// run. Only useful at a state before values blow up: at values of 1e20 any reaction seems stiff.
+/// Abandons its work when `cancel`, which may be null, becomes true.
 StabilityEstimate estimate_stability(const StepProblem& rates, std::span<const Field> species,
                                      const Mask* frozen = nullptr,
                                      const std::atomic<bool>* cancel = nullptr);

@@ -1,4 +1,4 @@
-// The time of a stage, from its steps.
+// The time of a stage, computed from its steps.
 #pragma once
 
 #include "core/precision.h"
@@ -8,12 +8,12 @@
 
 namespace cascade {
 
-/// Computes the time from the number of complete steps. Steps have one length until set_step()
-/// changes it. Time is then counted from that step. The time of a step is thus rounded once and
-/// does not depend on where a run was interrupted.
+/// Computes the time from the number of complete steps. Steps have the same length until set_step()
+/// changes it. From then on, time is counted from the step of this change. So the time of a step is
+/// rounded only once, and it does not depend on where a run was interrupted.
 struct StageClock {
-    std::int64_t base_step = 0;               ///< The step from which steps have this length,
-    double base_time = 0;                     ///< and its time.
+    std::int64_t base_step = 0;               ///< The step from which steps have this length.
+    double base_time = 0;                     ///< The time of `base_step`.
     double step = 0;                          ///< The length of a step; 0 if it varies by cell.
     Precision precision = Precision::single;  ///< The run's precision, in which steps are counted.
 
@@ -38,27 +38,30 @@ struct StageClock {
     }
 };
 
-/// Bounds of the rates' Jacobian in some state, in 1 / time (lang/calculus/derivative.h). For a
-/// solver that is implicit in each cell, `whole` bounds the terms that read other cells, and
-/// `reaction` bounds growth.
+/// Bounds of the rates' Jacobian in some state, in 1 / time (lang/calculus/derivative.h). If the
+/// solver is implicit in each cell, `whole` bounds only the terms that read other cells, and
+/// `reaction` bounds the rate of growth.
 struct RateBounds {
-    double whole = 0;     ///< A bound of all eigenvalues.
-    double reaction = 0;  ///< The part that neither stages nor implicit diffusion stabilise.
-    bool jumps = false;   ///< Rates jump at thresholds, which the bounds do not include.
+    double whole = 0;  ///< A bound of all eigenvalues.
+    /// A bound of the part of the rates that neither a solver's stages nor implicit diffusion
+    /// stabilise.
+    double reaction = 0;
+    bool jumps = false;  ///< Whether rates jump at thresholds, which the bounds do not include.
 };
 
-/// The part of an interrupted stage's time that must be saved to continue with the same bits.
+/// The data about an interrupted stage's time that must be saved so that the stage can continue
+/// with the same bits.
 struct TimeState {
     StageClock clock;
-    std::uint32_t stages = 0;    ///< For a step of a stabilised solver.
-    StepControl::State control;  ///< For steps with an estimated error.
-    // For steps of chosen length:
-    double least_step = 0;  ///< A step as short as this is accepted whatever its error.
-    std::int64_t next_judged =
-        0;                     ///< The error is estimated for the step that completes this number,
-    std::int64_t stretch = 1;  ///< and for the step this much later.
+    std::uint32_t stages = 0;  ///< The number of stages in a step of a stabilised solver.
+    /// The state of the controller, for steps with an estimated error.
+    StepControl::State control;
+    // The members from here on are for steps of chosen length.
+    double least_step = 0;         ///< A step as short as this is accepted, whatever its error.
+    std::int64_t next_judged = 0;  ///< The number of the next step whose error is estimated.
+    std::int64_t stretch = 1;      ///< How many steps after that the error is estimated again.
     std::int64_t bounded_at =
-        -1;  ///< Complete steps when `bounds` were computed; −1 if they are unknown.
+        -1;  ///< Complete steps when `bounds` were computed; −1 if bounds are unknown.
     RateBounds bounds;
 };
 

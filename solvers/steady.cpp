@@ -10,17 +10,19 @@
 namespace cascade {
 namespace {
 
-/// A pattern has formed when its progress is this many times its smallest so far. Any pattern that
-/// grows out of noise or spreads over a plane far exceeds this: from 2 to 10, the table of
-/// spec/time.md does not change.
+/// A pattern has formed when its progress is this many times its smallest progress so far. Patterns
+/// that grow out of noise or spread over a plane exceed this by far: any factor from 2 to 10 gives
+/// the same table in spec/time.md.
 constexpr double rise_of_a_formation = 3;
 
-/// If the progress never rose, the pattern was there when the stage began, or it fades. It has
-/// settled when doubling the stage's age would change it by at most this fraction of its contrast.
-/// Noise that fades by diffusion, and may hide a growing pattern, stays above 0.35.
+/// If the progress never rose, the pattern existed when the stage began, or it is fading. Then it
+/// has settled if its speed would change it by at most this fraction of its contrast until the
+/// stage is twice as old. Noise that fades by diffusion may hide a growing pattern. Its progress
+/// stays above 0.35 of its contrast.
 constexpr double little_progress = 0.1;
 
-/// A flat field has no contrast, only the rounding of its values.
+/// Part of the root mean square that is added to the contrast. The deviation of a flat field is
+/// only the rounding of its values.
 constexpr double least_deviation = 1e-6;
 
 double contrast(const Field& field, const Mask* inside) {
@@ -68,7 +70,7 @@ bool SteadyWatch::settled(std::span<const Field> species, double t, double toler
         const double speed = change.root_mean_square / interval;
         Formation& formation = formations_[k];
         observe(formation, change.deviation / interval, t);
-        // The contrast costs passes over the plane and is seldom needed.
+        // Tested last, because the contrast costs passes over the plane and is seldom needed.
         all_settled =
             all_settled && speed <= tolerance * formation.speed &&
             (formation.risen || speed * t <= little_progress * contrast(species[k], inside));

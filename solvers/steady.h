@@ -1,8 +1,8 @@
 // Detects that a pattern has settled, for `until: steady(e)` (spec/time.md has the reasons).
 //
 // A pattern forms and then rearranges itself, for a longer time if its plane is larger. The two
-// phases differ in the speed at which cells change, relative to the stage's age t: at that speed,
-// another time t would change cells by speed · t. This *progress* rises while noise grows or fronts
+// phases differ in the *progress* speed · t: the change of cells, if they went on at their present
+// speed for as long as the stage has already run. Progress rises while noise grows or fronts
 // spread, is greatest when the pattern forms, and then falls.
 #pragma once
 
@@ -16,28 +16,30 @@ namespace cascade {
 
 /// The formation of one species so far.
 struct Formation {
-    double least = std::numeric_limits<double>::max();  ///< The smallest progress of its pattern,
-    double greatest = 0;                                ///< the greatest,
-    double speed = 0;    ///< the speed of its pattern at the greatest,
-    bool risen = false;  ///< and whether that was far above the smallest before it.
+    double least = std::numeric_limits<double>::max();  ///< The smallest progress of its pattern.
+    double greatest = 0;                                ///< The greatest progress of its pattern.
+    double speed = 0;  ///< The speed of its pattern at the greatest progress.
+    bool risen =
+        false;  ///< Whether the greatest progress was far above the smallest progress before it.
 
     bool operator==(const Formation&) const = default;
 };
 
-/// Remembers earlier states of a stage and judges the next one.
+/// Stores earlier states of a stage and judges the next state.
 class SteadyWatch {
 public:
-    /// Sets the first state of a stage, which is not judged.
+    /// Sets the first state of a stage. No judgement is made for this state.
     void begin(std::span<const Field> species);
 
     /// Continues from the last state of an earlier run.
     void remember(std::vector<Field> species, double t, std::vector<Formation> formations);
 
     /// Judges the species at time t, later than the last call. Returns true if the stage has
-    /// settled: the speed of every species, rms(new − old)/Δt, is at most `tolerance` times the
-    /// speed of its pattern (the same without the change of the mean) at its greatest progress, and
-    /// a species whose progress never rose is also slow relative to its own contrast. The first
-    /// call only sets the first state. With a mask `inside`, only cells where it is not 0 count.
+    /// settled. The speed of a species is rms(new − old)/Δt. The speed of its pattern leaves out
+    /// the change of the mean. A species has settled if its speed is at most `tolerance` times the
+    /// speed of its pattern at its greatest progress. If its progress never rose, it must also be
+    /// slow relative to its own contrast. The first call only sets the first state. With a mask
+    /// `inside`, only cells where the mask is not 0 count.
     bool settled(std::span<const Field> species, double t, double tolerance,
                  const Mask* inside = nullptr);
 

@@ -8,7 +8,7 @@
 namespace cascade {
 namespace {
 
-/// Cells from one probe of the stencil to the next. Stencils reach three cells.
+/// The number of cells from one probe of the stencil to the next. Stencils reach three cells.
 constexpr std::int64_t between_probes = 7;
 
 }  // namespace
@@ -108,8 +108,8 @@ void StencilInverse<Number>::find_factors(const WaveBlock<Number>& block, Number
     }
 }
 
-/// The stencil's weights along a block's axis for the waves of a line, by the distance along the
-/// axis. Weights at the same distance are added.
+/// The stencil's weights along a block's axis, summed over the waves of a line, by the distance
+/// along the axis. Weights at equal distances are added.
 template <typename Number>
 std::vector<double> StencilInverse<Number>::weights_along(const WaveBlock<Number>& block,
                                                           std::int64_t line) const {
@@ -138,8 +138,8 @@ std::vector<double> StencilInverse<Number>::weights_along(const WaveBlock<Number
     return along;
 }
 
-/// The cosines of multiples of a wave's phase from cell to cell, up to the stencil's reach, from
-/// the factor by which the second difference multiplies the wave.
+/// The cosines of multiples of a wave's phase from cell to cell, up to the stencil's reach.
+/// `difference` is the factor by which the second difference multiplies the wave.
 template <typename Number>
 auto StencilInverse<Number>::cosines(int reach, Number difference) const -> Cosines {
     Cosines values{1, 1 + static_cast<double>(difference) * spacing_ * spacing_ / 2, 0, 0};

@@ -1,4 +1,4 @@
-// The inverse of an operator with the same stencil in all cells of a grid, as a preconditioner.
+// Preconditioning by the inverse of an operator with the same stencil in all cells of a grid.
 #pragma once
 
 #include "core/grid.h"
@@ -13,33 +13,33 @@
 
 namespace cascade {
 
-/// Learns the mean stencil of a linear operator from its responses to single cells, and applies the
-/// inverse of that stencil by fast Fourier transforms. Planes are given by the addresses of their
-/// cells (0, 0, 0).
+/// Measures the mean stencil of a linear operator from its responses to single cells, and applies
+/// the inverse of that stencil by fast Fourier transforms. Planes are given by the addresses of
+/// their cells (0, 0, 0).
 template <typename Number>
 class StencilInverse {
 public:
-    /// Waves are left out if the operator multiplies them by less than this fraction of its largest
-    /// possible factor.
+    /// Waves that the operator multiplies by less than this fraction of its largest factor are left
+    /// out.
     static constexpr double least_factor = sizeof(Number) == sizeof(float) ? 1e-7 : 1e-14;
 
-    /// `sides` are the field's. `areas` is null or a plane, where 0 marks cells outside the domain.
-    /// It must outlive the object. Throws std::bad_alloc.
+    /// `sides` are the rules at the field's sides. `areas` is null or a plane in which 0 marks
+    /// cells outside the domain. `areas` must outlive the object. Throws std::bad_alloc.
     StencilInverse(const Grid& grid, const SideRules& sides, const Number* areas);
 
-    /// Writes 1 only into cells that are far enough from each other and from sides.
+    /// Writes 1 into probed cells, which are far enough from each other and from sides.
     void put_probes(Number* plane) const;
-    /// Averages the operator's responses to these cells, except for cells at the border of the
+    /// Averages the operator's responses to the probed cells, except for cells at the border of the
     /// domain.
     void learn(const Number* response);
 
-    /// Do the factors of all waves match the stencil?
+    /// Whether the stored factors of all waves match the stencil.
     bool has_factors() const { return has_factors_; }
-    /// One thread must call this after apply().
+    /// Records that the stored factors match the stencil. One thread must call this after apply().
     void keep_factors() { has_factors_ = true; }
     /// Applies the inverse to a plane. The first `threads` threads of the team call this, each with
-    /// its number and otherwise the same arguments. `knows_factors`: the value of has_factors()
-    /// before, or true if these threads have called this since then.
+    /// its number and otherwise the same arguments. `knows_factors` is the result of has_factors()
+    /// before the call, or true if the same threads have called apply() since then.
     void apply(Team& team, int thread, int threads, bool knows_factors, Number* plane);
 
 private:
@@ -57,9 +57,9 @@ private:
     const Number* areas_;
     WaveTransforms<Number> transforms_;
     std::array<int, 3> reach_{};
-    std::vector<double> stencil_;  ///< By offset, from −reach to reach along each axis.
-    Plane<Number> factors_;        ///< Per block of waves …
-    bool has_factors_ = false;     ///< … if they match the stencil.
+    std::vector<double> stencil_;  ///< The weights by offset, from −reach to reach along each axis.
+    Plane<Number> factors_;        ///< Per block of waves: the factors.
+    bool has_factors_ = false;     ///< Whether `factors_` match the stencil.
 };
 
 extern template class StencilInverse<float>;

@@ -8,7 +8,8 @@ namespace cascade {
 namespace {
 
 constexpr double safety = 0.9, least_factor = 0.2, most_factor = 5, least_after_rejection = 0.1;
-/// A step with almost no error says little about how long the next one may be.
+/// The least error that counts. A step with almost no error says little about how long the next one
+/// may be.
 constexpr double least_error = 1e-10;
 
 }  // namespace
@@ -22,17 +23,22 @@ bool StepControl::judge(double taken, double error) {
         return false;
     }
     const double seen = std::max(error, least_error);
-    // If another limit shortens steps, their errors do not show a trend.
+    // Whether another limit has shortened the step. The errors of shortened steps show no trend.
     const bool was_cut = taken < state_.step * (1 - 1e-9);
     double factor =
         was_cut ? safety * std::pow(seen, -1 / k)
                 : safety * std::pow(seen, -0.7 / k) * std::pow(state_.error_before, 0.4 / k);
     factor = std::clamp(factor, least_factor, state_.rejected ? 1.0 : most_factor);
-    // A step that ends with a stage must not shorten the steps of a later stage.
+    // A step that was shortened at the end of a stage must not shorten the steps of a later stage.
     state_.step = std::max(taken * factor, taken < state_.step ? state_.step : 0);
     state_.error_before = seen;
     state_.rejected = false;
     return true;
+}
+
+void StepControl::forget_cut(const State& tried) {
+    state_ = tried;
+    state_.rejected = false;
 }
 
 }  // namespace cascade

@@ -5,8 +5,8 @@
 // 17, 1991; constants of E. Hairer, G. Wanner, "Solving Ordinary Differential Equations II", 1996,
 // section IV.2): next = step · 0.9 · error^(−0.7/k) · previous error^(0.4/k), where k is the order
 // of the error estimate, limited to between a fifth and five times the step. After a step shorter
-// than step(), next = step · 0.9 · error^(−1/k). So it is after a rejected step, but at least a
-// tenth of it.
+// than step(), and after a rejected step, next = step · 0.9 · error^(−1/k). After a rejected step
+// it is at least a tenth of the step.
 #pragma once
 
 namespace cascade {
@@ -15,22 +15,26 @@ class StepControl {
 public:
     /// The state that must be saved to continue without a break.
     struct State {
-        double step = 0;          ///< The next step to try, above 0.
+        double step = 0;          ///< The length of the next step to try, above 0.
         double error_before = 1;  ///< The error of the last accepted step.
-        bool rejected = false;    ///< The last step was rejected, so the next one may not grow.
+        /// Whether the last step was rejected, so that the next one may not grow.
+        bool rejected = false;
     };
 
-    /// The error estimate is proportional to this power `order` of the step.
+    /// The error estimate is proportional to the length of the step to the power `order`.
     StepControl(double first_step, int order) : state_{first_step, 1, false}, order_(order) {}
     StepControl(const State& state, int order) : state_(state), order_(order) {}
 
     double step() const { return state_.step; }
     const State& state() const { return state_; }
 
-    /// Judges a step of length `taken` (step(), or shorter near the end of a stage) by its error in
-    /// units of the tolerance. Returns whether it is accepted, that is, whether the error is at
-    /// most 1. NaN and infinity are rejected.
+    /// Judges a step of length `taken` by its error in units of the tolerance. `taken` is step(),
+    /// or less near the end of a stage. Accepts the step, and returns true, if the error is at most
+    /// 1. Rejects NaN and infinity.
     bool judge(double taken, double error);
+    /// After an accepted step that was cut to end at a mark, its small error must not count as a
+    /// trend: the next step follows the state before it, `tried`.
+    void forget_cut(const State& tried);
 
 private:
     State state_;

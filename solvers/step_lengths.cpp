@@ -36,15 +36,21 @@ void StepLengths::choose(bool rejected) {
 bool StepLengths::take_judged_step(StageOutcome& outcome) {
     if (!schedule_.choose) clock_.set_step(wanted_step());
     while (true) {
-        // If the last step would leave almost nothing, it is made a little longer.
-        const double left = schedule_.end_time - clock_.now(), whole = clock_.time.clock.step;
+        // If almost no time would be left after the next step, this step is made a little longer to
+        // reach the end.
+        const double end = clock_.next_end(), whole = clock_.time.clock.step;
+        const double left = end - clock_.now();
         const double length = left < 1.01 * whole ? left : whole;
+        const StepControl::State tried = control_.state();
         clock_.set_step(length);
         stepper_.use(*judged_);
         stepper_.set_clock(clock_.time.clock);
         const CopyRoles before = stepper_.roles();
         const double error = stepper_.attempt(clock_.step, schedule_.tolerance);
-        if (control_.judge(length, error)) break;
+        if (control_.judge(length, error)) {
+            if (length < whole && end < schedule_.end_time) control_.forget_cut(tried);
+            break;
+        }
         if (length <= clock_.time.least_step) {
             if (std::isfinite(error)) break;
             return fail_after(before, outcome);
@@ -85,16 +91,16 @@ double StepLengths::wanted_step() const {
     return schedule_.longest_step ? std::min(wanted, schedule_.longest_step(clock_.now())) : wanted;
 }
 
-/// With shorter steps, nobody would live to see the end.
+/// The shortest length. With shorter steps, a run would practically never end.
 double StepLengths::least_step() const {
     return 1e-10 * (clock_.has_end_time() ? schedule_.end_time : std::max(clock_.now(), 1.0));
 }
 
-/// Restores the state before the last step, which spoiled a value. `last_checked` receives it.
+/// Restores the state before the last step, which spoiled a value, and copies it to `last_checked`.
 bool StepLengths::fail_after(CopyRoles before, StageOutcome& outcome) {
     outcome.not_finite = find_not_finite(stepper_.species(), clock_.step + 1, clock_.step);
     stepper_.set_roles(before);
-    // The values are finite, but their rates are not.
+    // If all values are finite, their rates are not.
     if (!outcome.not_finite) {
         outcome.too_short = where_error_is_largest();
         return false;

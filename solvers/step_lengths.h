@@ -1,5 +1,5 @@
-// Chooses the length of steps: the caller decides from the present values, or a step is repeated
-// with shorter lengths until its error is small enough.
+// Chooses the length of steps. Either the caller chooses from the present values, or a step is
+// repeated with shorter lengths until its error is small enough.
 #pragma once
 
 #include "solvers/advance.h"
@@ -14,19 +14,20 @@ namespace cascade {
 class StepLengths {
 public:
     /// `problem` holds the passes of the first steps. `species` receives the values while the
-    /// caller chooses. All arguments must outlive this.
+    /// caller chooses. All arguments must outlive the object.
     StepLengths(const Schedule& schedule, const StepProblem& problem, LoopClock& clock,
                 Stepper& stepper, std::vector<Field>& species);
 
     /// The passes of steps without an estimated error.
     const StepProblem& plain() const { return *plain_; }
-    /// The state from which steps continue.
+    /// The time, and the state of the controller, from which steps continue.
     TimeState time() const;
 
     /// Lets the caller choose the length of the next steps.
     void choose(bool rejected = false);
-    /// Tries steps until the error of one is small enough. Rejected ones leave no trace. Returns
-    /// false, with the reason in `outcome`, if steps have become too short.
+    /// Tries shorter and shorter steps until the error of one is small enough, and takes that step.
+    /// Rejected steps change no values. Returns false, with the reason in `outcome`, if steps have
+    /// become too short.
     bool take_judged_step(StageOutcome& outcome);
 
 private:
@@ -41,8 +42,8 @@ private:
     Stepper& stepper_;
     std::vector<Field>& species_;
     StepControl control_;
-    const StepProblem* plain_;   ///< For steps without an estimated error,
-    const StepProblem* judged_;  ///< and for steps with one.
+    const StepProblem* plain_;   ///< The passes of steps without an estimated error.
+    const StepProblem* judged_;  ///< The passes of steps with an estimated error.
 };
 
 }  // namespace cascade

@@ -9,10 +9,11 @@ namespace cascade {
 
 namespace {
 
-/// The ends are at least this fraction of the longer path apart, or the shorter path is at most
-/// this fraction of it.
+/// Two paths differ if their ends are farther apart than this fraction of the longer path, or if
+/// the shorter path is less than this fraction of the longer.
 constexpr double half_the_way = 0.5;
-/// Shorter paths are rounding, or a state at rest.
+/// If the longer path is a smaller fraction of the values than this, the state is at rest and both
+/// paths are rounding errors.
 constexpr double least_part_of_values = 0.01;
 
 }  // namespace

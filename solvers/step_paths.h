@@ -1,4 +1,5 @@
-// Compares the paths of steps of two lengths from one state. If they differ, steps are too long.
+// Compares two paths from one state, with long and with short steps. If the paths differ, steps are
+// too long.
 #pragma once
 
 #include "core/plane.h"
@@ -12,14 +13,15 @@ namespace cascade {
 /// The path of a few steps from a state, and its length.
 class StepPath {
 public:
-    /// `inside` says which cells count; nullptr: all.
+    /// `inside` marks the cells that count. If it is null, all cells count.
     explicit StepPath(const Mask* inside = nullptr) : inside_(inside) {}
 
     /// Adds the state after one more step. The first call sets the start of the path.
     void see(std::span<const Field> species);
 
     std::size_t species_count() const { return last_.size(); }
-    /// The sum of the changes of all steps, each a root mean square over the cells.
+    /// The length of the path: the sum of the changes of all steps, where a change is a root mean
+    /// square over the cells.
     double length(std::size_t species) const { return lengths_[species]; }
     const Field& end(std::size_t species) const { return last_[species]; }
 
@@ -32,12 +34,13 @@ private:
 /// How two paths from one state differ.
 struct PathDifference {
     double coarse = 0, fine = 0;  ///< Lengths of the paths of long and of short steps.
-    double apart = 0;             ///< Distance of their ends, root mean square over the cells.
+    double apart = 0;             ///< Distance of their ends, as a root mean square over the cells.
 
-    /// One path is longer than twice the other, or their ends are farther apart than half of the
-    /// longer path, and that path is at least a hundredth of the values. Steps that are short
-    /// enough are far from this limit: even an advected edge of one cell has a path at most √3
-    /// times as long as with steps three times as long.
+    /// Whether the paths differ, that is: one path is more than twice as long as the other, or
+    /// their ends are farther apart than half of the longer path. In addition, the longer path must
+    /// be at least a hundredth of the values. Steps that are short enough are far from this limit:
+    /// with steps three times as long, the path of an advected edge one cell wide is at most √3
+    /// times as long.
     bool is_apart = false;
 };
 PathDifference difference(const StepPath& coarse, const StepPath& fine, std::size_t species,

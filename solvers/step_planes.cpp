@@ -1,4 +1,4 @@
-// Steps change planes in place, so planes that somebody else keeps are copied when they come back.
+// Steps change planes in place. So a plane that another owner keeps is copied when it is put back.
 #include "solvers/step_planes.h"
 
 #include "core/check.h"

@@ -13,21 +13,24 @@
 
 namespace cascade {
 
-/// The planes that steps read and write: two or three copies of every species, and scratch.
+/// The planes that steps read and write: two or three copies of every species, and scratch
+/// registers.
 class StepPlanes {
 public:
-    /// The first copy is `species`; there are three if `keeps`, else two.
+    /// The first copy is `species`. There are three copies if `keeps` is true, else two.
     StepPlanes(const PlaneLayout& layout, Precision precision, std::vector<Field> species,
                bool keeps);
 
     const PlaneLayout& layout() const { return layout_; }
     std::vector<Field>& copy(int number) { return copies_[static_cast<std::size_t>(number)]; }
-    /// Gives a copy away; fields of the same kind must be put before the next step.
+    /// Gives copy `number` to the caller. Fields of the same layout must be put back before the
+    /// next step.
     std::vector<Field> take(int number) { return std::move(copy(number)); }
-    /// Steps change planes in place, so of shared ones a copy is put.
+    /// Puts fields back as a copy. Shared fields are copied first, because steps change planes in
+    /// place.
     void put(int number, std::vector<Field> species);
 
-    /// Makes planes for this number of registers, the old and the new step included.
+    /// Makes planes for `count` registers, including the registers of the old and the new step.
     void make_registers(std::uint32_t count);
     /// The planes of a scratch register.
     const std::vector<Field>& scratch(RegisterId id) const {
@@ -45,7 +48,7 @@ private:
     PlaneLayout layout_;
     Precision precision_;
     std::size_t species_;
-    std::array<std::vector<Field>, 3> copies_;  ///< The last may be empty.
+    std::array<std::vector<Field>, 3> copies_;  ///< The last one may be empty.
     std::vector<std::vector<Field>> scratch_;
 };
 

@@ -1,4 +1,4 @@
-// What the time loop computes in one step: passes over planes, with aggregates between them.
+// The computation of one step: passes over planes, with aggregates between them.
 #pragma once
 
 #include "core/grid.h"
@@ -28,12 +28,12 @@ struct StepProblem {
         RegisterId in_register;
         friend auto operator<=>(SpeciesPlane, SpeciesPlane) = default;
     };
-    /// A plane that a pass reads or writes. A field is constant and has the problem's precision.
+    /// A plane that a pass reads or writes. A Field is constant and has the problem's precision.
     using PlaneRef = std::variant<SpeciesPlane, TemporaryId, const Field*>;
 
-    struct CompleteSteps {};  ///< When the step begins.
-    struct StepDraw {};       ///< That step's word in draws (ir/draw_of_step.h).
-    /// t when the step begins, plus a fraction of the step.
+    struct CompleteSteps {};  ///< The number of complete steps when the step begins.
+    struct StepDraw {};       ///< Makes random numbers differ by step (ir/draw_of_step.h).
+    /// The time t when the step begins, plus `part` times the step.
     struct MomentAt {
         double part = 0;
     };
@@ -51,18 +51,18 @@ struct StepProblem {
 
     struct Result {
         PlaneRef plane;
-        bool needs_halo = false;              ///< Is read at neighbours.
+        bool needs_halo = false;              ///< Whether the result is read at neighbours.
         Boundaries boundary = {};             ///< The sides of a temporary without `rules`.
-        std::optional<SpeciesId> rules = {};  ///< A temporary's index in `sides`, if any.
-        /// For a species and for such a temporary: the fraction of the step at which it is read at
-        /// neighbours, or next_step.
+        std::optional<SpeciesId> rules = {};  ///< A temporary's index in `sides`, if it has rules.
+        /// For a species, or a temporary with rules: the fraction of the step at which its halo is
+        /// read, or next_step.
         double read_at = next_step;
         static constexpr double next_step = -1;
     };
 
-    /// A field that makes e of a constraint `0 = e` zero (solvers/constraint_solver.h). The results
-    /// of its problems are their last temporaries. They read the registers of the enclosing
-    /// problem, `unknown`, and the planes `constant`.
+    /// How to find the field that satisfies a constraint `0 = e` (solvers/constraint_solver.h).
+    /// Each problem below writes its result to its last temporary. The problems read the registers
+    /// of the enclosing problem, `unknown`, and the planes `constant`.
     struct Solve {
         /// A part of e that does not change with the field.
         struct Part {
@@ -70,16 +70,17 @@ struct StepProblem {
             Boundaries boundary = {};
         };
         TemporaryId target;
-        bool needs_halo = false;              ///< The target is read at neighbours.
-        SideRules sides;                      ///< Sides of the field, before any of them changes.
-        std::optional<SpeciesId> rules = {};  ///< Their number in StepProblem::sides, …
-        RegisterId in_register;               ///< … which read species here …
-        double read_at = 0;                   ///< … at this fraction of the step.
-        std::shared_ptr<const StepProblem> whole, linear, parts;  ///< The last one may be null.
+        bool needs_halo = false;  ///< Whether the target is read at neighbours.
+        SideRules sides;  ///< The rules at the field's sides, before any value at a side changes.
+        std::optional<SpeciesId> rules = {};  ///< The index of these rules in StepProblem::sides.
+        RegisterId in_register;               ///< The register of the species that the rules read.
+        double read_at =
+            0;  ///< The fraction of the step at which the species in `in_register` are read.
+        std::shared_ptr<const StepProblem> whole, linear, parts;  ///< `parts` may be null.
         std::shared_ptr<Field> unknown;
         std::vector<Part> constant;  ///< The results of `parts`.
-        /// The areas of cells, 0 outside the mask and in the padding of a linked grid; null: all
-        /// cells are alike.
+        /// The areas of cells, 0 outside the mask and in the padding of a linked grid; null if all
+        /// cells have the same area.
         std::shared_ptr<const Field> areas;
         std::shared_ptr<SolveReport> report;  ///< Never null.
     };
@@ -88,70 +89,74 @@ struct StepProblem {
     struct Convolution {
         PlaneRef operand;
         TemporaryId target;
-        bool needs_halo = false;   ///< The target is read at neighbours.
-        Boundaries boundary = {};  ///< How its halo is filled.
+        bool needs_halo = false;   ///< Whether the target is read at neighbours.
+        Boundaries boundary = {};  ///< The rules that fill the target's halo.
         std::shared_ptr<const WeightedLags> weights;
     };
 
     /// A factor of a species' diffusion.
     struct DiffusionFactor {
         double value = 0;
-        std::optional<AggregateId> aggregate;  ///< Replaces the number.
+        std::optional<AggregateId> aggregate;  ///< If set, replaces `value`.
     };
 
     struct Pass {
         std::vector<Solve> solves;              ///< Done before the convolutions.
         std::vector<Convolution> convolutions;  ///< Done in order before the reductions.
         std::vector<Reduction> reductions;      ///< Done before the kernel runs.
-        std::optional<SweepFilter> filter;      ///< Done after them, before the kernel runs.
+        std::optional<SweepFilter> filter;  ///< Done after the reductions, before the kernel runs.
         /// What the kernel computes; null if only its executable form is known.
         std::shared_ptr<const CellKernel> source;
-        KernelPointer kernel;          ///< Null in a problem that is only described (bind_plan()).
-        std::vector<PlaneRef> fields;  ///< Per field slot of the kernel.
-        /// Per field slot: is it read in the cells to which links lead? Empty: all may be.
+        /// Runs the pass. Null in a problem that is only described (bind_plan()) and never runs.
+        KernelPointer kernel;
+        std::vector<PlaneRef> fields;  ///< One per field slot of the kernel.
+        /// Per field slot: whether the kernel reads neighbours, that is, cells to which links lead.
+        /// If the vector is empty, the kernel may read neighbours of all fields.
         std::vector<bool> read_by_links;
-        std::vector<const Mask*> masks;  ///< Per mask slot of the kernel.
-        std::vector<double> uniforms;    ///< Rounded in single precision.
+        std::vector<const Mask*> masks;  ///< One per mask slot of the kernel.
+        std::vector<double> uniforms;    ///< Rounded if the problem is in single precision.
         std::vector<ChangingUniform> changing;
         std::vector<Result> results;
     };
 
     Grid grid;
-    const Links* links = nullptr;  ///< Null unless the grid is linked; in the problem's precision.
-    /// The number of cells in a mean, without cells outside a mask or the padding of the last row
-    /// of a linked grid; 0: all cells.
+    const Links* links = nullptr;  ///< In the problem's precision. Null unless the grid is linked.
+    /// The number of cells that count in a mean. Excludes cells outside a mask and the padding of a
+    /// linked grid's last row. 0: all cells count.
     std::int64_t cells_inside = 0;
     Precision precision = Precision::single;
     std::vector<Pass> passes;  ///< In order; at least one.
     std::uint32_t registers = 2;
-    std::optional<RegisterId> error_register;  ///< An estimate of the step's error.
-    /// The number of passes at the start that only write the first of the rate registers, with the
-    /// rates of the old step. The last one gets the rates of the new step. After a step, the two
-    /// are swapped and those passes are left out. 0 without rate registers.
+    std::optional<RegisterId> error_register;  ///< Holds an estimate of the step's error.
+    /// The number of passes at the start that only write the first rate register, with the rates at
+    /// the old step. The last rate register gets the rates at the new step. After a step, the two
+    /// registers are swapped and those passes are left out. 0 if the scheme has no rate registers.
     std::size_t first_rate_passes = 0;
     std::optional<RateRegisters> rate_registers;
     std::uint32_t temporaries = 0;
     std::uint32_t aggregates = 0;
-    std::vector<DiffusionTerms<DiffusionFactor>> diffusion;  ///< Per species, for filters.
-    /// By species, then by temporary; empty: the grid's boundary for all.
+    /// The diffusion of each species, for filters.
+    std::vector<DiffusionTerms<DiffusionFactor>> diffusion;
+    /// By species, then by temporary. If empty, the grid's boundary applies to all.
     std::vector<SideRules> sides;
     std::span<const ChangingSide> changing_sides;  ///< The sides that change.
     SideMoment sides_moment;                       ///< The moment of `sides`.
-    std::vector<bool> species_needs_halo;  ///< Per species: the old step is read at neighbours.
+    /// Per species: whether its old step is read at neighbours.
+    std::vector<bool> species_needs_halo;
 
-    /// Does reading neighbours beyond the sides need a halo?
+    /// Whether the planes have halos.
     bool has_halo() const { return !grid.linked; }
-    /// The number of cells in a mean.
+    /// The number of cells that count in a mean.
     std::int64_t counted_cells() const {
         return cells_inside > 0 ? cells_inside : grid.cell_count();
     }
-    /// The number of cells at the start of a row that count in a mean. Values outside a mask are 0,
-    /// so whole rows count there.
+    /// The number of cells at the start of a row that count in a mean. With a mask this is the
+    /// whole row, because values outside the mask are 0.
     std::int64_t counted_in_row(std::int64_t row) const {
         if (!grid.linked) return grid.width;
         return std::clamp(counted_cells() - row * grid.width, std::int64_t{0}, grid.width);
     }
-    /// Is some kernel still interpreted, so that steps may become many times faster?
+    /// Whether some kernel is still interpreted, so that steps may become many times faster.
     bool is_provisional() const {
         return std::any_of(passes.begin(), passes.end(),
                            [](const Pass& pass) { return pass.kernel->is_provisional(); });
@@ -165,7 +170,8 @@ struct StepProblem {
     SideRules sides_of(SpeciesId species) const {
         return sides.empty() ? SideRules(grid.boundary) : sides[species.index()];
     }
-    /// The same at a moment, for the halo filled from these cells; see set_side_values().
+    /// The rules of sides_of(), with values at sides computed for a moment as far as the halo cells
+    /// that depend on `cells` need them; see set_side_values().
     SideRules sides_of(SpeciesId species, SideMoment moment, const SpeciesPlanes& present,
                        const Patch& cells) const {
         SideRules rules = sides_of(species);
@@ -175,7 +181,7 @@ struct StepProblem {
     /// Fills the halos of all species for the moment of `sides`, if neighbours are read beyond the
     /// sides. Must run inside a FlushDenormals.
     void fill_halos(std::span<Field> species) const { fill_halos(species, sides_moment); }
-    /// The same for another moment.
+    /// Does the same as fill_halos() for another moment.
     void fill_halos(std::span<Field> species, SideMoment moment) const {
         if (!has_halo()) return;
         const SpeciesPlanes present = planes_of(species);

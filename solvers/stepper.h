@@ -1,5 +1,5 @@
-// Takes steps: an executor runs their passes over copies of the species that are swapped. Used by
-// the time loop, which decides the number of steps and when to check values.
+// Takes steps. An executor runs their passes over copies of the species, which are swapped. The
+// time loop decides the number of steps and when to check values.
 #pragma once
 
 #include "core/plane.h"
@@ -18,8 +18,8 @@ namespace cascade {
 
 class Stepper {
 public:
-    /// Takes `species` as current, and as kept unless `keeps` is false; fills their halo. At first
-    /// all threads are in use; `most_threads` is lowered to what the grid is worth.
+    /// Makes `species` the current copy and, if `keeps` is true, the kept copy. Fills its halo.
+    /// Begins with all threads, but lowers `most_threads` on small grids.
     Stepper(const StepProblem& problem, std::vector<Field> species, int most_threads,
             bool keeps = true, const MakeExecutor& make = make_thread_executor);
 
@@ -27,16 +27,17 @@ public:
     const Executor& executor() const { return *executor_; }
 
     CopyRoles roles() const { return roles_; }
-    /// To undo a step.
+    /// Gives the copies their roles of an earlier moment, which undoes the steps since then.
     void set_roles(CopyRoles roles) { roles_ = roles; }
-    /// Makes the current copy the kept one, if one is kept.
+    /// Makes the current copy the kept copy. Does nothing if this stepper has no kept copy.
     void keep() { roles_.keep(); }
-    /// Goes back to the kept copy.
+    /// Makes the kept copy current.
     void back();
 
     /// The current values, which may be read until the next step.
     const std::vector<Field>& species() const { return executor_->fetch(roles_.current); }
-    /// Lends them to the caller's vector; they must come back before the next step.
+    /// Moves the current values to the caller's vector. They must be taken back before the next
+    /// step.
     void lend(std::vector<Field>& to) { to = executor_->take(roles_.current); }
     void take_back(std::vector<Field>& from) { executor_->put(roles_.current, std::move(from)); }
     /// The planes of a scratch register, which may be read until the next step.
@@ -44,33 +45,34 @@ public:
     /// The error estimate: one plane per species.
     const std::vector<Field>& error_planes() const { return scratch(*problem().error_register); }
 
-    /// The passes in use.
+    /// The problem whose passes are in use.
     const StepProblem& problem() const { return executor_->problem(); }
-    /// Uses the passes of another problem from now on. It must outlive its use.
+    /// Uses the passes of another problem from now on. The problem must outlive its use.
     void use(const StepProblem& problem);
-    /// Sets time and length of the steps from now on.
+    /// Sets the time and the length of all later steps.
     void set_clock(const StageClock& clock) { clock_ = clock; }
-    /// From now on, when `cancel` becomes true, a step that is taken by itself is left undone:
-    /// advance() and attempt() abandon their work, and the current values are as before. Several
-    /// steps taken at once, which are short, are completed.
+    /// From now on, steps stop when `cancel` becomes true: attempt(), and advance() with a `count`
+    /// of 1, abandon their work and leave the current values unchanged. With a larger `count` all
+    /// steps are completed, because they are short.
     void leave_on(const std::atomic<bool>& cancel) { cancel_ = &cancel; }
 
-    /// Takes `count` steps, at least one, after `complete` earlier ones. With `look`, returns
-    /// whether the new values are all finite; without it, true.
+    /// Takes `count` steps, at least one, after `complete` earlier ones. If `look` is true, returns
+    /// whether all new values are finite, otherwise returns true.
     bool advance(std::int64_t complete, std::int64_t count, bool look);
-    /// Are all current values finite?
+    /// Whether all current values are finite.
     bool is_finite() { return executor_->is_finite(roles_.current); }
 
-    /// Tries one step of a problem with an error register and returns its error in units of the
-    /// tolerance: for each species the root mean square of the error, divided by that of its new
-    /// values and by `tolerance`; the largest of them; NaN if an error or a new value is not
-    /// finite. Then call accept(), or undo the step by giving the planes their former roles.
+    /// Tries one step of a problem with an error register. Returns its error in units of the
+    /// tolerance: the largest over the species of the root mean square of the error, divided by
+    /// that of the new values and by `tolerance`. NaN if an error or a new value is not finite. The
+    /// caller must then call accept(), or undo the step by set_roles() with the earlier roles.
     double attempt(std::int64_t complete, double tolerance);
-    /// Accepts the step just tried: its last rates become the first rates of the next step.
+    /// Accepts the step just tried. Its last rates become the first rates of the next step.
     void accept();
     /// Must be called when current values have been changed from outside.
     void forget_rates() { knows_first_rates_ = false; }
-    /// Goes on at a later moment with the same values: fills their halo for it.
+    /// Continues with the same values at a later moment, after rates or sides have jumped. Fills
+    /// the halo for that moment.
     void pass_jump(SideMoment moment);
 
 private:
@@ -78,11 +80,11 @@ private:
     CopyRoles roles_;
     StageClock clock_;
     const std::atomic<bool>* cancel_ = nullptr;
-    /// The register of first rates holds the rates of the current copy.
+    /// Whether the register of first rates holds the rates at the current copy.
     bool knows_first_rates_ = false;
 };
 
-/// Lends the current species to the caller's vector while it exists.
+/// While it exists, the current species are in the caller's vector.
 class SpeciesLoan {
 public:
     SpeciesLoan(Stepper& stepper, std::vector<Field>& to) : stepper_(stepper), to_(to) {

@@ -1,4 +1,4 @@
-// Counts the tiles of a step. A pass that needs all rows begins a new one.
+// Counts the tiles of a step. A pass that needs all rows begins a new tile.
 #include "solvers/stepping.h"
 
 #include <fmt/format.h>
@@ -10,10 +10,10 @@
 namespace cascade {
 namespace {
 
-/// Is each step checked before the next one begins?
+/// Whether each step is checked before the next one begins.
 bool is_judged(const StepProblem& problem) { return problem.error_register.has_value(); }
 
-/// The reason why steps are taken one by one; empty if none.
+/// The reason why steps are taken one by one; empty if they are not.
 std::string hindrance(const StepProblem& problem) {
     const auto any = [&](const auto& is_so) {
         return std::any_of(problem.passes.begin(), problem.passes.end(), is_so);
@@ -45,8 +45,8 @@ void describe(const StepProblem& problem, int levels, Stepping& stepping) {
     }
 }
 
-/// Passes through memory in a step: tiles of nearly equal heights between passes that need all
-/// rows.
+/// The number of passes through memory per step. Some passes of a step need all rows. The passes
+/// between two of them are divided into tiles of nearly equal numbers of levels.
 double tiles_of_step(const StepProblem& problem, int levels) {
     const std::size_t passes = problem.passes.size();
     const auto begins = [&](std::size_t pass) {
@@ -79,7 +79,7 @@ Stepping stepping_with(const StepProblem& problem, const Tiling& tiling, int lev
     stepping.meetings = tiles * (is_tiled ? phases : 1);
     for (const StepProblem::Pass& pass : problem.passes) {
         stepping.meetings += !pass.reductions.empty();
-        // Barriers before and after each convolution, and between transforms along the axes.
+        // Barriers before and after each convolution, and between the transforms along its axes.
         stepping.meetings += 4.0 * static_cast<double>(pass.convolutions.size());
     }
     if (is_tiled) stepping.bytes_in_use = bytes_in_use(problem, tiling, levels);

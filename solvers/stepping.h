@@ -1,4 +1,4 @@
-// How steps pass through memory, in words and numbers.
+// Describes how steps pass through memory.
 #pragma once
 
 #include "solvers/tiling.h"
@@ -7,20 +7,22 @@
 
 namespace cascade {
 
-/// How steps pass through memory.
+/// How steps pass through memory: how many are computed while their values are in a cache.
 struct Stepping {
-    std::string words;          ///< For people: "16 steps a pass".
-    std::string why;            ///< The reason, if interesting: "all stays in the cache".
-    double sweeps_at_once = 1;  ///< Average number of passes of steps in a pass through memory.
-    double meetings = 1;        ///< Barriers of all threads in a step.
-    /// Bytes of the layers that a thread uses at a time, if it computes several sweeps at once.
+    std::string words;  ///< For users, such as "16 steps a pass".
+    std::string why;    ///< The reason, if interesting, such as "all stays in the cache".
+    /// The average number of sweeps (passes of steps) that are computed in one pass through memory.
+    double sweeps_at_once = 1;
+    double meetings = 1;  ///< The number of barriers of all threads per step.
+    /// If several sweeps are computed at once: the bytes of the layers that a thread uses at a
+    /// time.
     double bytes_in_use = 0;
 
     std::string in_words() const { return why.empty() ? words : words + ": " + why; }
 };
 
-/// Describes the steps of a problem with this number of levels. Threads meet after each of a tile's
-/// `phases`.
+/// Describes the steps of a problem with this number of levels. Threads wait for each other after
+/// each of a tile's `phases`.
 Stepping stepping_with(const StepProblem& problem, const Tiling& tiling, int levels, int phases);
 
 }  // namespace cascade

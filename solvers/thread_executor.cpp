@@ -1,5 +1,6 @@
-// Threads that run the passes of steps, several of them together if tiles save memory traffic.
-// Every thread runs all passes on its rows and waits for the others where a pass reads their rows.
+// Runs the passes of steps on threads, several passes together if tiles save memory traffic. Every
+// thread runs all passes on its own rows. Before a pass that reads rows of other threads, the
+// threads wait for each other.
 #include "core/check.h"
 #include "core/floating_point.h"
 #include "core/parallel.h"
@@ -20,7 +21,8 @@ namespace cascade {
 namespace {
 
 /// With fewer values than this per thread and step, a barrier costs more than a thread saves:
-/// computing them takes about 10 µs, a barrier about 1. Cells with links take longer.
+/// computing so many values takes about 10 µs, and a barrier about 1 µs. Values of cells with links
+/// take longer.
 constexpr std::int64_t least_values_per_thread = 16384;
 constexpr std::int64_t least_linked_values_per_thread = 8192;
 
@@ -94,14 +96,14 @@ private:
         PassRunner::Worker passes;
         std::vector<std::span<Field>> registers;
     };
-    /// The arguments of all threads.
+    /// The arguments that all threads get.
     struct Given {
         const StageClock& clock;
         const std::atomic<bool>* cancel = nullptr;
         const RowsWritten* written_by_last =
-            nullptr;  ///< For the last pass of a step; may be null.
+            nullptr;  ///< Called for the last pass of a step; may be null.
     };
-    /// Sums of squares by row.
+    /// Sums of squares, one per row.
     struct Squares {
         std::vector<double> of_errors, of_values;
     };
@@ -118,7 +120,7 @@ private:
     void add_squares(RowRange rows, const std::vector<Field>& values);
 
     const StepProblem* problem_;
-    Exchange* others_;  ///< Null unless planes are of a part of the grid.
+    Exchange* others_;  ///< Null unless the planes hold a part of the grid.
     StepPlanes planes_;
     Team team_;
     std::optional<PassRunner> runner_;
@@ -127,8 +129,8 @@ private:
     bool is_tiling_given_ = false;
     std::optional<TileRunner> tiles_;
     std::vector<Worker> workers_;       ///< One for each thread in use.
-    std::vector<Squares> squares_;      ///< By species.
-    std::vector<std::uint8_t> finite_;  ///< By thread: are its cells finite?
+    std::vector<Squares> squares_;      ///< One for each species.
+    std::vector<std::uint8_t> finite_;  ///< By thread: whether its cells are finite.
 };
 
 ThreadExecutor::ThreadExecutor(const StepProblem& problem, std::vector<Field> species,
@@ -157,7 +159,7 @@ void ThreadExecutor::prepare(const StepProblem& problem) {
     set_tiling(is_tiling_given_ ? tiling_ : best_tiling());
 }
 
-/// Parts meet after each pass.
+/// Parts of a grid exchange halos after each pass, so passes run separately.
 Tiling ThreadExecutor::best_tiling() const {
     return others_ != nullptr ? Tiling{} : choose_tiling(*problem_, reach_, CacheSizes::here());
 }
@@ -231,7 +233,7 @@ bool ThreadExecutor::is_finite(int copy) {
     return all_finite();
 }
 
-/// What threads do while they check values.
+/// The function by which each thread checks its cells of a copy.
 ThreadExecutor::OwnCells ThreadExecutor::check_of(int copy) {
     std::fill(finite_.begin(), finite_.end(), std::uint8_t{1});
     return [this, copy](int thread, const Patch& cells) {
@@ -269,7 +271,8 @@ void ThreadExecutor::run(const Given& given, const StepPass& first, std::size_t 
         static_cast<int>(workers_.size()));
 }
 
-/// Runs `left` passes from `next` on. `meets`: each thread's own cells must be complete at the end.
+/// Runs `left` passes from `next` on. If `meets` is true, each thread's own cells are complete at
+/// the end.
 void ThreadExecutor::run_passes(Worker& worker, const Given& given, StepPass next, std::size_t left,
                                 bool meets) {
     while (left > 0) {
@@ -280,9 +283,9 @@ void ThreadExecutor::run_passes(Worker& worker, const Given& given, StepPass nex
             team_.barrier();
             if (worker.passes.number == 0) runner_->share_results(pass, worker.registers);
         }
-        // One barrier is enough: after it no thread reads the copy that the next pass overwrites,
-        // and every thread has filled the halo that copies its own rows. Tiles and columns may end
-        // in any thread's cells.
+        // One barrier is enough: after it, no thread reads the copy that the next pass overwrites,
+        // and every thread has filled the halo cells that copy its own rows. With tiles or columns,
+        // a thread's cells may have been computed by other threads.
         const bool is_elsewhere =
             tiles_->levels() > 1 || has_few_rows(problem_->grid) || others_ != nullptr;
         if (left > 0 || (meets && is_elsewhere)) team_.barrier();
@@ -292,8 +295,8 @@ void ThreadExecutor::run_passes(Worker& worker, const Given& given, StepPass nex
     (*given.written_by_last)(worker.passes.rows);
 }
 
-/// The number of passes to run together if `left` remain: tiles of nearly equal heights, up to a
-/// pass that needs all rows.
+/// The number of passes to run together if `left` remain. Divides the passes up to the next pass
+/// that needs all rows into tiles of nearly equal heights.
 std::size_t ThreadExecutor::passes_together(const StepPass& next, std::size_t left) const {
     const auto most = static_cast<std::size_t>(tiles_->levels());
     const std::size_t passes = problem_->passes.size();
@@ -314,7 +317,7 @@ void ThreadExecutor::run_together(Worker& worker, const Given& given, StepPass& 
         if (number == 0) {
             runner_->prepare_pass(worker.passes, team_, next.pass, worker.registers, moment);
         }
-        // The first pass of a tile brings the data of the others into the cache.
+        // The first pass of a tile brings the data of the other passes into the cache.
         runner_->bind(worker.passes, number, next.pass, worker.registers, moment,
                       tiling_.is_near && number > 0,
                       next.pass + 1 == passes && !tiles_->is_along_columns() ? given.written_by_last

@@ -1,4 +1,4 @@
-// Tries numbers of threads and measures them.
+// Tries several numbers of threads and measures their speed.
 #include "solvers/thread_tuner.h"
 
 #include <algorithm>
@@ -6,13 +6,13 @@
 namespace cascade {
 namespace {
 
-// A trial is longer than a time slice of the operating system, and trials become so rare that a bad
-// one costs little.
+// The duration of a trial, longer than a time slice of the operating system. Trials become rare
+// with time, so that a bad one costs little.
 constexpr double trial_seconds = 0.02;
 constexpr double first_trial = 0.1;
 constexpr double longest_between_trials = 4;
 constexpr double rest_per_trial = 20;
-/// The number changes only if a step takes less than this fraction of the time.
+/// The number of threads changes only if a step then takes less than this fraction of the time.
 constexpr double worth_changing = 0.95;
 
 }  // namespace
@@ -34,8 +34,8 @@ void ThreadTuner::took(std::int64_t count, std::chrono::duration<double> duratio
     if (until_trial_ <= 0) begin_trial();
 }
 
-/// Tries near numbers and the extremes, because one thread may be faster even where half as many
-/// threads are not.
+/// The number of threads to try in a turn: near numbers and the extremes, because one thread may be
+/// faster even if half as many threads are not.
 int ThreadTuner::candidate(int turn) const {
     switch (turn % 4) {
         case 0: return std::max(best_ / 2, 1);
@@ -46,14 +46,14 @@ int ThreadTuner::candidate(int turn) const {
 }
 
 void ThreadTuner::begin_trial() {
-    while (candidate(turn_) == best_) ++turn_;  // Ends, because 1 or most_ is another number.
+    while (candidate(turn_) == best_) ++turn_;  // Ends, because 1 or most_ differs from best_.
     current_ = candidate(turn_);
     trial_ = {};
 }
 
 void ThreadTuner::end_trial() {
     if (trial_.seconds_per_step() < worth_changing * recent_.seconds_per_step()) {
-        best_ = current_;  // The turn stays, because the same change may help again.
+        best_ = current_;  // `turn_` stays, because the same change may help again.
         recent_ = trial_;
         between_trials_ = first_trial;
     } else {

@@ -1,6 +1,7 @@
-// Chooses the number of threads. All threads are not always the fastest: if other programs keep
+// Chooses the number of threads. Using all threads is not always fastest: if other programs keep
 // cores busy, every step waits for the thread that has lost its core. So from time to time some
-// steps use fewer or more threads, and the fastest number stays in use. No result depends on it.
+// steps use fewer or more threads, and the fastest number stays in use. No result depends on this
+// number.
 #pragma once
 
 #include <chrono>
@@ -15,14 +16,14 @@ public:
 
     /// The number of threads for the next batch.
     int threads() const { return current_; }
-    /// Is a number of threads being tried?
+    /// Whether another number of threads is being tried.
     bool is_trying() const { return current_ != best_; }
 
     /// Records the time of a batch of `count` steps by threads() threads.
     void took(std::int64_t count, std::chrono::duration<double> duration);
 
 private:
-    /// Time and steps with one number of threads.
+    /// The time and the number of steps with one number of threads.
     struct Measured {
         double seconds = 0;
         double steps = 0;
@@ -36,10 +37,10 @@ private:
     int most_;
     int best_;
     int current_;               ///< Differs from best_ during a trial.
-    int turn_ = 0;              ///< Which candidate is tried next.
-    double until_trial_ = 0.1;  ///< Seconds to the next trial.
+    int turn_ = 0;              ///< Determines the next candidate.
+    double until_trial_ = 0.1;  ///< Seconds until the next trial.
     double between_trials_ = 0.1;
-    Measured recent_;  ///< With best_, over about the last tenth of a second.
+    Measured recent_;  ///< Steps with best_ threads, over about the last tenth of a second.
     Measured trial_;
 };
 

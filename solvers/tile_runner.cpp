@@ -11,7 +11,7 @@ namespace {
 
 std::int64_t layers_of(std::int64_t count, std::int64_t each) { return (count + each - 1) / each; }
 
-/// Are layers whole slices (or rows)?
+/// Whether a layer consists of whole slices or, in a grid of one slice, of whole rows.
 bool is_of_slices(const Grid& grid, const Tiling& tiling) {
     return grid.depth > 1 && tiling.along == Tiling::Along::slices;
 }
@@ -29,7 +29,7 @@ TileAxis outer_axis(const StepProblem& problem, const Tiling& tiling, int thread
             !grid.linked && wraps(problem, of_slices ? Side::front : Side::top)};
 }
 
-/// An axis that is not cut is one layer.
+/// An axis that is not cut counts as one layer.
 TileAxis inner_axis(const StepProblem& problem, const Tiling& tiling) {
     if (!is_of_slices(problem.grid, tiling) || tiling.inner_bands <= 1) return {1, 1, false};
     return {layers_of(problem.grid.height, tiling.inner_layer), tiling.inner_bands,
@@ -48,7 +48,7 @@ TileRunner::TileRunner(const PassRunner& runner, const Tiling& tiling, int threa
 
 void TileRunner::run(PassRunner::Worker& worker, Team& team, int levels) const {
     if (levels == 1 && is_along_columns()) {
-        // A thread's columns are not always cut into layers.
+        // Each thread computes one band of columns. There may be fewer bands than threads.
         if (worker.number < outer_.bands())
             run_columns(worker, 0, outer_.upright(worker.number, 0));
         return;
@@ -122,7 +122,7 @@ void TileRunner::run_layer(PassRunner::Worker& worker, int level, std::int64_t l
             start + std::min(end * tiling_.inner_layer, layout.height));
     };
     for (std::int64_t slice = first; slice < last; ++slice) {
-        // A layer beyond one end of the axis is at the other end.
+        // A layer beyond one end of the axis is the layer at the other end.
         rows_of(slice, std::max<std::int64_t>(inner.begin, 0),
                 std::min(inner.end, inner_.layers()));
         if (inner.begin < 0) rows_of(slice, inner.begin + inner_.layers(), inner_.layers());

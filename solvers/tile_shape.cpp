@@ -1,4 +1,4 @@
-// The arithmetic of bands: each level removes one layer from each end of an upright part.
+// Computes bands and borders. Each level removes one layer from each end of an upright part.
 #include "solvers/tile_shape.h"
 
 #include "core/parallel.h"
@@ -20,7 +20,7 @@ std::int64_t TileAxis::begin_of(int band) const {
 
 int TileAxis::most_levels() const {
     std::int64_t most = std::numeric_limits<int>::max();
-    if (borders() > 0) most = layers_ / bands_ / 2 + 1;  // No band is narrower.
+    if (borders() > 0) most = layers_ / bands_ / 2 + 1;  // All bands are at least this wide.
     return static_cast<int>(most);
 }
 

@@ -1,8 +1,8 @@
-// The shape of a tile in time: which layers of an axis are computed when, if several levels
+// The shape of a tile in time. It says which layers of an axis are computed when, if several levels
 // (successive passes of steps) run while the layers are in the cache.
 //
 // A level reads layers at most one layer away and writes its own layer. An axis is cut into bands.
-// In the *upright* part, each level computes one layer fewer at each end of a band that is a
+// In the *upright* part of a band, each level computes one layer fewer at each end that is a
 // border. The *inverted* part around a border is the rest, which widens from level to level.
 //
 //     level 3      / inverted \      upright      / inverted \      |
@@ -12,9 +12,10 @@
 //               border 0          band 1         border 1
 //
 // Several threads compute first all upright parts, then all inverted ones. Within a part, level l
-// computes layer p − l at moment p, so a layer is in use for L moments. Another level's layers at
-// most one layer away are then computed in an earlier phase or earlier in the same part. Planes may
-// therefore be overwritten in the same way as when each level computes the whole axis.
+// computes layer p − l at moment p, so a layer is in use for as many moments as there are levels.
+// The layers of other levels at most one layer away are then computed in an earlier phase or
+// earlier in the same part. Planes may therefore be overwritten in the same way as if each level
+// computed the whole axis.
 //
 // Such shapes are known as split tiling, and wavefronts through them as time skewing (R. Strzodka,
 // M. Shaheen, D. Pajak, H.-P. Seidel, "Cache accurate time skewing in iterative stencil
@@ -26,8 +27,8 @@
 
 namespace cascade {
 
-/// A half-open range of layers. If the axis wraps, it may begin before layer 0 or end after the
-/// last layer: of n layers, layer n is layer 0.
+/// A half-open range of layers. If the axis wraps, the range may begin before layer 0 or end after
+/// the last layer: of n layers, layer n is layer 0.
 struct LayerRange {
     std::int64_t begin = 0, end = 0;
     bool empty() const { return begin >= end; }
@@ -43,14 +44,15 @@ public:
     int bands() const { return bands_; }
     bool wraps() const { return wraps_; }
     int borders() const { return wraps_ ? bands_ : bands_ - 1; }
-    /// With more levels, the parts around two borders would touch. At least 1.
+    /// The largest number of levels with which the parts around two borders do not touch. At
+    /// least 1.
     int most_levels() const;
 
-    /// The layers that a level, 0 … most_levels() − 1, computes in a band,
+    /// The layers of a band that are computed at `level`, which is 0 … most_levels() − 1.
     LayerRange upright(int band, int level) const;
-    /// and around the border after band number `border`.
+    /// The layers that the level computes around the border after band `border`.
     LayerRange inverted(int border, int level) const;
-    /// The number of a layer in a range, within the axis.
+    /// The number of a layer of a range, wrapped into the axis.
     std::int64_t wrapped(std::int64_t layer) const {
         return layer < 0 ? layer + layers_ : layer < layers_ ? layer : layer - layers_;
     }

@@ -1,4 +1,4 @@
-// A state machine driven by the times of batches: it rests, or tries the candidates round by round.
+// A state machine driven by the times of batches. It rests, or tries the candidates round by round.
 #include "solvers/tile_tuner.h"
 
 #include "core/check.h"
@@ -13,18 +13,20 @@ namespace cascade {
 namespace {
 
 constexpr int rounds = 3;
-// Long enough for a tiling to fill the caches.
+// Duration of a candidate's turn. Long enough for a tiling to fill the caches.
 constexpr double turn_seconds = 0.002;
-// Long enough for a clock, and shorter than the time slice of another program.
+// Duration of a batch in a trial. Long enough for a clock, and shorter than the time slice of
+// another program.
 constexpr double trial_batch_seconds = 0.00025;
-// The first steps meet cold caches and threads that wake up.
+// Trials begin after this time, because at first caches are cold and threads are waking up.
 constexpr double warm_up_seconds = 0.01;
 // The fraction of a run that the first round of trials may cost.
 constexpr double share_of_run = 0.02;
-// The fraction of the time since the last trials that new ones may cost; less if nothing changes.
+// The fraction of the time since the last trials that new trials may cost. Trials that change
+// nothing cost less than that.
 constexpr double share_of_rest = 0.005;
 constexpr double most_patience = 64;
-// A clearly faster sweep takes less than this fraction of the time.
+// A sweep is clearly faster if it takes less than this fraction of the time.
 constexpr double clearly_faster = 0.95;
 
 }  // namespace
@@ -36,7 +38,8 @@ TileTuner::TileTuner(std::vector<Tiling> candidates, TilingMemory* memory, int t
     if (memory_ != nullptr && candidates_.size() > 1) recall();
 }
 
-/// A stored tiling that is not among the candidates was for other steps.
+/// Begins with the stored tiling. If it is not among the candidates, it was found for other steps
+/// and is ignored.
 void TileTuner::recall() {
     const std::optional<Tiling> known = memory_->find(threads_);
     const auto found =

@@ -1,13 +1,13 @@
-// Chooses a tiling by time. The fastest one depends on more than the sizes of caches, so a run that
-// is long enough takes some of its steps with each of a few tilings, by turns in several rounds,
-// and continues with the fastest. Results do not depend on it.
+// Chooses a tiling by measured times. The fastest tiling depends on more than the sizes of caches,
+// so a run that is long enough takes some of its steps with each of a few tilings, by turns in
+// several rounds, and continues with the fastest. Results do not depend on the tiling.
 //
-// The first tiling in use is the choice by the sizes of caches, or the result of an earlier run.
-// Another one replaces the choice by size only if it was clearly faster in every round. If it was
-// not, it is not tried again. A turn counts by its fastest batch. So no disturbance decides the
-// result, and after the first round only tilings that seem faster cost time. But other programs may
-// be busy during all rounds. So all tilings are tried again from time to time, and an earlier run's
-// result as soon as trials may begin.
+// The first tiling in use is chosen by the sizes of caches, or is the result of an earlier run.
+// Another tiling replaces it only if the other tiling was clearly faster in every round. A tiling
+// that was not clearly faster in a round is not tried in later rounds. A turn counts by its fastest
+// batch. So no disturbance decides the result, and after the first round only tilings that seem
+// faster cost time. But other programs may be busy during all rounds. So all tilings are tried
+// again from time to time, and an earlier run's result is tried as soon as trials may begin.
 #pragma once
 
 #include "solvers/tiling_memory.h"
@@ -21,13 +21,14 @@
 
 namespace cascade {
 
-/// Callers pass times in, so that a test can choose them.
+/// Callers pass in the times, so that a test can choose them.
 class TileTuner {
 public:
     using Seconds = std::chrono::duration<double>;
 
-    /// Takes at least one candidate. A single one is not tried. If `memory` knows a tiling for this
-    /// number of threads, that is used at first. `memory` receives the result and may be null.
+    /// Needs at least one candidate. If there is only one, nothing is measured. If `memory` has a
+    /// tiling for this number of threads, the tuner begins with that tiling. `memory` receives the
+    /// result and may be null.
     explicit TileTuner(std::vector<Tiling> candidates, TilingMemory* memory = nullptr,
                        int threads = 1);
 
@@ -39,12 +40,12 @@ public:
     /// Why this tiling is in use, in words; empty before trials end.
     std::string how_found() const;
 
-    /// Sweeps (passes of steps) in a batch while tilings are tried: a fraction of a turn, in whole
-    /// tiles of each candidate.
+    /// The number of sweeps (passes of steps) in a batch while tilings are tried. It is a fraction
+    /// of a turn, and a whole number of tiles for each candidate.
     std::int64_t sweeps_of_trial() const;
 
-    /// Records the time of a batch of `sweeps` with tiling(). At that speed the run is expected to
-    /// continue for `left`. Trials begin when they cost little in comparison.
+    /// Records the time of a batch of `sweeps` with tiling(). `left` is how long the run will
+    /// probably continue at that speed. Trials begin when they take little time compared to `left`.
     void took(std::int64_t sweeps, Seconds duration, Seconds left);
 
 private:
@@ -53,9 +54,9 @@ private:
     /// The measurements of a candidate.
     struct Tried {
         std::size_t candidate = 0;
-        std::int64_t sweeps = 0;  ///< Sweeps in this round.
-        double least = never;     ///< Seconds of a sweep in its fastest batch of this round,
-        double least_in_all = 0;  ///< and their sum over all rounds.
+        std::int64_t sweeps = 0;  ///< Number of sweeps in this round.
+        double least = never;     ///< Seconds per sweep in the fastest batch of this round.
+        double least_in_all = 0;  ///< The sum of `least` over all rounds.
     };
 
     void recall();
@@ -73,12 +74,13 @@ private:
     std::size_t current_ = 0;
     std::size_t used_before_ = 0;  ///< The tiling in use when trials began.
     bool is_trying_ = false;
-    double rested_seconds_ = 0;         ///< Seconds of steps since trials, or since the start.
-    double seconds_per_sweep_ = never;  ///< Seconds of a sweep in their fastest batch.
-    double patience_ = 1;               ///< The factor by which trials are rarer than at first.
+    double rested_seconds_ = 0;  ///< Seconds of steps since the last trials, or since the start.
+    double seconds_per_sweep_ = never;  ///< Seconds per sweep in the fastest batch since the last
+                                        ///< trials, or since the start.
+    double patience_ = 1;               ///< How many times rarer trials are than at first.
     int round_ = 0;
     std::int64_t sweeps_of_turn_ = 0;
-    std::vector<Tried> tried_;  ///< The candidates that remain; the first is the choice by size.
+    std::vector<Tried> tried_;  ///< The remaining candidates, beginning with the choice by size.
     std::size_t turn_ = 0;      ///< The candidate whose turn it is.
 };
 

@@ -1,4 +1,4 @@
-// Counts the bytes that a step touches and fits layers into part of the second- or third-level
+// Counts the bytes that a step touches and fits layers into a part of the second- or third-level
 // cache. The constants are measured (docs/time_tiling.md).
 #include "solvers/tiling.h"
 
@@ -10,26 +10,30 @@
 namespace cascade {
 namespace {
 
-// A kernel call for fewer cells than this, including halo, costs more than it saves by holding them
-// in a near cache. This gives three rows of 512 cells. For 1024 cells it gives one row: two are 7 %
-// slower, because the levels fill more of the cache.
+// A layer has at least this many cells, including halo. A kernel call for fewer cells costs more
+// than it saves by holding them in a near cache. In a grid 512 cells wide, a layer has three rows.
+// In a grid 1024 cells wide it has one row: layers of two rows are 7 % slower, because the levels
+// fill more of the cache.
 constexpr std::int64_t cells_of_a_layer = 1632;
-// That was measured with kernels of few results. With more, fewer cells are as much work.
+// cells_of_a_layer was measured with kernels of at most this many results. With more results, fewer
+// cells are as much work.
 constexpr std::size_t few_results = 8;
-// The fraction of a cache that levels share. The rest is for data that they do not use again.
+// The fraction of a cache that the levels of a tile share. The rest of the cache is for data that
+// the levels use only once.
 constexpr double part_of_second = 0.6, part_of_third = 0.5;
-// Layers in use besides one for each level: the layers read around it.
+// The number of layers in use in addition to one per level. They are the layers around it that a
+// level reads.
 constexpr std::int64_t layers_besides = 3;
-// More levels hardly save anything.
+// More levels than this hardly save anything.
 constexpr int enough_levels = 16;
-// Slices are cut into bands of rows only where whole ones allow fewer.
+// Slices are cut into bands of rows only if whole slices would allow fewer levels than this.
 constexpr int few_levels = 6;
 constexpr int levels_in_bands = 8;
-// With fewer rows than this, threads and tiles share columns: the levels of a tile of rows, which
+// With fewer rows than this, threads and tiles share columns. The levels of a tile of rows, which
 // shrink by a layer at both ends, would soon be empty.
 constexpr std::int64_t few_rows = 2 * enough_levels;
-// Layers of columns are at least as wide as this. In narrower ones a row does not repay the cost of
-// its loop.
+// The least width of layers of columns. In narrower layers a row does not repay the cost of its
+// loop.
 constexpr std::int64_t least_columns = 64;
 
 /// The bytes that the layers of a tile may take.
@@ -44,13 +48,13 @@ int levels_in(double bytes, std::int64_t layer_bytes) {
     return static_cast<int>(std::clamp<std::int64_t>(layers - layers_besides, 1, enough_levels));
 }
 
-/// Does a level find its data in the second-level cache? It reads what the previous level has just
-/// written, and overwrites older values.
+/// Whether a level finds its data in the second-level cache. A level reads what the previous level
+/// has just written, and overwrites older values.
 bool is_near(std::int64_t layer_bytes, const CacheSizes& caches) {
     return (1 + layers_besides) * layer_bytes <= caches.second;
 }
 
-/// The number of rows or slices in a layer, out of `count`.
+/// The number of rows or slices in a layer. The grid has `count` of them.
 std::int64_t height_of_layer(const StepProblem& problem, std::int64_t cells_of_each,
                              std::int64_t count) {
     std::size_t results = few_results;
@@ -59,11 +63,11 @@ std::int64_t height_of_layer(const StepProblem& problem, std::int64_t cells_of_e
     return std::clamp<std::int64_t>(static_cast<std::int64_t>(cells) / cells_of_each, 1, count);
 }
 
-/// The tiling with layers of this height, for `count` rows or slices of `bytes` in all.
+/// The tiling with layers of this height. `count` rows or slices take `bytes` in all.
 Tiling tiling_of_layers(std::int64_t height, std::int64_t count, std::int64_t bytes,
                         const CacheSizes& caches) {
     Tiling tiling;
-    if (height >= count) return tiling;  // With a single layer there is nothing to overlap.
+    if (height >= count) return tiling;  // A single layer leaves nothing to overlap.
     tiling.outer_layer = height;
     const std::int64_t layer_bytes = bytes / count * height;
     tiling.levels = levels_in(bytes_for_layers(caches), layer_bytes);
@@ -71,22 +75,22 @@ Tiling tiling_of_layers(std::int64_t height, std::int64_t count, std::int64_t by
     return tiling;
 }
 
-/// The columns of a layer that consists of columns.
+/// The number of columns in a layer of columns.
 std::int64_t columns_of_a_layer(const Grid& grid) {
     const std::int64_t columns =
         std::max(cells_of_a_layer / (grid.height * grid.depth), least_columns);
     return columns / PlaneLayout::row_pad * PlaneLayout::row_pad;
 }
 
-/// Whole slices. With few slices, the same rows of all slices. If neither fits, bands of the rows
-/// of slices.
+/// The tiling of a grid with slices. Layers are whole slices or, with few slices, the same rows of
+/// all slices. If neither fits, slices are cut into bands of rows.
 Tiling tiling_of_slices(const StepProblem& problem, std::int64_t bytes, const CacheSizes& caches) {
     const Grid& grid = problem.grid;
     const std::int64_t stride = PlaneLayout(grid).stride;
     const std::int64_t slices = height_of_layer(problem, stride * grid.height, grid.depth);
     const std::int64_t rows = height_of_layer(problem, stride * grid.depth, grid.height);
     const Tiling of_slices = tiling_of_layers(slices, grid.depth, bytes, caches);
-    // If an axis wraps, levels shrink by a layer at both ends of it.
+    // If an axis wraps, levels shrink by a layer at both of its ends.
     const bool is_flat = grid.depth / slices < 2 * enough_levels;
     if (of_slices.levels >= few_levels && !is_flat) return of_slices;
     Tiling of_rows = tiling_of_layers(rows, grid.height, bytes, caches);
@@ -103,7 +107,8 @@ Tiling tiling_of_slices(const StepProblem& problem, std::int64_t bytes, const Ca
     return in_bands;
 }
 
-/// Do values of a side vary along the rows, and with time? They are computed for whole rows.
+/// Whether values of a side vary along the rows, and with time. Such values are computed for whole
+/// rows.
 bool has_changing_rows(const StepProblem& problem) {
     return std::any_of(problem.changing_sides.begin(), problem.changing_sides.end(),
                        [](const ChangingSide& side) {
@@ -112,7 +117,7 @@ bool has_changing_rows(const StepProblem& problem) {
                        });
 }
 
-/// One level: each pass is run separately.
+/// The tiling with one level, which runs each pass separately.
 Tiling plain_tiling(const StepProblem& problem) {
     Tiling plain;
     if (!has_few_rows(problem.grid) || has_changing_rows(problem)) return plain;
@@ -121,7 +126,8 @@ Tiling plain_tiling(const StepProblem& problem) {
     return plain;
 }
 
-/// The tiling of planes that mostly come from memory in every step.
+/// The tiling of planes that are too large for the caches and mostly come from memory in every
+/// step.
 Tiling tiling_beyond_cache(const StepProblem& problem, std::int64_t reach,
                            const CacheSizes& caches) {
     const Grid& grid = problem.grid;
@@ -168,7 +174,8 @@ std::int64_t bytes_of_step(const StepProblem& problem) {
         planes.insert(pass.fields.begin(), pass.fields.end());
         for (const StepProblem::Result& result : pass.results) {
             planes.insert(result.plane);
-            // A plane written as the new step is read as the old one.
+            // The same plane may be written as the new step and read as the old step. It is counted
+            // once.
             const auto* const own = std::get_if<StepProblem::SpeciesPlane>(&result.plane);
             if (own != nullptr && own->in_register == new_register) {
                 planes.insert(StepProblem::SpeciesPlane{own->species, old_register});

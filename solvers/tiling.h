@@ -1,4 +1,4 @@
-// How the steps of a problem pass through memory: the number of levels at once, and the size of
+// How the steps of a problem pass through memory: the number of levels run at once, and the size of
 // layers.
 #pragma once
 
@@ -10,9 +10,10 @@
 
 namespace cascade {
 
-/// The outer axis is the axis of rows, of slices if the grid has them, or of columns if there are
-/// few rows. The inner axis is the axis of rows within slices. A layer consists of several of them,
-/// so that a kernel call is worth its cost.
+/// Tiles are cut along one or two axes. The outer axis is the axis of rows, of slices if the grid
+/// has several, or of columns if there are few rows. The inner axis is the axis of rows within
+/// slices. A layer consists of several rows, slices or columns, so that a kernel call is worth its
+/// cost.
 struct Tiling {
     /// What a layer of the outer axis consists of.
     enum class Along : std::uint8_t {
@@ -21,53 +22,58 @@ struct Tiling {
         columns,  ///< The same columns of all rows.
     };
 
-    int levels = 1;  ///< The most levels; 1: each pass runs separately.
-    /// Slices, rows or columns of a layer; columns in multiples of PlaneLayout::row_pad.
+    int levels = 1;  ///< The largest number of levels; 1: each pass runs separately.
+    /// The number of slices, rows or columns in a layer. Columns are a multiple of
+    /// PlaneLayout::row_pad.
     std::int64_t outer_layer = 1;
-    std::int64_t inner_layer = 1;  ///< For a grid with slices: the rows of a layer in them,
-    int inner_bands = 1;  ///< and the number of bands of such layers; 1: slices are not cut.
-    /// All levels but the first find their data in the second-level cache, so none is prefetched.
+    /// For a grid with slices: the number of rows in a layer of the inner axis.
+    std::int64_t inner_layer = 1;
+    int inner_bands = 1;  ///< The number of bands along the inner axis; 1: slices are not cut.
+    /// Whether all levels but the first find their data in the second-level cache, so that none of
+    /// it is prefetched.
     bool is_near = false;
     Along along = Along::slices;
 
     friend bool operator==(const Tiling&, const Tiling&) = default;
 };
 
-/// Does a grid have so few rows that threads share its columns?
+/// Whether a grid has so few rows that threads share its columns.
 bool has_few_rows(const Grid& grid);
 
-/// Part `index` of `count` nearly equal parts of the cells: rows, or columns of all rows.
+/// Part `index` of `count` nearly equal parts of the cells: rows or, if there are few rows, columns
+/// of all rows.
 Patch share_of(const Grid& grid, int index, int count);
 
-/// Must the passes before this one be complete in all rows before it begins, because of an
-/// aggregate or a filter of waves?
+/// Whether all rows of the preceding passes must be complete before this pass begins, because it
+/// has an aggregate or a filter of waves.
 bool needs_all_rows(const StepProblem::Pass& pass);
 
-/// Bytes of all planes, masks and links that the passes of a step read or write, each counted once,
-/// including both copies of the species.
+/// The bytes of all planes, masks and links that the passes of a step read or write, each counted
+/// once. Includes both copies of the species.
 std::int64_t bytes_of_step(const StepProblem& problem);
 
 /// The largest number of rows that a link spans; at least 1.
 std::int64_t rows_reached(const StepProblem& problem);
 
-/// Is any plane periodic from side to opposite side, along the axis of that side?
+/// Whether any plane is periodic along the axis of this side.
 bool wraps(const StepProblem& problem, Side side);
 
-/// Do all planes of a step stay in a core's caches from step to step? If so, more levels save
-/// nothing.
+/// Whether all planes of a step stay in a core's caches from step to step. If they do, several
+/// levels per tile save nothing.
 bool stays_in_cache(const StepProblem& problem, const CacheSizes& caches);
 
-/// The tiling that holds the data of its levels in the caches. For `reach`, see rows_reached().
+/// The tiling whose levels' data fit into the caches. `reach` is the result of rows_reached().
 Tiling choose_tiling(const StepProblem& problem, std::int64_t reach, const CacheSizes& caches);
 
-/// That tiling first, then others that may be faster on this machine or for these kernels: one step
-/// a pass, fewer levels, or tiles if planes stay in a third-level cache. No others if steps can be
-/// taken in one way only, or if each thread's share of all planes stays in its second-level cache.
-/// `threads` is the number of threads.
+/// The result of choose_tiling() first, then others that may be faster on this machine or for these
+/// kernels: one step per pass through memory, fewer levels, or tiles if planes stay in a
+/// third-level cache. The list has only one tiling if there is only one way to take the steps, or
+/// if each thread's share of all planes stays in its second-level cache. `threads` is the number of
+/// threads.
 std::vector<Tiling> tilings_to_try(const StepProblem& problem, std::int64_t reach,
                                    const CacheSizes& caches, int threads);
 
-/// Bytes of the layers that one thread uses at a time, in a tile with this number of levels.
+/// The bytes of the layers that one thread uses at a time, in a tile with this number of levels.
 double bytes_in_use(const StepProblem& problem, const Tiling& tiling, int levels);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Tilings that earlier runs found to be the fastest.
+// Stores the tilings that earlier runs found to be the fastest.
 #pragma once
 
 #include "solvers/tiling.h"
@@ -11,10 +11,11 @@ namespace cascade {
 class TilingMemory {
 public:
     virtual ~TilingMemory() = default;
-    /// The fastest tiling with this number of threads, if found twice in a row, so that a
-    /// disturbance does not count. May be a tiling for other steps.
+    /// The tiling recorded as fastest with this number of threads. Empty unless it was recorded
+    /// twice in a row, so that a single disturbed measurement does not count. The tiling may have
+    /// been found for other steps.
     virtual std::optional<Tiling> find(int threads) = 0;
-    /// Records that this tiling was the fastest, perhaps again.
+    /// Records that this tiling was the fastest. The same tiling may be recorded again and again.
     virtual void keep(int threads, const Tiling& tiling) = 0;
 };
 

@@ -10,16 +10,18 @@
 
 namespace cascade {
 
-/// The diffusion of one species. A wave for which lap is s, dxx, dyy, dzz are s_x, s_y, s_z (all of
-/// them 0 or less), and dxy is m changes at the rate
+/// The diffusion of one species. The operators multiply a wave by factors: lap by s, dxx, dyy and
+/// dzz by s_x, s_y and s_z (all of these are at most 0), and dxy by m. The wave then changes at the
+/// rate
 ///
 ///     M = min(0, f[0] s − f[1] s² + f[2] s³ − f[3] s⁴ + f[4] s_x + f[5] s_y + f[6] s_z + f[7] m
 ///                − f[8]).
 ///
-/// Waves that the factors would amplify are thus left to the explicit part of the step.
+/// Because M is at most 0, waves that diffusion would amplify are left to the explicit part of the
+/// step.
 using DiffusionSymbol = DiffusionTerms<double>;
 
-/// −h M for every wave of a line, where `f` is the symbol times h.
+/// Computes −h M for every wave of a line. `f` is the symbol times h.
 template <typename Number>
 void find_damping(const WaveBlock<Number>& block, std::int64_t line,
                   const DiffusionTerms<Number>& f, std::vector<Number>& found) {

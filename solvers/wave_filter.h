@@ -20,18 +20,18 @@ namespace cascade {
 template <typename Number>
 class WaveFilter {
 public:
-    /// `sides` are by species. Throws std::bad_alloc.
+    /// `sides` has the rules of each species. Throws std::bad_alloc.
     WaveFilter(const Grid& grid, const std::vector<SideRules>& sides) : transforms_(grid, sides) {}
 
     /// The addresses of cells (0, 0, 0), one per species.
     using Planes = std::vector<Number*>;
     struct FilteredPlanes {
         Planes filtered;
-        std::vector<Planes> kept;  ///< For the stages of etdrk4: etd_registers.
-        Planes error;              ///< For its last stage, or empty.
+        std::vector<Planes> kept;  ///< For the stages of etdrk4: etd_registers planes.
+        Planes error;              ///< For the last stage of etdrk4; otherwise empty.
     };
-    /// Replaces every wave of the filtered planes by its response in a step of that length. The
-    /// first `threads` threads of the team call this, as they call WaveTransforms::apply().
+    /// Replaces every wave of the filtered planes by its response in a step of this length. The
+    /// first `threads` threads of the team call this, by the same rules as WaveTransforms::apply().
     void apply(Team& team, int thread, int threads, const FilteredPlanes& planes,
                std::span<const DiffusionSymbol> symbols, WaveResponse response,
                double length) const;

@@ -1,10 +1,10 @@
 // Each call of FFTW transforms one row or sixteen neighbouring columns, for any number of threads,
-// so bits do not depend on it. Plans are estimated, because measuring would choose differently from
-// run to run. The last axis is transformed from the plane to a buffer in which its lines are
-// contiguous, where even estimated plans are fast.
+// so results are the same bit for bit. Plans are estimated, because measuring would choose
+// differently from run to run. The last axis is transformed from the plane to a buffer in which its
+// lines are contiguous, for which even estimated plans are fast.
 //
 // Along periodic rows, real numbers are transformed to complex ones. From then on, columns are
-// complex and take FFTW's complex transforms. These use vectors, while FFTW's transforms of real
+// complex, and FFTW's complex transforms apply. These use vectors, while FFTW's transforms of real
 // numbers to real ones do not.
 #include "solvers/wave_transforms.h"
 
@@ -25,7 +25,7 @@ struct AxisWaves {
     int forward = FFTW_R2HC;
     int backward = FFTW_HC2R;
     double shift = 0;          ///< Wave n makes (n + shift) / 2 periods over the axis.
-    bool is_periodic = false;  ///< Waves are whole periods, in the order of FFTW_R2HC.
+    bool is_periodic = false;  ///< Whether waves are whole periods, in the order of FFTW_R2HC.
 
     friend bool operator==(const AxisWaves&, const AxisWaves&) = default;
 };
@@ -68,7 +68,8 @@ std::vector<Number> second_differences(const AxisWaves& waves, std::int64_t cell
 }
 
 /// sin(the phase from cell to cell)/h: the factor, over i, by which the central difference
-/// multiplies each wave of a periodic axis. 0 for other axes, where it turns waves into others.
+/// multiplies each wave of a periodic axis. 0 for other axes, where the central difference turns
+/// waves into other waves.
 template <typename Number>
 std::vector<Number> first_differences(const AxisWaves& waves, std::int64_t cells, double spacing) {
     std::vector<Number> values(static_cast<std::size_t>(cells), Number{0});
@@ -81,7 +82,7 @@ std::vector<Number> first_differences(const AxisWaves& waves, std::int64_t cells
     return values;
 }
 
-/// The factor by which a transform and its inverse together multiply.
+/// The factor by which a transform followed by its inverse multiplies.
 double gain_of(const AxisWaves& waves, std::int64_t cells) {
     return static_cast<double>(cells) * (waves.is_periodic ? 1 : 2);
 }
@@ -97,12 +98,13 @@ struct WaveTransforms<Number>::Implementation {
     /// The transforms of species with the same kinds of sides.
     struct Shape {
         WavesOfAxes waves;
-        std::int64_t columns = 0;    ///< Elements of a row of waves.
-        bool lines_complex = false;  ///< The buffer's lines are complex.
+        std::int64_t columns = 0;    ///< The number of elements in a row of waves.
+        bool lines_complex = false;  ///< Whether the buffer's lines are complex.
         double gain = 1;
         std::array<FftwTransform<Number>, 3> forward, backward;
-        std::array<std::vector<Number>, 3> differences;  ///< By axis; along x, by buffer line.
-        std::array<std::vector<Number>, 2> slopes;       ///< Likewise.
+        /// By axis. Along x there is one value per line of the buffer.
+        std::array<std::vector<Number>, 3> differences;
+        std::array<std::vector<Number>, 2> slopes;  ///< Laid out like `differences`.
     };
     struct Free {
         void operator()(Number* data) const { free_plane(data); }
@@ -129,7 +131,7 @@ struct WaveTransforms<Number>::Implementation {
     std::int64_t stride(Axis axis) const {
         return axis == x ? 1 : axis == y ? layout.stride : layout.slice_stride;
     }
-    /// The size for one block.
+    /// The size of the buffer for one block.
     std::int64_t buffer_size() const {
         return axes.back() == x ? layout.width + 2 : Block::columns * cells(axes.back());
     }
@@ -145,7 +147,8 @@ struct WaveTransforms<Number>::Implementation {
         const Axis last = axes.back();
         made.columns = rows_complex ? (layout.width / 2 + 1) * 2 : layout.width;
         made.lines_complex = rows_complex && waves[last].is_periodic;
-        // Estimating reads no values. This plane is aligned like the later ones.
+        // Planning reads no values, but the plane must be aligned like the planes that are
+        // transformed later.
         Plane<Number> plane(layout);
         const Buffer block = buffer(1);
         for (const Axis axis : axes) {
@@ -192,13 +195,13 @@ struct WaveTransforms<Number>::Implementation {
     std::int64_t blocks(const Shape& one) const {
         return (one.columns + Block::columns - 1) / Block::columns;
     }
-    /// Independent parts of a transform along an axis. Rows are numbered as everywhere, so threads
-    /// share them as they do for kernels.
+    /// The number of independent parts of a transform along an axis. Rows have their usual numbers,
+    /// so threads share them as they do for kernels.
     std::int64_t pieces(const Shape& one, Axis axis) const {
         if (axis == x) return layout.row_count();
         return blocks(one) * (axis == y ? layout.depth : layout.height);
     }
-    /// Elements from cell (0, 0, 0) to the first one of a piece.
+    /// The number of elements from cell (0, 0, 0) to the first element of a piece.
     std::int64_t start(const Shape& one, Axis axis, std::int64_t piece) const {
         if (axis == x) return layout.row_start(piece);
         const std::int64_t other = piece / blocks(one);
@@ -240,11 +243,28 @@ struct WaveTransforms<Number>::Implementation {
         return made;
     }
 
+    /// Visits these rows of the species that are not transformed.
+    void visit_rows(const RowRange& rows, const std::vector<bool>& transformed,
+                    std::span<const std::span<Number* const>> to, const Visit& visit) const {
+        std::vector<Number*> waves(to.size());
+        for (std::size_t s = 0; s < transformed.size(); ++s) {
+            if (transformed[s]) continue;
+            for (std::int64_t number = rows.begin; number < rows.end; ++number) {
+                for (std::size_t k = 0; k < to.size(); ++k) {
+                    waves[k] = to[k][s] + layout.row_start(number);
+                }
+                Block block = row(shapes[shape_of[s]], number, waves);
+                block.species = s;
+                visit(block);
+            }
+        }
+    }
+
     PlaneLayout layout;
     Grid grid;
     std::vector<Axis> axes;  ///< The axes of more than one cell, in the order of transforms.
     std::vector<Shape> shapes;
-    std::vector<std::size_t> shape_of;  ///< By species.
+    std::vector<std::size_t> shape_of;  ///< By species: the index of its shape.
 };
 
 template <typename Number>
@@ -272,20 +292,8 @@ void WaveTransforms<Number>::apply(Team& team, int thread, int threads,
             }
         }
     };
-    std::vector<Number*> waves(to.size());
-    const RowRange own = split_rows(self.layout.row_count(), thread, threads);
-    for (std::size_t s = 0; s < transformed.size(); ++s) {
-        if (transformed[s]) continue;
-        for (std::int64_t row = own.begin; row < own.end; ++row) {
-            for (std::size_t k = 0; k < to.size(); ++k) {
-                waves[k] = to[k][s] + self.layout.row_start(row);
-            }
-            WaveBlock<Number> block = self.row(self.shapes[self.shape_of[s]], row, waves);
-            block.species = s;
-            visit(block);
-        }
-    }
-    // Threads share rows as for kernels, but not columns.
+    self.visit_rows(split_rows(self.layout.row_count(), thread, threads), transformed, to, visit);
+    // Threads have the same rows as for kernels, but not the same columns.
     const bool begins_with_rows = self.axes.front() == Axis::x;
     if (!begins_with_rows) team.barrier();
     for (std::size_t n = 0; n + 1 < self.axes.size(); ++n) {
@@ -298,6 +306,7 @@ void WaveTransforms<Number>::apply(Team& team, int thread, int threads,
     // After the last axis the transform is complete.
     const Axis last = self.axes.back();
     const auto buffer = self.buffer(to.size());
+    std::vector<Number*> waves(to.size());
     for (std::size_t k = 0; k < to.size(); ++k) {
         waves[k] = buffer.get() + static_cast<std::int64_t>(k) * self.buffer_size();
     }

@@ -14,7 +14,7 @@ Stretch Stretch::along(Vector2d direction, double ratio) {
 }
 
 double Stretch::longest() const {
-    // The inverse has the same eigenvalues, whose product is 1.
+    // A stretch and its inverse have the same eigenvalues, whose product is 1.
     const double half_sum = std::max((xx + yy) / 2, 1.0);
     return half_sum + std::sqrt(half_sum * half_sum - 1);
 }

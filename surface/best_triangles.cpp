@@ -1,5 +1,6 @@
-// Dynamic programming over intervals of the ring: the best triangulation of an interval combines
-// those of its two parts (G. T. Klincsek, "Minimal triangulations of polygonal domains", 1980).
+// Dynamic programming over intervals of the ring: the best triangulation of an interval consists of
+// a triangle and the best triangulations of the two intervals beside it (G. T. Klincsek, "Minimal
+// triangulations of polygonal domains", 1980).
 #include "surface/fill_hole.h"
 
 #include <algorithm>
@@ -9,10 +10,11 @@ namespace cascade {
 
 namespace {
 
-/// The best triangulation of a ring's points between two of them.
+/// The best triangulation of the ring's points from one point to another.
 struct Part {
-    double worst = std::numeric_limits<double>::infinity();  ///< The score of its worst triangle.
-    std::uint32_t middle = 0;  ///< The third corner of the triangle on the line between the two.
+    double worst = std::numeric_limits<double>::infinity();  ///< The score of the worst triangle.
+    /// The third corner of the triangle whose side joins the two points.
+    std::uint32_t middle = 0;
 };
 
 class BestFilling {
@@ -45,8 +47,9 @@ private:
         return best;
     }
 
-    /// Outer triangles come first, so that each cuts off its middle corner. The recursion is at
-    /// most as deep as the ring is long.
+    /// Appends the triangles of an interval, inner ones last. So each triangle, when its turn
+    /// comes, cuts its middle corner off the rest of the ring. The recursion is at most as deep as
+    /// the ring is long.
     void collect(std::uint32_t from, std::uint32_t to, std::vector<RingTriangle>& found) {
         if (to - from < 2) return;
         const std::uint32_t middle = part(from, to).middle;

@@ -10,15 +10,16 @@ namespace cascade {
 
 namespace {
 
-/// The limit of a Voronoi edge's length over distance: close cells would make steps short.
+/// The limit of a Voronoi edge's length divided by the distance. Without it, cells near each other
+/// would require many applications of the operator.
 constexpr double most_flow = 4;
 constexpr double least_blurred_area = 0.2;  ///< As a fraction of the average.
-constexpr double precision = 1e-4;          ///< The sum of the omitted terms of the series.
+constexpr double precision = 1e-4;          ///< Limits the sum of the omitted terms of the series.
 
 /// The coefficients of the flow between cells, in units of the average area.
 struct Flows {
     std::vector<float> inverse_areas;
-    std::vector<float> edges;  ///< Length over distance, as in SurfaceCells::edges.
+    std::vector<float> edges;  ///< Length divided by distance, in the order of SurfaceCells::edges.
     double fastest = 0;        ///< An upper bound of the decay rates of all waves.
 };
 
@@ -35,15 +36,15 @@ Flows flows_of(const SurfaceCells& cells) {
         flows.inverse_areas.push_back(static_cast<float>(1 / area));
         double sum = 0;
         for (; edge < cells.ends[cell]; ++edge) sum += static_cast<double>(flows.edges[edge]);
-        flows.fastest = std::max(flows.fastest, 2 * sum / area);  // Gershgorin circles.
+        flows.fastest = std::max(flows.fastest, 2 * sum / area);  // By Gershgorin circles.
     }
     return flows;
 }
 
-/// The coefficients of exp(z (x − 1)) in Chebyshev polynomials of x, −1 … 1, scaled to the sum 1:
-/// exp(−z) times the modified Bessel functions I₀(z), 2 I₁(z), 2 I₂(z), … (M. Abramowitz and I.
-/// Stegun, "Handbook of Mathematical Functions", 9.6.34), truncated at `precision`. They are
-/// computed backwards by I_{k−1} = I_{k+1} + (2 k / z) I_k (Miller's algorithm).
+/// The coefficients of exp(z (x − 1)) in Chebyshev polynomials of x, −1 … 1, scaled to the sum 1.
+/// They are exp(−z) times the modified Bessel functions I₀(z), 2 I₁(z), 2 I₂(z), … (M. Abramowitz
+/// and I. Stegun, "Handbook of Mathematical Functions", 9.6.34), truncated at `precision`. The
+/// functions are computed backwards by I_{k−1} = I_{k+1} + (2 k / z) I_k (Miller's algorithm).
 std::vector<float> coefficients(double z) {
     const auto last = static_cast<std::size_t>(std::sqrt(40 * z)) + 10;
     std::vector<double> found(last + 2);
@@ -66,9 +67,8 @@ std::vector<float> coefficients(double z) {
     return result;
 }
 
-/// Applies exp(time × flows). With B = 1 + 2 flows / fastest, whose eigenvalues are in −1 … 1, this
-/// is exp(z (B − 1)) for z = time × fastest / 2: a sum of T_k(B) applied to the values, where
-/// T_{k+1} = 2 B T_k − T_{k−1}.
+/// Applies exp(time × flows). B = 1 + 2 flows / fastest has eigenvalues in −1 … 1. With z = time ×
+/// fastest / 2, the operator is exp(z (B − 1)), a sum of T_k(B), where T_{k+1} = 2 B T_k − T_{k−1}.
 class Diffusion {
 public:
     Diffusion(const SurfaceCells& cells, const Flows& flows, int channels)
@@ -86,7 +86,7 @@ public:
     }
 
 private:
-    /// Sets next to a B current + b before, and adds term next to sum.
+    /// Sets `next` to a B `current` + b `before`, and adds `term` times `next` to `sum`.
     void sweep(float a, float b, float term, const std::vector<float>& current,
                const std::vector<float>& before, std::vector<float>& next, std::vector<float>& sum,
                Team& team) const {

@@ -1,4 +1,5 @@
-// The key is two hashes of mesh and options. Everything read is validated before use.
+// The key consists of two hashes of the mesh and the options. All data read from a file are
+// validated before use.
 #include "surface/cell_file.h"
 
 #include "core/file.h"
@@ -32,7 +33,7 @@ static_assert(sizeof(Header) == 64);
 
 constexpr std::uint64_t bytes_per_cell = 4 + 3 * 8 + 8 + 8;
 constexpr std::uint64_t bytes_per_edge = 4 + 8 + 8;
-// Keeps sums of sizes from overflowing.
+// Prevents overflow of sums of sizes.
 constexpr std::uint64_t most_entries = std::uint64_t{1} << 40;
 
 template <typename T>
@@ -40,7 +41,7 @@ void append(std::string& bytes, const T& value) {
     bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-/// Reads values from the front of a text, which must be long enough.
+/// Reads values from the beginning of a text, which must be long enough.
 class Bytes {
 public:
     explicit Bytes(std::string_view bytes) : bytes_(bytes) {}
@@ -96,7 +97,7 @@ Result<Header> parse_header(std::string_view bytes, const CellKey& key) {
         return failure("is no file of cells");
     }
     if (header.byte_order != byte_order_mark) {
-        return failure("is of a machine with another byte order");
+        return failure("comes from a machine with another byte order");
     }
     if (header.version != cell_file_version) {
         return failure(fmt::format("is of version {}, not {}", header.version, cell_file_version));
@@ -252,7 +253,7 @@ Result<SurfaceCells> read_cells(const std::filesystem::path& path, const Surface
     const auto fails = [&](const Failure& why) {
         return failure(fmt::format("'{}' {}", path.string(), why.message));
     };
-    // The file may have any size, and may be replaced after its header was read.
+    // The file may have any size, and may be replaced while it is read.
     if (!size_of_file(path)) return fails({"is not there", ""});
     const Result<Header> header = parse_header(first_bytes(path, sizeof(Header)), key);
     if (!header) return fails(header.error());

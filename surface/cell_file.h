@@ -1,4 +1,4 @@
-// Cells kept in a file for later runs.
+// Cells stored in a file for later runs.
 //
 // The file consists of, in the byte order of the machine that wrote it: the letters "CASCELLS", the
 // version, a byte order mark, the key, the numbers of cells and Voronoi edges, the bare area, the
@@ -14,11 +14,12 @@
 
 namespace cascade {
 
-/// Increased when the file format or the cells for the same surface and options change.
+/// Must be increased when the file format changes, or when other cells are made from the same
+/// surface and options.
 inline constexpr std::uint32_t cell_file_version = 4;
 
-/// A hash of the surface and of all options that affect its cells: cells may be reused if and only
-/// if it is equal. The probability of a collision is 2⁻¹²⁸.
+/// A hash of the surface and of all options that affect its cells. Cells may be reused if and only
+/// if their key is equal. The probability of a collision is 2⁻¹²⁸.
 struct CellKey {
     std::array<std::uint64_t, 2> words{};
     friend bool operator==(const CellKey&, const CellKey&) = default;
@@ -28,8 +29,8 @@ CellKey key_of(const SurfaceMesh& mesh, const CellOptions& options);
 
 /// The content of a file of cells.
 std::string print_cells(const SurfaceCells& cells, const CellKey& key);
-/// Parses the cells made with this key for this surface. Fails as read_cells() does, with a clause
-/// such as "is no file of cells".
+/// Parses the cells made with this key for this surface. Fails where read_cells() would fail for
+/// the content of a file. The message is a clause without a subject, such as "is no file of cells".
 Result<SurfaceCells> parse_cells(std::string_view bytes, const SurfaceMesh& mesh,
                                  const CellKey& key);
 
@@ -44,11 +45,12 @@ Result<void> write_cells(const std::filesystem::path& path, const SurfaceCells& 
 Result<SurfaceCells> read_cells(const std::filesystem::path& path, const SurfaceMesh& mesh,
                                 const CellKey& key);
 
-/// Cells read from the file if it holds them, otherwise made and written there.
+/// Cells that are stored in a file. If the file contains the right cells, they are read, otherwise
+/// they are made and written to it.
 struct KeptCells {
     SurfaceCells cells;
-    bool were_kept = false;  ///< Read from the file.
-    std::string not_kept;    ///< Why the file could not be written. Empty if it was.
+    bool were_kept = false;  ///< Whether the cells were read from the file. If not, they were made.
+    std::string not_kept;    ///< Why the file could not be written. Empty if there was no error.
 };
 Result<KeptCells> kept_cells(const std::filesystem::path& path, const SurfaceMesh& mesh,
                              const CellOptions& options, Team& team,

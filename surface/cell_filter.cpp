@@ -1,4 +1,5 @@
-// Each triangle is divided into boxes that list the images of cells within reach of a box.
+// Each triangle is divided into boxes. A box has a list of the images of all cells that are within
+// the radius of some position in the box.
 #include "surface/cell_filter.h"
 
 #include "core/enough_memory.h"
@@ -14,19 +15,20 @@ namespace cascade {
 
 namespace {
 
-/// Below this sum of weights, all cells are at the edge of their reach, and no average is taken.
+/// If the sum of weights is below this, the position is almost out of reach of all cells, and no
+/// average is taken.
 constexpr float least_sum = 1e-5F;
 
-/// More boxes would need more memory than machines have.
+/// The largest number of boxes. More boxes would need more memory than machines have.
 constexpr std::size_t most_boxes = 0xffffffff;
 
-/// In radii: nearer images of one cell are merged.
+/// Images of one cell that are nearer to each other than this, in radii, are merged.
 constexpr float same_point_distance = 0.004F;
 
-/// The weight at a squared distance, in radii.
+/// The weight at a distance whose square in radii is `square`.
 float weight_of(float square) { return std::max(0.0F, 1 + square * (2 * std::sqrt(square) - 3)); }
 
-/// The nearest of the points in space for each of `others`.
+/// For each of `others`, the nearest of `points` in space.
 std::vector<std::uint32_t> nearest_points(std::span<const Vector3d> points,
                                           std::span<const Vector3d> others, double reach) {
     std::vector<std::uint32_t> nearest(others.size(), TriangleEdge::none);
@@ -97,7 +99,7 @@ CellFilter::FlatPoint CellFilter::flat_point(const Patch& patch, const SurfacePl
     const auto second = static_cast<float>(place.weights[(patch.first_corner + 1) % 3]);
     const auto third = static_cast<float>(place.weights[(patch.first_corner + 2) % 3]);
     FlatPoint result{second * patch.second_x + third * patch.third_x, third * patch.third_y, {}};
-    // On an edge the weight of the opposite corner is 0, so only that edge counts.
+    // On an edge the opposite corner has weight 0, so only the sightings of this edge count.
     float sum = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         const double others = place.weights[k] * place.weights[(k + 1) % 3];
@@ -107,7 +109,7 @@ CellFilter::FlatPoint CellFilter::flat_point(const Patch& patch, const SurfacePl
     if (sum > 0) {
         for (float& edge : result.edges) edge /= sum;
     } else {
-        // At a corner its two edges count equally.
+        // At a corner the two adjacent edges count equally.
         for (std::size_t k = 0; k < 3; ++k) {
             result.edges[k] = place.weights[k] + place.weights[(k + 1) % 3] > 0.5 ? 0.5F : 0.0F;
         }
@@ -129,7 +131,8 @@ std::span<const CellFilter::Sighting> CellFilter::sightings_of(std::uint32_t fir
     return {sightings_.data() + first, box_ends_[first_box + boxes - 1] - first};
 }
 
-/// Edges from which an image is at nearly the same point share a sighting.
+/// The sightings of an image. If several edges see it at nearly the same point, they share a
+/// sighting.
 CellFilter::Sightings CellFilter::sightings_in(const CellImage& image, std::uint32_t cell) {
     Sightings found;
     for (std::uint32_t k = 0; k < 3; ++k) {
@@ -147,12 +150,14 @@ CellFilter::Sightings CellFilter::sightings_in(const CellImage& image, std::uint
     return found;
 }
 
-/// Calls `visit(box)` for a rectangle of boxes of its triangle: all that an image can reach.
+/// Calls `visit(box)` for all boxes of the image's triangle that are within the radius of the
+/// image. These boxes form a rectangle.
 template <typename Visit>
 void CellFilter::visit_boxes(const CellImage& image, const Visit& visit) const {
     const Patch& patch = patches_[image.triangle];
     if (patch.columns == 1 && patch.rows == 1) return visit(patch.first_box);
-    // A margin, because rounding decides the box of a position on a boundary.
+    // Slightly more than the radius, because rounding decides to which box a position on a boundary
+    // belongs.
     const float reach = 1 + 1e-3F;
     const auto number = [](float at, std::uint32_t count) {
         return static_cast<std::uint32_t>(
@@ -200,7 +205,7 @@ void CellFilter::fill_boxes(const SurfaceMesh& mesh, const SurfaceCells& cells,
     std::size_t sum = 0;
     for (std::size_t& end : box_ends_) {
         const std::size_t count = end;
-        end = sum;  // The start of the box's list. Filling moves it to the end.
+        end = sum;  // Now the start of the box's list. Filling the list moves it to the end.
         sum += count;
     }
     sightings_.resize(sum);
@@ -210,8 +215,9 @@ void CellFilter::fill_boxes(const SurfaceMesh& mesh, const SurfaceCells& cells,
     }
 }
 
-/// Chooses substitutes for triangles without sightings: the cell of the triangle on the way to the
-/// nearest cell. In components without cells, the cell nearest in space to their first triangle.
+/// Chooses the cell to use in triangles without sightings: the cell of the next triangle on the way
+/// to the nearest cell. In a component without cells, it is the cell nearest in space to the
+/// component's first triangle.
 void CellFilter::find_substitutes(const SurfaceMesh& mesh, const SurfaceCells& cells) {
     std::vector<std::uint32_t> waiting;
     std::vector<bool> is_found(patches_.size());
@@ -258,7 +264,7 @@ void CellFilter::find_substitutes(const SurfaceMesh& mesh, const SurfaceCells& c
     spread();
 }
 
-/// The nearest of all cells seen from the triangle, at any distance.
+/// The nearest of all cells that have sightings in the triangle, at any distance.
 std::uint32_t CellFilter::nearest_cell(const Patch& patch, FlatPoint place) const {
     std::uint32_t nearest = patch.otherwise;
     float least = INFINITY;
@@ -272,13 +278,15 @@ std::uint32_t CellFilter::nearest_cell(const Patch& patch, FlatPoint place) cons
     return nearest;
 }
 
-/// Calls `visit(near)` once for each cell within the radius. On an edge the distance is taken from
-/// the edge's own sighting, so that both triangles agree. Inside a triangle it is interpolated.
+/// Calls `visit(near)` once for each cell within the radius. On an edge, the distance is that of
+/// the edge's own sighting, so that both triangles agree. Inside a triangle, distances are
+/// interpolated between the edges.
 template <typename Visit>
 void CellFilter::visit_near(const Patch& patch, FlatPoint place, const Visit& visit) const {
     const Vector3 position = patch.origin + patch.x_axis * place.x + patch.y_axis * place.y;
     const auto [a, b, c] = place.edges;
-    // A table of the weights of sets of edges, because branches would be unpredictable.
+    // The sum of the weights of each set of edges, in a table, because branches would be
+    // unpredictable.
     const std::array<float, 8> parts{0, a, b, a + b, c, a + c, b + c, 1};
     const auto sightings = sightings_of(box_of(patch, place), 1);
     for (std::size_t k = 0; k < sightings.size();) {
@@ -326,7 +334,8 @@ void CellFilter::sloped_shares(const SurfacePlace& place, std::vector<SlopedShar
     Vector3 slope;
     visit_near(patch, at, [&](const Near& near) {
         const float weight = weight_of(near.square);
-        // The derivative by d², times the derivative of d².
+        // The derivative of the weight by d². It is multiplied below by the derivative of d² by the
+        // position.
         const float steep = 6 * (std::sqrt(near.square) - 1);
         out.push_back(
             {near.cell, weight, patch.x_axis * (steep * near.x) + patch.y_axis * (steep * near.y)});

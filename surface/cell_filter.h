@@ -5,9 +5,9 @@
 //
 //     w(d / s) = 2 (d / s)³ − 3 (d / s)² + 1    for d < s, and 0 beyond.
 //
-// Turk measures d in space and uses s = 2 r. Here d is the distance along the surface, where it is
-// longer, so that the two sides of a leaf do not mix, and s is the repulsion radius r = 2 √(area /
-// cells), which includes about twelve cells.
+// Turk measures d in space and uses s = 2 r, where r = 2 √(area / cells) is the repulsion radius.
+// Here d is measured along the surface if this is longer than the distance in space, so that the
+// two sides of a leaf do not mix. s = r, so the average includes about twelve cells.
 #pragma once
 
 #include "core/parallel.h"
@@ -27,43 +27,48 @@ struct CellShare {
     float weight = 0;
 };
 
-/// A cell's weight and its gradient in the plane of the triangle, per radius of the filter.
+/// A cell's weight and the weight's gradient in the plane of the triangle. The gradient is a change
+/// per radius of the filter.
 struct SlopedShare {
     std::uint32_t cell = 0;
     float weight = 0;
     Vector3 slope;
 };
 
-/// Thread-safe. Keeps no reference to the cells or the mesh.
+/// Interpolates cell values. Thread-safe. Stores no reference to the cells or the mesh.
 class CellFilter {
 public:
-    /// Finds the triangles within each cell's reach. There must be a cell. The result is the same
-    /// on any number of threads. Throws std::bad_alloc.
+    /// Finds the triangles that are nearer to each cell than the radius. There must be at least one
+    /// cell. The result is the same with any number of threads. Throws std::bad_alloc.
     CellFilter(const SurfaceMesh& mesh, const SurfaceCells& cells, Team& team);
 
-    /// The cells near a position, in ascending order, with weights ≥ 0 that sum to 1. If none is
-    /// near, the nearest one, along the surface if its component has cells. Replaces `out`.
+    /// The cells near a position, in ascending order, with weights ≥ 0 that sum to 1. If no cell is
+    /// within the radius, the nearest cell: along the surface if the position's component has
+    /// cells, else in space. Replaces `out`.
     void shares(const SurfacePlace& place, std::vector<CellShare>& out) const;
 
-    /// The same cells with gradients that sum to 0, exact to a few hundredths on curved surfaces.
+    /// The cells and weights of shares(), with the gradients of the weights, which sum to 0. On
+    /// curved surfaces, the error of gradients is a few hundredths.
     void sloped_shares(const SurfacePlace& place, std::vector<SlopedShare>& out) const;
 
-    /// s: cells farther away have no weight.
+    /// The radius s. Cells farther away have no weight.
     double radius() const { return radius_; }
 
 private:
     /// A triangle laid flat, with its longest edge along the x axis from the origin. The unit of
-    /// length is the radius. Boxes have side 1.
+    /// length is the filter's radius. The triangle is covered by boxes of side 1.
     struct Patch {
         Vector3 origin;
-        Vector3 x_axis, y_axis;                        ///< In space, of length 1.
-        float second_x = 0, third_x = 0, third_y = 0;  ///< The second and third corner.
-        std::uint32_t first_corner = 0;                ///< The corner at the origin.
+        Vector3 x_axis, y_axis;  ///< Unit vectors in space.
+        /// Coordinates of the second and third corner.
+        float second_x = 0, third_x = 0, third_y = 0;
+        std::uint32_t first_corner = 0;  ///< The corner at the origin.
         std::uint32_t columns = 1, rows = 1;
-        std::uint32_t otherwise = 0;  ///< The cell to use if none is near.
+        std::uint32_t otherwise = 0;  ///< The cell to use if no cell is near.
         std::uint32_t first_box = 0;
     };
-    /// The position of a cell unfolded into a triangle's plane, as seen near some of its edges.
+    /// The position of a cell unfolded into a triangle's plane, as seen from some of the triangle's
+    /// edges.
     struct Sighting {
         std::uint32_t cell = 0;
         std::uint32_t edges = 0;  ///< One bit per edge.

@@ -1,4 +1,4 @@
-// Unfolds around the position with a growing radius until the nearest cell is certain.
+// Unfolds the surface around the position with a growing radius until the nearest cell is certain.
 #include "surface/cell_finder.h"
 
 #include "surface/relax.h"
@@ -11,7 +11,7 @@ namespace cascade {
 
 namespace {
 
-/// The nearest cell. The lowest index wins among equally near ones.
+/// The nearest cell. If several are equally near, the one with the lowest index.
 struct Nearest {
     double distance = std::numeric_limits<double>::infinity();
     std::uint32_t cell = CellFinder::nothing;
@@ -54,7 +54,8 @@ std::uint32_t CellFinder::at(const SurfacePlace& place) {
                 nearest.see(length(position_of(piece.flat, cells_[cell].weights)), cell);
             }
         }
-        // A cell found beyond the reach may not be the nearest.
+        // A cell farther away than the reach may not be the nearest, because the patch may lack a
+        // nearer one.
         if (nearest.distance <= reach) return nearest.cell;
         if (!(reach < whole_)) break;
     }

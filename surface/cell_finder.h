@@ -1,4 +1,4 @@
-// Finding the cell whose region contains a position.
+// Finds the cell whose region contains a position.
 #pragma once
 
 #include "surface/unfolding.h"
@@ -10,15 +10,17 @@
 
 namespace cascade {
 
-/// The mesh and the cells must outlive it unchanged. Not thread-safe.
+/// Finds cells by position. The mesh and the cells must outlive the finder unchanged. Not
+/// thread-safe.
 class CellFinder {
 public:
     static constexpr std::uint32_t nothing = 0xffffffff;
 
     CellFinder(const SurfaceMesh& mesh, std::span<const SurfacePlace> cells);
 
-    /// The nearest cell in the unfolded surface around the position, or in space if its component
-    /// has no cell. The lowest index wins among equally near ones. `nothing` if there are no cells.
+    /// The cell that is nearest in the unfolded surface around the position, or nearest in space if
+    /// the position's component has no cell. If several are equally near, the one with the lowest
+    /// index. `nothing` if there are no cells.
     std::uint32_t at(const SurfacePlace& place);
 
 private:

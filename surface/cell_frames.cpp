@@ -1,4 +1,4 @@
-// Frames are derived from the upward axis. Evenness is a sum over the links of each cell.
+// Derives frames from the upward axis. Evenness is a sum over the links of each cell.
 #include "surface/cell_frames.h"
 
 #include "surface/cell_gradient.h"
@@ -11,8 +11,8 @@ namespace cascade {
 
 namespace {
 
-// Above this ratio of eigenvalues gradients have no component across the line of the neighbours
-// (surface/cell_gradient.h), with a margin.
+// If the ratio of eigenvalues is larger, gradients have no component across the line of the
+// neighbours (surface/cell_gradient.h). Includes a margin.
 constexpr double most_ratio = 500;
 
 /// Sums over the links of a cell, in its plane.
@@ -26,7 +26,7 @@ struct Shape {
     }
     double half() const { return (xx + yy) / 2; }
     double apart() const { return std::hypot((xx - yy) / 2, xy); }
-    /// The square of a vector in the metric of the inverse.
+    /// The squared length of `v` in the metric of the inverse of M.
     double square_by_inverse(Vector2d v) const {
         const double determinant = xx * yy - xy * xy;
         return (yy * v.x * v.x - 2 * xy * v.x * v.y + xx * v.y * v.y) / determinant;

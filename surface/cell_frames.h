@@ -11,22 +11,24 @@
 namespace cascade {
 
 /// Two perpendicular unit vectors in the plane of each cell's triangle. Seen from outside, with y
-/// upwards, they point like the axes of a picture. Where that is undetermined, as at the top of a
-/// sphere, they are filled in from around.
+/// upwards, they point like the axes of a picture. Where y points along the normal, as at the top
+/// of a sphere, the frame follows from the frames of surrounding cells.
 struct CellFrames {
     std::vector<Vector3d> right, down;
 };
 CellFrames cell_frames(const SurfaceMesh& mesh, const SurfaceCells& cells);
 
-/// How far, from 0 to 1, diffusion may differ along and across a direction in each cell, as |a − b|
-/// / (a + b) of its rates a and b, so that no wave grows. `frames` belong to the cells.
+/// For each cell, the largest difference of diffusion along and across a direction at which no wave
+/// grows, 0 … 1. With rates a and b the difference is |a − b| / (a + b). `frames` are the frames of
+/// the cells.
 ///
-/// Links carry the smaller rate. The rest flows by F, a matrix in each cell times the least-squares
-/// gradient G. Cell i loses Σ w_ij (F_i + F_j) / 2 · c_ij, where c_ij are the straight lines to its
-/// neighbours. If G were the adjoint of this sum, Σ F · G would be a decreasing energy. But it is
-/// another fit of the same differences: with M = Σ v r_jᵀ, v = l r_j / |r_j|, over the neighbours
-/// at the unfolded positions r_j, G is the inverse of M times Σ v (u_j − u_i). In the metric of
-/// that inverse the rest of a cell changes the energy by at least
+/// Links diffuse at the smaller of the two rates. The rest of the diffusion is a flow F, which in
+/// each cell is a matrix times the least-squares gradient G. Cell i loses Σ w_ij (F_i + F_j) / 2 ·
+/// c_ij, where c_ij are the straight lines to its neighbours. If G were the adjoint of this sum, Σ
+/// F · G would be a decreasing energy. But G is another fit of the same differences: with M = Σ v
+/// r_jᵀ, v = l r_j / |r_j|, over the neighbours at the unfolded positions r_j, G is the inverse of
+/// M times Σ v (u_j − u_i). In the metric of that inverse the rest of a cell changes the energy by
+/// at least
 ///
 ///     −½ |a − b|/2 (1/√(1 − σ²) + 2 √κ μ) Σ w (u_j − u_i)²
 ///

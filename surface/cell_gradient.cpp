@@ -11,10 +11,12 @@ namespace cascade {
 
 namespace {
 
-/// Neighbours are collinear if the ratio of squared spreads across and along a line is below this.
+/// Neighbours count as collinear if their squared spread across a line, divided by their squared
+/// spread along it, is below this.
 constexpr double on_a_line = 1e-3;
 
-/// Neighbours nearer than this fraction of the cell's extent coincide with it.
+/// A neighbour nearer than this fraction of the cell's extent counts as being at the cell's
+/// position.
 constexpr double same_place = 1e-9;
 
 /// A symmetric 2 × 2 matrix [xx, xy; xy, yy].
@@ -28,7 +30,7 @@ struct Spread {
     }
 };
 
-/// The inverse, for rank 1 the pseudo-inverse, else 0.
+/// The inverse for rank 2, the pseudo-inverse for rank 1, else 0.
 Spread pseudo_inverse(const Spread& m) {
     const double half = (m.xx + m.yy) / 2, apart = std::hypot((m.xx - m.yy) / 2, m.xy);
     const double large = half + apart;
@@ -43,7 +45,7 @@ Spread pseudo_inverse(const Spread& m) {
     return {along.x * along.x / large, along.x * along.y / large, along.y * along.y / large};
 }
 
-/// Unfolds around cells. One per thread.
+/// Unfolds the surface around cells. One object per thread.
 class NeighbourFinder {
 public:
     NeighbourFinder(const SurfaceMesh& mesh, const EdgeShapes& shapes, const SurfaceCells& cells)
@@ -54,7 +56,8 @@ public:
         const auto edges = cells_.edges_of(cell);
         double farthest = 0;
         for (const VoronoiEdge& edge : edges) farthest = std::max(farthest, edge.distance);
-        // A Voronoi edge's distance is the mean of two values, one of which may be longer.
+        // The distance of a Voronoi edge is the mean of the distances measured from both cells. The
+        // distance measured from this cell may be longer, hence the factor.
         unfolding_.around(cells_.places[cell], 1.5 * farthest);
         found_.clear();
         for (const VoronoiEdge& edge : edges) found_.push_back(neighbour(cell, edge));
@@ -67,7 +70,7 @@ private:
         if (const FlatTriangle* flat = unfolding_.flat_of(other.triangle)) {
             return position_of(*flat, other.weights);
         }
-        // Out of reach: uses the straight line in space.
+        // The neighbour is out of reach, so the straight line in space is used.
         const SurfacePlace& here = cells_.places[cell];
         const Vector2d towards =
             tangent_frame(mesh_, here.triangle)

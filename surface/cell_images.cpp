@@ -1,6 +1,6 @@
-// Propagates an image from its triangle over edges, the nearest first, over each edge once. An
-// unfolded strip of triangles may wind back to its start. It ends there because a path along the
-// surface that is shorter than the distance in space is rejected.
+// Propagates an image from the position's triangle across edges, nearest edges first and each edge
+// once. An unfolded strip of triangles may wind back to its start. The propagation ends there: the
+// image would be nearer along the surface than in space, and such images are rejected.
 #include "surface/cell_images.h"
 
 #include <algorithm>
@@ -83,7 +83,7 @@ void ImageFinder::hand_on(std::uint32_t seen, std::uint32_t edge) {
     there.from_edges[other.edge] = source;
 }
 
-/// Maps a point from the plane of one triangle to that of the other.
+/// Maps a point from the plane of one triangle to the plane of the other.
 Vector2d ImageFinder::carried(TriangleEdge edge, TriangleEdge other, Vector2d point) const {
     const FlatTriangle& from = frames_[edge.triangle];
     const FlatTriangle& into = frames_[other.triangle];

@@ -11,15 +11,16 @@
 
 namespace cascade {
 
-/// Each triangle with its longest edge along the x axis from the origin.
+/// Each triangle laid flat with its longest edge along the x axis, from the origin.
 std::vector<FlatTriangle> longest_edge_frames(const SurfaceMesh& mesh);
 
-/// The corner of a triangle at the origin of its frame.
+/// The corner of a triangle that is at the origin of its frame.
 std::uint32_t longest_edge(const SurfaceMesh& mesh, std::uint32_t triangle);
 
 /// The position of a cell in the plane of a triangle (longest_edge_frames), in units of the radius,
-/// with the surface between them unfolded. Around a corner of a curved surface, several unfoldings
-/// lead to a triangle, so each edge has its own position, which both triangles at an edge share.
+/// with the surface between cell and triangle unfolded. Around a corner of a curved surface,
+/// several ways of unfolding lead to the same triangle. So a position is stored for each edge of
+/// the triangle. The two triangles at an edge share this position.
 struct CellImage {
     struct Point {
         float x = 0, y = 0;
@@ -28,14 +29,15 @@ struct CellImage {
     std::array<Point, 3> from_edges;
 };
 
-/// Refers to its arguments, which must outlive it. Not thread-safe.
+/// Finds the images of positions. Refers to its arguments, which must outlive it. Not thread-safe.
 class ImageFinder {
 public:
     ImageFinder(const SurfaceMesh& mesh, std::span<const FlatTriangle> frames, double radius);
 
     /// The images of a cell at this position in all triangles reached within the radius, along the
-    /// surface and in space. An edge out of reach has the image of one that is reached, from which
-    /// the position is farther than the radius. Valid until the next call.
+    /// surface and in space. An edge that is not reached gets the image of an edge that is reached.
+    /// This does no harm, because both put the position farther away than the radius. Valid until
+    /// the next call.
     std::span<const CellImage> find(const SurfacePlace& place);
 
 private:
@@ -44,18 +46,18 @@ private:
     /// A visited triangle.
     struct Seen {
         std::uint32_t triangle = 0;
-        std::array<bool, 3> is_reached{};  ///< Edges crossed by an image.
+        std::array<bool, 3> is_reached{};  ///< Whether the image has crossed each edge.
         std::array<Vector2d, 3> from_edges;
     };
-    /// An edge of a visited triangle, as a number that sorts the nearest first: the bits of the
+    /// An edge of a visited triangle, as one number that sorts the nearest first: the bits of the
     /// squared distance (which sort like the number if it is ≥ 0), then 4 times the index in seen_,
-    /// plus the edge's index. Numbers of one word move faster than structures of two.
+    /// plus the edge's index. One word moves faster than a structure of two.
     __extension__ using Front = unsigned __int128;
     static Front front_at(double square_distance, std::uint32_t seen, std::uint32_t edge) {
         return Front{std::bit_cast<std::uint64_t>(square_distance)} << 64 |
                (std::uint64_t{seen} * 4 + edge);
     }
-    /// The index in seen_ of a triangle's visit in a call.
+    /// The last call that visited a triangle, and the index of that visit in seen_.
     struct LastSeen {
         std::uint32_t call = 0;
         std::uint32_t number = 0;
@@ -70,7 +72,7 @@ private:
     double radius_;
     std::uint32_t call_ = 0;
     Vector3d position_;
-    std::vector<LastSeen> last_seen_;  ///< Per triangle.
+    std::vector<LastSeen> last_seen_;  ///< One per triangle.
     std::vector<Seen> seen_;
     std::vector<Front> fronts_;  ///< A heap with the nearest on top.
     std::vector<CellImage> images_;

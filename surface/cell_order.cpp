@@ -1,5 +1,5 @@
-// Orders cells by breadth-first distance along links (Cuthill and McKee). Within a window, cells
-// with equally many links are adjacent.
+// Orders cells by their breadth-first distance along links (Cuthill and McKee). Then sorts the
+// cells of each window by their numbers of links.
 #include "surface/cell_order.h"
 
 #include "core/check.h"
@@ -14,17 +14,18 @@ std::size_t link_count(const LinkList& links, std::uint32_t cell) {
     return links.ends[cell] - (cell == 0 ? 0 : links.ends[cell - 1]);
 }
 
-/// Breadth-first search along links over cells that are not ordered yet.
+/// Breadth-first search along links over the cells that have not been ordered yet.
 class LevelWalk {
 public:
     explicit LevelWalk(const LinkList& links)
         : links_(links), seen_(links.ends.size(), 0), is_ordered_(links.ends.size(), false) {}
 
     struct Reached {
-        /// Level by level, a cell's neighbours by ascending numbers of links.
+        /// The cells level by level. A cell's neighbours are in ascending order of their numbers of
+        /// links.
         std::vector<std::uint32_t> cells;
         std::size_t levels = 0;
-        std::size_t last_level = 0;  ///< The index of its first cell.
+        std::size_t last_level = 0;  ///< The index of the last level's first cell.
     };
     Reached from(std::uint32_t start) {
         ++round_;
@@ -40,9 +41,10 @@ public:
         return reached;
     }
 
-    /// The levels from a peripheral cell. Each trial starts from a farthest cell of the last one.
+    /// The levels from a peripheral cell. Each trial starts from a cell of the previous trial's
+    /// last level.
     Reached from_rim(std::uint32_t start) {
-        constexpr int most_trials = 8;  // Two or three suffice.
+        constexpr int most_trials = 8;  // Two or three trials are usually enough.
         Reached best = from(start);
         for (int trial = 1; trial < most_trials; ++trial) {
             const auto rim = best.cells.begin() + static_cast<std::ptrdiff_t>(best.last_level);
@@ -79,7 +81,7 @@ private:
     }
 
     const LinkList& links_;
-    std::vector<std::uint32_t> seen_;  ///< The last search that visited the cell.
+    std::vector<std::uint32_t> seen_;  ///< The number of the last search that visited each cell.
     std::vector<bool> is_ordered_;
     std::uint32_t round_ = 0;
 };
@@ -93,7 +95,7 @@ std::vector<std::uint32_t> order_by_levels(const LinkList& links) {
     for (std::uint32_t cell = 0; cell < links.ends.size(); ++cell) {
         if (walk.is_ordered(cell)) continue;
         walk.add_to(order, walk.from_rim(cell));
-        // If links are not symmetric, the peripheral cell may not reach this one.
+        // If links are not symmetric, the peripheral cell may not reach this cell.
         if (!walk.is_ordered(cell)) walk.add_to(order, walk.from(cell));
     }
     return order;

@@ -13,19 +13,19 @@ namespace cascade {
 
 /// The order by distance from a peripheral cell, counted in links, so that neighbours are in
 /// adjacent levels (E. Cuthill and J. McKee, "Reducing the bandwidth of sparse symmetric matrices",
-/// ACM 1969; the peripheral cell is found as by A. George and J. Liu, ACM TOMS 5(3), 1979).
-/// Connected components follow each other. O(n).
+/// ACM 1969). The peripheral cell is found by the method of A. George and J. Liu, ACM TOMS 5(3),
+/// 1979. Connected components follow each other. O(n).
 std::vector<std::uint32_t> order_by_levels(const LinkList& links);
 
-/// The fastest order for steps by measurement (docs/performance.md): by levels, grouped in windows
-/// of 64 cells. Depends only on the links.
+/// The order with which steps are fastest, according to measurements (docs/performance.md):
+/// order_by_levels(), then group_by_links() in windows of 64 cells. Depends only on the links.
 std::vector<std::uint32_t> order_for_steps(const LinkList& links);
 
 /// Sorts each window of `window` cells stably by their numbers of links, in ascending order. A
-/// slice is as long as its longest list, so this reduces padding.
+/// slice of links is as long as its longest list, so this reduces padding.
 void group_by_links(std::vector<std::uint32_t>& order, const LinkList& links, std::size_t window);
 
-/// The same links with cells renumbered by an order. The links of a cell are sorted by neighbour.
+/// The same links with cells renumbered by an order. Sorts the links of each cell by neighbour.
 LinkList renumbered(const LinkList& links, std::span<const std::uint32_t> order);
 
 }  // namespace cascade

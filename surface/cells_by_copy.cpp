@@ -1,5 +1,5 @@
-// Brings the copy's points back to the original before spreading cells over it, so that its area
-// does not shrink.
+// Before spreading cells over the copy, moves the copy's points back to the original surface,
+// because the copy's area would be too small otherwise.
 #include "surface/cells_by_copy.h"
 
 #include "mesh/coarse_copy.h"
@@ -16,16 +16,17 @@ namespace cascade {
 
 namespace {
 
-/// A surface with at least this many triangles per cell is fine. Relaxation, which unfolds a patch
-/// of about twenty cells around each cell, would spend most of its time on triangles.
+/// A surface with at least this many triangles per cell is fine. Relaxation unfolds a patch of
+/// about twenty cells around each cell. On a fine surface this would take most of the time.
 constexpr std::size_t fine_triangles = 12;
 /// The copy's approximate number of triangles per cell.
 constexpr double coarse_triangles = 3;
 /// The approximate mean area of coarse_copy()'s triangles for edges of length 1.
 constexpr double area_of_edge = 0.82;
 
-/// Brings positions on a coarse copy to the original. Searches only the triangles whose points have
-/// merged into the copy's triangle, so it never finds another sheet of the surface.
+/// Moves positions on a coarse copy to the original. Searches only those original triangles whose
+/// points have merged into the corners of the copy's triangle, so it never finds another sheet of
+/// the surface.
 class WayBack {
 public:
     WayBack(const SurfaceMesh& mesh, const CoarseCopy& copy)
@@ -33,12 +34,12 @@ public:
         each_merged([&](std::uint32_t point, std::uint32_t) { ++ends_[point + 1]; });
         std::partial_sum(ends_.begin(), ends_.end(), ends_.begin());
         triangles_.resize(ends_.back());
-        // Starts, which grow to ends.
+        // ends_ now has the starts. Filling moves them to the ends.
         ends_.pop_back();
         each_merged([&](std::uint32_t point, std::uint32_t t) { triangles_[ends_[point]++] = t; });
     }
 
-    /// The original's triangles with corners that have merged into a point of the copy.
+    /// The original's triangles that have a corner merged into this point of the copy.
     std::span<const std::uint32_t> triangles_of(std::uint32_t point) const {
         const std::size_t first = point == 0 ? 0 : ends_[point - 1];
         return {triangles_.data() + first, ends_[point] - first};
@@ -64,7 +65,8 @@ private:
         }
     }
 
-    /// The nearest position on triangles of these points that do not face the other way.
+    /// The nearest position on the triangles around these points. Leaves out triangles that face
+    /// the other way.
     SurfacePlace nearest(Vector3d position, std::span<const std::uint32_t> points,
                          Vector3d normal) const {
         SurfacePlace best = {triangles_of(points[0])[0], {1, 0, 0}};
@@ -87,7 +89,7 @@ private:
     const SurfaceMesh& mesh_;
     const CoarseCopy& copy_;
     std::vector<std::size_t> ends_;  ///< Point p's triangles end before triangles_[ends_[p]].
-    std::vector<std::uint32_t> triangles_;  ///< By point of the copy.
+    std::vector<std::uint32_t> triangles_;  ///< The triangles of each point of the copy.
 };
 
 class CellsByCopy {
@@ -111,7 +113,7 @@ public:
         Anisotropy copied;
         if (options.anisotropy) copied = copy_of(*options.anisotropy);
         const Anisotropy* anisotropy = options.anisotropy ? &copied : nullptr;
-        relax(copy_.mesh, places, options.rounds, team_, cancel_, anisotropy);
+        relax(copy_.mesh, places, options.rounds, team_, cancel_, anisotropy, options.progress);
         SurfaceCells cells =
             voronoi_cells(copy_.mesh, std::move(places), team_, cancel_, anisotropy);
         if (cancel_) return cells;
@@ -146,7 +148,7 @@ private:
         return copied;
     }
 
-    /// Gives the cells of each component its area on the original.
+    /// Scales the areas of each component's cells to the component's area on the original.
     void scale(SurfaceCells& cells, const std::vector<double>& areas) const {
         std::vector<double> factors(areas.size());
         const auto component = [&](std::size_t cell) {
@@ -172,7 +174,7 @@ private:
     Team& team_;
     const std::atomic<bool>& cancel_;
     WayBack back_;
-    std::vector<std::uint32_t> components_;  ///< By triangle of the copy.
+    std::vector<std::uint32_t> components_;  ///< The component of each triangle of the copy.
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Directions in tangent planes as complex numbers: sums, transport and smoothing.
+// Directions in tangent planes as complex numbers, which can be added, transported and smoothed.
 #pragma once
 
 #include "surface/direction_field.h"
@@ -7,17 +7,18 @@
 
 namespace cascade {
 
-/// Directions whose sum is shorter than this fraction of the sum of their lengths cancel out.
+/// Directions count as cancelled out if the length of their sum is less than this fraction of the
+/// sum of their lengths.
 constexpr double cancelled_part = 1e-6;
 
 /// Directions as codes: vectors in the frames of their planes. The code of a line has twice the
-/// line's angle, so that v and −v have the same code and perpendicular lines cancel out.
+/// line's angle, so that v and −v have the same code, and perpendicular lines cancel out.
 class CodedDirections {
 public:
     CodedDirections(const TangentPlanes& planes, DirectionKind kind)
         : planes_(planes), kind_(kind) {}
 
-    /// The code of a vector, with the same length.
+    /// The code of a vector, which has the vector's length.
     Vector2d of(std::size_t plane, Vector3d v) const {
         const Vector2d flat = planes_.frames[plane].in_plane(v);
         if (kind_ == DirectionKind::arrows) return flat;
@@ -28,7 +29,7 @@ public:
         const double angle = std::atan2(code.y, code.x) / symmetry();
         return planes_.frames[plane].in_space({std::cos(angle), std::sin(angle)});
     }
-    /// The factor, of length 1, that transports a neighbour's code here.
+    /// The factor, of length 1, that transports a neighbour's code into this plane.
     Vector2d turn(const TangentLink& link) const {
         const double angle = link.turn * symmetry();
         return {std::cos(angle), std::sin(angle)};

@@ -1,4 +1,5 @@
-// Compares weights over area with the mean area. The limit is a constant or a quantile.
+// Compares each cell's sum of weights divided by its area with a limit, which is a constant or a
+// quantile. Areas are relative to the mean area.
 #include "surface/conduction.h"
 
 #include <algorithm>
@@ -11,12 +12,13 @@ namespace cascade {
 
 namespace {
 
-// A cell smaller than this part of the mean counts as this large. Otherwise steps would be equally
-// short.
+// A smaller area counts as this fraction of the mean area. Without this limit, the smallest cells
+// would make steps very short.
 constexpr double least_conducting_area = 1e-3;
-// The largest sum of a spread cell's weights, over the mean area. Regular hexagons have 3.46.
+// The limit for spread cells: the sum of a cell's weights, times the mean area, divided by the
+// cell's area. Regular hexagons have 3.46.
 constexpr double most_weight = 7.5;
-// The part of faces and points that is loosened.
+// The fraction of cells whose areas are increased, if cells are faces or points.
 constexpr double tightest_part = 1e-3;
 
 /// The largest number c for which the sum of min(w, c) over the weights is at most `sum`.
@@ -76,7 +78,8 @@ private:
             made_.areas[cell] = std::max(made_.areas[cell], sums_[cell] * mean / most);
     }
 
-    /// The sum of weights over the area, relative to the mean, that nearly all cells do not exceed.
+    /// The limit that all cells but the tightest fulfil: the sum of weights divided by the area,
+    /// relative to the mean area.
     double usual_most() const {
         const double mean = mean_area();
         std::vector<double> relative;
@@ -89,8 +92,8 @@ private:
         return *limit;
     }
 
-    /// Limits the flows of cells whose sum is more than `most` times their area to that or to
-    /// `most_weight`.
+    /// Limits the flows of each cell so that their sum is at most `most` times its area, or at most
+    /// `most_weight` if that is larger.
     void cap_flows(double most) {
         std::vector<double> caps(count(), std::numeric_limits<double>::infinity());
         for (std::size_t cell = 0; cell < count(); ++cell) {

@@ -8,15 +8,17 @@
 namespace cascade {
 
 struct Conduction {
-    std::vector<double> areas;  ///< By cell, in square units.
-    std::vector<double> flows;  ///< The weights of edges: the same for both cells, never negative.
+    std::vector<double> areas;  ///< By cell, in units of `unit` squared.
+    std::vector<double> flows;  ///< The weights of edges, equal on both sides and never negative.
 };
 
-/// The tightest cell limits the step of all, so a few cells count as looser than they are. A cell
-/// is tight if the sum of its weights is large for its area. Among spread cells this loosens a few
-/// in several thousand. Faces and points of a mesh may all be tighter than that: the tightest
-/// thousandth is loosened. As single edges of slivers may conduct a hundred times as much as
-/// others, these are limited before areas grow. `unit` is in lengths of the model.
+/// The weights and areas to use for diffusion. A cell is tight if the sum of its weights is large
+/// for its area. The tightest cell limits the time step of all cells, so the tightest cells get
+/// larger areas than they have. If the cells are spread (`are_spread`), there is a fixed limit,
+/// which affects a few in several thousand cells. Cells that are faces or points of a mesh may all
+/// exceed this limit, so only the tightest thousandth of them is changed. A single edge of a sliver
+/// may conduct a hundred times as much as other edges. Such edges are limited before areas are
+/// increased. `unit` is the unit of length, in lengths of the model.
 Conduction conduction_of(const SurfaceCells& cells, bool are_spread, double unit);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Clips by one half-plane at a time (Sutherland and Hodgman) and labels each edge.
+// Cuts by one half-plane at a time (Sutherland and Hodgman) and labels each edge.
 #include "surface/convex_region.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Convex regions of a plane with a label on each edge: the region beyond it.
+// Convex regions of a plane. Each edge has a label: the region beyond the edge.
 #pragma once
 
 #include "mesh/flat.h"
@@ -12,7 +12,7 @@ class ConvexRegion {
 public:
     static constexpr std::uint32_t nothing = 0xffffffff;
     struct Edge {
-        Vector2d from;  ///< The start. It ends where the next edge starts, counterclockwise.
+        Vector2d from;  ///< The start. The edge ends where the next edge starts, counterclockwise.
         std::uint32_t beyond = nothing;
     };
 

@@ -10,10 +10,10 @@ namespace cascade {
 
 namespace {
 
-/// Triangles with a smaller ratio of area to the square of their longest edge are ignored.
+/// Triangles with a smaller ratio of area to squared longest edge are ignored.
 constexpr double least_shape = 1e-8;
 
-/// The share of a triangle that belongs to each corner (Meyer et al., 2003, section 3.3).
+/// The share of a triangle's area that belongs to each corner (Meyer et al., 2003, section 3.3).
 std::array<double, 3> corner_areas(const SurfaceMesh& mesh, std::size_t triangle) {
     const double area = mesh.area(triangle);
     std::array<double, 3> angles{}, squares{}, shares{};
@@ -31,7 +31,7 @@ std::array<double, 3> corner_areas(const SurfaceMesh& mesh, std::size_t triangle
         return shares;
     }
     for (std::size_t k = 0; k < 3; ++k) {
-        // From the two edges at the corner, each with the cotangent of the opposite angle.
+        // Each of the two edges at the corner contributes by the cotangent of its opposite angle.
         const std::size_t a = corner_after(k), b = corner_after(a);
         shares[k] = (squares[a] / std::tan(angles[a]) + squares[b] / std::tan(angles[b])) / 8;
     }
@@ -61,14 +61,16 @@ Axes axes_around(Vector3d normal) {
 Axes turned(const Axes& axes, Vector3d from, Vector3d to) {
     const double cosine = dot(from, to);
     if (cosine <= -1 + 1e-12) return {-axes.u, -axes.v};
-    // Two reflections: v minus twice its component along the mean of the normals.
+    // Rotates by two reflections. The first does not change v. The second subtracts twice the
+    // component of v along the mean of the normals.
     const Vector3d sum = from + to;
     const auto turn = [&](Vector3d v) { return v - sum * (dot(v, to) / (1 + cosine)); };
     return {turn(axes.u), turn(axes.v)};
 }
 
-/// The form of one triangle: form · e is the change of the normal along e, by least squares over
-/// its edges e. Each gives two equations for uu, uv and vv.
+/// The second fundamental form of one triangle, fitted by least squares. For each edge e of the
+/// triangle, form · e should be the change of the normal along e. Each edge gives two equations for
+/// uu, uv and vv.
 struct TriangleForm {
     bool is_known = false;
     Axes axes;
@@ -115,7 +117,7 @@ TriangleForm form_of(const SurfaceMesh& mesh, const std::vector<Vector3d>& norma
     return result;
 }
 
-/// The form on other axes of the same plane.
+/// The form expressed in other axes of the same plane.
 Form on_axes(const TriangleForm& triangle, const Axes& axes) {
     const auto apply = [&](Vector3d a, Vector3d b) {
         const double ax = dot(a, triangle.axes.u), ay = dot(a, triangle.axes.v);
@@ -159,7 +161,7 @@ std::vector<Vector3d> sphere_normals(const SurfaceMesh& mesh) {
         const double size = length(sums[p]);
         sums[p] = size > 0 && std::isfinite(size) ? sums[p] * (1 / size) : Vector3d{};
     }
-    // If the normals around a point cancel out, uses the normal of one of its triangles.
+    // If the normals around a point cancel out, the point gets the normal of one of its triangles.
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         for (const std::uint32_t point : mesh.triangles[t]) {
             if (length(sums[point]) > 0.5) continue;

@@ -1,5 +1,5 @@
-// Adds lines as vectors of twice their angle, because they have no sign. Fills undetermined
-// directions in layers from the known ones.
+// Adds lines as vectors of twice their angle, because lines have no sign. Fills in undetermined
+// directions in layers, starting next to known directions.
 #include "surface/direction_field.h"
 
 #include "surface/coded_directions.h"
@@ -25,8 +25,9 @@ TangentLink link_over(const SurfaceMesh& mesh, TriangleEdge here, TriangleEdge t
     const Vector3d half_way = from + along * 0.5;
     TangentLink link;
     link.neighbour = there.triangle;
-    // The other triangle has the edge in the opposite direction. The triangle with the lower index
-    // is the reference, so that the two sides are exact negatives.
+    // The other triangle has the edge in the opposite direction. The angle is always computed from
+    // the triangle with the lower index, so that the links in both directions have exactly opposite
+    // angles.
     const double out = edge_angle(mesh, here), back = edge_angle(mesh, there);
     constexpr double half_turn = std::numbers::pi;
     link.turn = here.triangle < there.triangle ? out - back - half_turn : -(back - out - half_turn);
@@ -44,7 +45,7 @@ constexpr std::uint32_t none = 0xffffffff;
 /// Principal curvatures with a smaller relative difference count as equal.
 constexpr double least_difference = 1e-3;
 
-/// Assigns directions to planes without one (0), layer after layer.
+/// Assigns directions to planes whose direction is unknown (0), layer after layer.
 class Filling {
 public:
     Filling(const TangentPlanes& planes, const CodedDirections& coded, std::vector<Vector2d>& codes)
@@ -97,7 +98,7 @@ private:
     const TangentPlanes& planes_;
     const CodedDirections& coded_;
     std::vector<Vector2d>& codes_;
-    std::vector<std::uint32_t> layers_;  ///< Distance from a known plane in links, or none.
+    std::vector<std::uint32_t> layers_;  ///< The number of links from a known plane, or none.
 };
 
 }  // namespace
@@ -120,7 +121,7 @@ TangentPlanes planes_of_triangles(const SurfaceMesh& mesh) {
 std::vector<Vector3d> directions(const TangentPlanes& planes, std::span<const Vector3d> vectors,
                                  DirectionKind kind, double least_part) {
     const CodedDirections coded(planes, kind);
-    // Relative to the longest, so that squares neither overflow nor vanish.
+    // Lengths are relative to the longest vector, so that squares neither overflow nor underflow.
     double longest = 0;
     for (const Vector3d& v : vectors) {
         if (is_finite(v))
@@ -179,7 +180,8 @@ std::vector<Vector3d> curvature_lines(const SurfaceMesh& mesh, const TangentPlan
             sum = sum + coded.of(k, curvature.high_direction[point]) * (apart * place.weights[c]);
         }
         if (!(length(sum) > least_difference * size)) sum = {};
-        // The other direction is perpendicular: the doubled angle becomes its negative.
+        // The directions of lowest and highest curvature are perpendicular. Angles are doubled
+        // here, so the sum is negated.
         if (which == Principal::low) sum = sum * -1.0;
         lines.push_back(coded.in_space(k, sum) * length(sum));
     }

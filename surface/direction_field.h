@@ -14,23 +14,25 @@
 
 namespace cascade {
 
-/// A neighbouring plane. Directions are transported as if the surface between the planes were
-/// unfolded: parallel transport (K. Crane, M. Desbrun and P. Schröder, "Trivial connections on
-/// discrete surfaces", 2010).
+/// A neighbouring plane. Directions are carried from plane to plane as if the surface between them
+/// were unfolded. This is parallel transport (K. Crane, M. Desbrun and P. Schröder, "Trivial
+/// connections on discrete surfaces", 2010).
 struct TangentLink {
     std::uint32_t neighbour = 0;
-    /// Direction φ in the neighbour's frame is φ + turn here. The other side has the negative turn.
+    /// The angle between the two frames: a direction at angle φ in the neighbour's frame is at
+    /// angle φ + turn in this frame. The link in the opposite direction has −turn.
     double turn = 0;
-    double distance = 0;  ///< Between the two positions, in units of the model.
-    double weight = 0;    ///< The length of the shared edge over the distance.
+    double distance =
+        0;              ///< The distance between the two planes' positions, in units of the model.
+    double weight = 0;  ///< The length of the shared edge divided by the distance.
 };
 
-/// Nodes, each with a position and the frame of its triangle.
+/// Positions on the surface, each with the frame of its triangle, and the links between them.
 struct TangentPlanes {
     std::vector<SurfacePlace> places;
     std::vector<TangentFrame> frames;
     std::vector<double> areas;
-    std::vector<std::size_t> ends;  ///< Node k's links end before links[ends[k]].
+    std::vector<std::size_t> ends;  ///< Plane k's links end before links[ends[k]].
     std::vector<TangentLink> links;
 
     std::size_t size() const { return places.size(); }
@@ -43,29 +45,31 @@ struct TangentPlanes {
 /// One plane for each triangle, at its centroid, linked over its edges.
 TangentPlanes planes_of_triangles(const SurfaceMesh& mesh);
 
-/// Whether v and −v are different directions. Lines are returned as either of the two vectors.
+/// Arrows: v and −v are different directions. Lines: v and −v are the same, and either may be
+/// returned.
 enum class DirectionKind { arrows, lines };
 
-/// Projects vectors, one per plane, into the planes. If a vector is not finite, or its projection
-/// is shorter than `least_part` of the longest vector, the plane gets the mean of its neighbours'
-/// directions, transported as if the surface were unfolded, from the known planes outwards. In a
-/// component without known directions one plane gets its x axis. Results are finite unit vectors.
+/// Projects vectors, one per plane, into the planes, and scales them to length 1. If a vector is
+/// not finite, or its projection is shorter than `least_part` of the longest vector, its direction
+/// is unknown. Starting next to known planes, each unknown direction becomes the mean of the
+/// neighbours' directions, transported as if the surface were unfolded. In a component without
+/// known directions one plane gets its x axis. Results are finite unit vectors.
 std::vector<Vector3d> directions(const TangentPlanes& planes, std::span<const Vector3d> vectors,
                                  DirectionKind kind, double least_part = 1e-6);
 
-/// The projection of an axis of any length into each plane: `directions` of one vector everywhere.
+/// The direction of `axis`, which may have any length, projected into each plane.
 std::vector<Vector3d> axis_directions(const TangentPlanes& planes, Vector3d axis,
                                       DirectionKind kind);
 
-/// The gradient, at each plane's position, of values at the points of the mesh, linear in each
-/// triangle: vectors for `directions`, per unit of the model. For cells see
-/// surface/cell_gradient.h.
+/// The gradient at each plane's position, for values given at the points of the mesh and linear in
+/// each triangle. The vectors are in values per unit of length. They are input for directions().
+/// For values of cells see surface/cell_gradient.h.
 std::vector<Vector3d> gradients_of_points(const SurfaceMesh& mesh, const TangentPlanes& planes,
                                           std::span<const double> values);
 
 enum class Principal { high, low };
-/// Lines along which the curvature is highest or lowest, as vectors for `directions`. Their length
-/// is the difference of the two curvatures, or 0 if it is less than a thousandth of them.
+/// Lines along which the curvature is highest or lowest, as input for directions(). The length of a
+/// vector is the difference of the two curvatures, or 0 if they differ by less than a thousandth.
 std::vector<Vector3d> curvature_lines(const SurfaceMesh& mesh, const TangentPlanes& planes,
                                       const PrincipalCurvatures& curvature, Principal which);
 

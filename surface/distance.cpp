@@ -1,4 +1,4 @@
-// Distances spread from point to point over unfolded triangles, in ascending order.
+// Propagates distances from point to point over unfolded triangles, in ascending order.
 #include "surface/distance.h"
 
 #include <algorithm>
@@ -16,25 +16,27 @@ using Reach = SurfaceDistance::Reach;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Reach unreached = {infinity, SurfaceDistance::no_source};
 
-/// A point is visited again only if the relative gain of the new path exceeds this.
+/// A point is visited again only if the new path is shorter by more than this fraction.
 constexpr double least_shortening = 1e-12;
 
-/// The limit of visits per point. Only slivers could exceed it, with little gain.
+/// The limit of visits per point. Only slivers could exceed it, and distances would hardly change.
 constexpr std::size_t most_visits = 60;
 
 bool is_shorter(const Reach& a, const Reach& b) {
     return std::tie(a.distance, a.source) < std::tie(b.distance, b.source);
 }
 
-/// The longest edge for which refinement gives triangles of about the requested area.
+/// The longest edge with which refinement gives triangles of about the requested area.
 double edge_for(double area, std::size_t triangles) {
-    // √(4/√3) is the edge of the equilateral triangle of area 1. 1.4 allows for halved edges.
+    // The edge of the equilateral triangle of area 1 is √(4/√3) = 1.5197. The factor 1.4 allows for
+    // edges that are halved once more than necessary.
     return 1.5197 * 1.4 *
            std::sqrt(area / static_cast<double>(std::max<std::size_t>(triangles, 1)));
 }
 
 /// The shortest path to a point p through the edge from a to b or its ends, given the paths to a
-/// and b. All points are in one plane, and the edge separates p from the paths.
+/// and b. All points are in one plane. p and the starts of the paths are on different sides of the
+/// edge.
 Reach over_edge(Vector2d a, const Reach& to_a, Vector2d b, const Reach& to_b, Vector2d p) {
     const Reach along_a = {to_a.distance + length(p - a), to_a.source};
     const Reach along_b = {to_b.distance + length(p - b), to_b.source};
@@ -108,8 +110,9 @@ SurfaceDistance::SurfaceDistance(std::shared_ptr<const DistanceMesh> mesh,
 
 void SurfaceDistance::spread(double reach_asked_for, const std::atomic<bool>& cancel) {
     const SurfaceMesh& mesh = mesh_->mesh();
-    // A path is found from the distances of two points. Either may be beyond its end, and may get a
-    // shorter path when a later point is visited.
+    // The front goes on for this many edge lengths beyond `reach`. A path within the reach is
+    // computed from the distances of two points. Either of them may be farther away than the end of
+    // the path, and may get a shorter path when a later point is visited.
     constexpr double edges_beyond = 4;
     const double farthest = reach_asked_for + edges_beyond * mesh_->longest_edge();
     std::vector<Visit> visits;

@@ -14,12 +14,13 @@
 namespace cascade {
 
 struct DistanceOptions {
-    /// The mesh is refined to about this many triangles of equal area if it is coarser.
+    /// If the mesh has fewer triangles, it is refined to about this many triangles of equal area.
     std::size_t triangles = 30'000;
 };
 
-/// A mesh prepared for distances from several sets of sources: refined, with the triangles around
-/// each point. The mesh must outlive it. Undefined if `cancel` became true.
+/// A mesh that is prepared once and then used to compute distances from several sets of sources.
+/// Refines the mesh and finds the triangles around each point. `mesh` must outlive the object. The
+/// object is undefined if `cancel` became true.
 class DistanceMesh {
 public:
     DistanceMesh(const SurfaceMesh& mesh, const std::atomic<bool>& cancel,
@@ -38,26 +39,28 @@ private:
     const SurfaceMesh& original_;
     Refinement refinement_;
     double longest_edge_ = 0;
-    std::vector<std::uint32_t> ends_;  ///< One more than points: each ends where the next begins.
+    /// One entry more than points. A point's triangles end where the next point's begin.
+    std::vector<std::uint32_t> ends_;
     std::vector<std::uint32_t> around_;
 };
 
-/// The shortest distance along the surface from the nearest of some positions, the sources.
+/// The shortest distance along the surface to each point from the nearest of some given positions,
+/// the sources.
 ///
-/// A front propagates over the mesh as in Dijkstra's algorithm. The paths to an edge are taken to
-/// come from one point: the point in the plane of the next triangle that has the computed distances
-/// from the ends of the edge. From there they go straight to the third corner (M. Novotni and R.
-/// Klein, "Computing geodesic distances on triangular meshes", WSCG 2002). A point to which a
-/// shorter path is found later is visited again, so obtuse angles need no special case. The result
-/// is exact on planes and around the edges of convex bodies, where methods with plane fronts (R.
-/// Kimmel and J. Sethian, "Computing geodesic paths on manifolds", PNAS 95, 1998) never are. Exact
-/// windows (J. Mitchell, D. Mount and C. Papadimitriou, "The discrete geodesic problem", 1987) take
-/// much longer. On curved surfaces the error is of the order of the triangles' size: on a sphere of
-/// 30 000 triangles 0.0021 radii on average, and ten times that where paths from all directions
-/// meet. Time is O(n log n), independent of the number of sources.
+/// A front propagates over the mesh as in Dijkstra's algorithm. All paths to an edge are treated as
+/// if they came from one point: the point in the plane of the next triangle that has the computed
+/// distances from the ends of the edge. From this point, paths go straight to the third corner (M.
+/// Novotni and R. Klein, "Computing geodesic distances on triangular meshes", WSCG 2002). A point
+/// to which a shorter path is found later is visited again, so obtuse angles need no special case.
+/// The result is exact on planes and around the edges of convex bodies. Methods with plane fronts
+/// (R. Kimmel and J. Sethian, "Computing geodesic paths on manifolds", PNAS 95, 1998) are not exact
+/// there. Exact windows (J. Mitchell, D. Mount and C. Papadimitriou, "The discrete geodesic
+/// problem", 1987) take much longer. On curved surfaces the error is of the order of the triangles'
+/// size: on a sphere of 30 000 triangles 0.0021 radii on average, and ten times that where paths
+/// from all directions meet. Time is O(n log n), independent of the number of sources.
 ///
-/// Points not connected with a source are infinitely far. Sources must be on the mesh. Undefined if
-/// `cancel` became true.
+/// Points not connected with a source are infinitely far. Sources must be on the mesh. The result
+/// is undefined if `cancel` became true.
 class SurfaceDistance {
 public:
     static constexpr std::uint32_t no_source = 0xffffffff;
@@ -71,7 +74,8 @@ public:
         : SurfaceDistance(std::make_shared<const DistanceMesh>(mesh, cancel, options), sources,
                           cancel) {}
 
-    /// Distances of up to `reach`, in units of the model. Longer ones may be infinite or too long.
+    /// Finds distances of up to `reach`, in units of the model. A longer distance may come out as
+    /// infinite or too long.
     SurfaceDistance(std::shared_ptr<const DistanceMesh> mesh, std::span<const SurfacePlace> sources,
                     const std::atomic<bool>& cancel,
                     double reach = std::numeric_limits<double>::infinity());
@@ -91,8 +95,8 @@ private:
     std::span<const LocalSource> sources_in(std::uint32_t triangle) const;
 
     std::shared_ptr<const DistanceMesh> mesh_;
-    std::vector<LocalSource> sources_;  ///< By triangle of the refined mesh.
-    std::vector<Reach> reached_;        ///< By point of the refined mesh.
+    std::vector<LocalSource> sources_;  ///< Sources, sorted by triangle of the refined mesh.
+    std::vector<Reach> reached_;        ///< One for each point of the refined mesh.
 };
 
 /// The distance of each cell.

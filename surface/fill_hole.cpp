@@ -1,4 +1,5 @@
-// Cuts ears off the ring, best circumcircle first, skipping outdated ears of the priority queue.
+// Always cuts off the ear whose circumcircle reaches least far. A priority queue finds it. Outdated
+// ears in the queue are skipped.
 #include "surface/fill_hole.h"
 
 #include <algorithm>
@@ -9,7 +10,7 @@ namespace cascade {
 
 namespace {
 
-/// A vertex that may be cut off. `age` counts the changes around it up to computing `reach`.
+/// A vertex that may be cut off. `reach` is outdated if `ages_` of the vertex is no longer `age`.
 struct Ear {
     double reach = 0;
     std::uint32_t tip = 0, age = 0;
@@ -49,7 +50,7 @@ public:
 private:
     RingTriangle around(std::uint32_t tip) const { return {previous_[tip], tip, next_[tip]}; }
 
-    /// Removes a vertex and returns a neighbour.
+    /// Removes a vertex and returns the vertex before it.
     std::uint32_t take_off(std::uint32_t tip) {
         const std::uint32_t before = previous_[tip], after = next_[tip];
         next_[before] = after;
@@ -62,8 +63,9 @@ private:
         return before;
     }
 
-    /// The whole ring is visible from the origin, so a triangle contains no other point of the ring
-    /// if the origin is to its right or on its third side.
+    /// Queues the vertex `tip` if it is an ear. The whole ring is visible from the origin. So a
+    /// triangle contains no other point of the ring if the origin is on the outer side of its third
+    /// side or on this side.
     void consider(std::uint32_t tip) {
         if (!is_closed_ && (tip == 0 || tip + 1 == ring_.size())) return;
         const Vector2d a = ring_[previous_[tip]], b = ring_[tip], c = ring_[next_[tip]];

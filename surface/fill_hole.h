@@ -1,4 +1,4 @@
-// Triangulation of the hole left by a removed point.
+// Triangulates the hole left by a removed point.
 #pragma once
 
 #include "mesh/flat.h"
@@ -9,29 +9,30 @@
 
 namespace cascade {
 
-/// Maps the one-ring of a point to a plane with the point at the origin. Preserves distances and
-/// scales the angles between consecutive neighbours to a full turn, or to half a turn for a point
-/// at a boundary (with one angle less than distances): the geodesic polar map of W. Welch and A.
-/// Witkin, "Free-Form Shape Design Using Triangulated Surfaces", SIGGRAPH 1994. Unlike in a
-/// projection to the tangent plane, the triangles never overlap.
+/// Maps the one-ring of a point to a plane, with the point at the origin. Preserves distances.
+/// Scales the angles between consecutive neighbours so that they sum to a full turn. At a boundary,
+/// where there is one angle less than distances, they sum to half a turn. This is the geodesic
+/// polar map of W. Welch and A. Witkin, "Free-Form Shape Design Using Triangulated Surfaces",
+/// SIGGRAPH 1994. Unlike in a projection to the tangent plane, the triangles never overlap.
 std::vector<Vector2d> unroll(std::span<const double> distances, std::span<const double> angles);
 
 /// Corners as indices of points of a ring, counterclockwise.
 using RingTriangle = std::array<std::uint32_t, 3>;
 
-/// Whether a triangle is allowed. Its first and third corner get a new edge unless adjacent.
+/// Returns whether a triangle may be made. Making it adds an edge between its first and third
+/// corner unless they are adjacent.
 using MayMake = std::function<bool(const RingTriangle& corners)>;
 
-/// Cuts ears off a ring around the origin until a triangle is left, always the ear whose
+/// Cuts ears off a ring around the origin until a triangle is left. Always cuts the ear whose
 /// circumcircle reaches least far beyond the origin. For a convex ring this gives the Delaunay
 /// triangulation (O. Devillers, "On deletion in Delaunay triangulations", SoCG 1999). An ear that
 /// is not allowed waits until a neighbouring ear changes it. The first and the last point of an
 /// open ring are no ears. Returns the triangles in order, with the remaining one last, or none if
-/// it gets stuck. O(n log n), except for ears that are not allowed.
+/// no allowed ear is left. O(n log n), not counting ears that are not allowed.
 std::vector<RingTriangle> cut_ears(std::span<const Vector2d> ring, bool is_closed,
                                    const MayMake& may_make);
 
-/// The quality of a triangle, 0 if it is not allowed.
+/// The quality of a triangle, or 0 if the triangle is not allowed.
 using Worth = std::function<double(const RingTriangle& corners)>;
 
 /// The triangulation of a ring of `count` points whose worst triangle is best, by the dynamic

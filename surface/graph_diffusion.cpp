@@ -13,12 +13,15 @@ constexpr int implicit_steps = 4;
 constexpr double residual_tolerance = 1e-6;
 constexpr double rounding = 1e-14;
 constexpr int most_gradient_rounds = 2'000;
-constexpr double longest_time = 100;  ///< In units of the total mass: diffusion is complete then.
+/// The longest time, in units of the total mass. After this time diffusion is complete.
+constexpr double longest_time = 100;
 
-/// Sums are taken over blocks of this many nodes, for the same bits on any number of threads.
+/// Sums are taken over blocks of this many nodes, so that they have the same bits with any number
+/// of threads.
 constexpr std::size_t block = 2'048;
 
-/// With fewer nodes per thread, synchronisation takes longer than the work.
+/// The smallest number of nodes per thread. With fewer nodes, synchronisation takes longer than the
+/// work.
 constexpr std::size_t least_for_thread = 50'000;
 
 double product(double a, double b) { return a * b; }
@@ -28,7 +31,7 @@ double inner(Vector2d a, Vector2d b) { return dot(a, b); }
 template <typename Number>
 class ImplicitStep {
 public:
-    /// `unit` is the mean mass. Masses are relative to it.
+    /// `unit` is the mean mass. Masses are divided by it.
     ImplicitStep(const DiffusionGraph<Number>& graph, double time, double unit, Team& team)
         : graph_(graph),
           time_(time / unit),

@@ -10,13 +10,14 @@
 
 namespace cascade {
 
-/// A link at one of its nodes. The neighbour's value is multiplied by `coupling`: a weight, or for
-/// Vector2d a weight times a rotation as a complex number.
+/// A link, stored at both of its nodes. The neighbour's value is multiplied by `coupling`: a weight
+/// or, for Vector2d, a weight times a rotation as a complex number.
 template <typename Number>
 struct GraphLink {
     std::uint32_t neighbour = 0;
-    double weight = 0;  ///< Not negative. The same on both sides.
-    Number coupling{};  ///< Its magnitude is the weight. The two sides have opposite rotations.
+    double weight = 0;  ///< Not negative, and equal on both sides.
+    Number
+        coupling{};  ///< Its magnitude is the weight. The rotations on the two sides are opposite.
 };
 
 template <typename Number>
@@ -29,9 +30,9 @@ struct DiffusionGraph {
 /// The solution of mass_i dv_i/dt = Σ coupling v_j − weight v_i after `time`, by four implicit
 /// Euler steps, each solved by conjugate gradients until the relative residual is 10⁻⁶ (J.
 /// Shewchuk, "An introduction to the conjugate gradient method without the agonizing pain", 1994,
-/// appendix B3; diagonal preconditioner). Stable for any time. Times are limited to 100 total
-/// masses. Non-finite numbers spread. The same on any number of threads. Undefined if `cancel`
-/// became true.
+/// appendix B3; diagonal preconditioner). Stable for any time. A time of more than 100 times the
+/// total mass counts as this limit. Numbers that are not finite spread to all connected nodes. The
+/// result is the same with any number of threads. It is undefined if `cancel` became true.
 std::vector<double> diffused(const DiffusionGraph<double>& graph, std::vector<double> values,
                              double time, Team& team, const std::atomic<bool>& cancel);
 std::vector<Vector2d> diffused(const DiffusionGraph<Vector2d>& graph, std::vector<Vector2d> values,

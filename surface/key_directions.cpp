@@ -18,7 +18,7 @@ namespace cascade {
 
 namespace {
 
-/// A vector scaled to length 1 without overflow. 0 if it is not finite.
+/// A vector scaled to length 1 without overflow; 0 if the vector is not finite.
 Vector3d safe_unit(Vector3d v) {
     const double size = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     if (!(size > 0) || !is_finite(v)) return {};
@@ -53,7 +53,8 @@ public:
                 const double reached = distance + link.distance;
                 if (!(reached < distances_[link.neighbour])) continue;
                 distances_[link.neighbour] = reached;
-                // From here to there: the inverse rotation.
+                // The rotation from this plane to the neighbour's plane, which is the inverse of
+                // the link's rotation.
                 const Vector2d turn = coded_.turn(link);
                 codes_[link.neighbour] = product(codes_[node], {turn.x, -turn.y});
                 waiting_.push({reached, link.neighbour});
@@ -71,7 +72,7 @@ private:
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> waiting_;
 };
 
-/// The code of a key's direction in a plane. 0 if it is perpendicular to the plane.
+/// The code of a key's direction in a plane; 0 if the direction is perpendicular to the plane.
 Vector2d code_of(const CodedDirections& coded, std::uint32_t plane, const KeyDirection& key) {
     const Vector2d code = coded.of(plane, safe_unit(key.direction));
     return length(code) > cancelled_part ? unit_of(code) : Vector2d{};

@@ -1,4 +1,4 @@
-// Direction fields from directions at a few positions, and their smoothing.
+// Direction fields given by directions at a few positions, and their smoothing.
 #pragma once
 
 #include "core/parallel.h"
@@ -10,7 +10,8 @@
 
 namespace cascade {
 
-/// A vector at the surface position nearest to a point in space.
+/// A direction that is given at one position of the surface: the position nearest to a point in
+/// space.
 struct KeyDirection {
     Vector3d position;
     Vector3d direction;
@@ -20,16 +21,17 @@ struct KeyDirection {
 /// as if the surface were unfolded there. In components without a key, the key nearest in space is
 /// projected into the first plane of the component and transported from there. Ignores keys that
 /// are not finite, are perpendicular to the surface, or share a plane with an earlier one. Without
-/// keys the field is `directions` of zero vectors. Directions jump between the regions of differing
-/// keys: use `smoothed_directions` next. Undefined if `cancel` became true.
+/// keys the field is directions() of zero vectors. The field jumps where regions of different keys
+/// meet, so use smoothed_directions() next. The result is undefined if `cancel` became true.
 std::vector<Vector3d> key_directions(const SurfaceMesh& mesh, const TangentPlanes& planes,
                                      std::span<const KeyDirection> keys, DirectionKind kind,
                                      const std::atomic<bool>& cancel);
 
-/// Diffuses directions over the surface, transported into their neighbours' planes, as if convolved
-/// with a Gaussian of standard deviation `length`, in units of the model, and normalises them. 0
-/// changes nothing. Lines are added with doubled angles. Directions that cancel out remain. The
-/// same on any number of threads. Undefined if `cancel` became true.
+/// Smooths directions by diffusion over the surface, with parallel transport between planes, and
+/// scales the result to length 1. This corresponds to convolution with a Gaussian of standard
+/// deviation `length`, in units of the model. A length of 0 changes nothing. Lines are added with
+/// doubled angles. A direction stays unchanged where the diffused directions cancel out. The result
+/// is the same with any number of threads. It is undefined if `cancel` became true.
 std::vector<Vector3d> smoothed_directions(const TangentPlanes& planes,
                                           std::span<const Vector3d> field, DirectionKind kind,
                                           double length, Team& team,

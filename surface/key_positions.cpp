@@ -35,7 +35,8 @@ std::vector<double> nearest_key_values(const SurfaceMesh& mesh, const SurfaceCel
     std::vector<double> values(cells.places.size());
     if (placed.empty()) return values;
     const SurfaceDistance distance(mesh, places, cancel);
-    // In a component without a key, the first cell determines the key for all.
+    // In a component without a key, all cells get the value of the key nearest to the component's
+    // first cell.
     std::vector<std::uint32_t> components;
     std::vector<const KeyValue*> chosen;
     for (std::size_t cell = 0; cell < values.size() && !cancel; ++cell) {

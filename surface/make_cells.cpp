@@ -1,5 +1,5 @@
-// Cells of vertices and of faces follow the mesh. Cells of positions are Voronoi cells, with
-// checked options.
+// Cells of vertices and of faces follow the mesh. Cells of positions are Voronoi cells. The options
+// are checked first.
 #include "surface/make_cells.h"
 
 #include "core/counted.h"
@@ -22,11 +22,12 @@ namespace cascade {
 
 namespace {
 
-/// Smaller weights, such as the diagonals of squares have, are zero but for rounding.
+/// Weights below this count as 0. Those of diagonals of squares, for example, differ from 0 only by
+/// rounding.
 constexpr double rounding_of_weights = 1e-9;
 
-/// Distributes the area of a triangle to its corners: by Voronoi regions, or, if an angle is
-/// obtuse, one half to its corner and a quarter each to the others (Meyer et al., figure 4).
+/// Distributes the area of a triangle to its corners by Voronoi regions. If an angle is obtuse, its
+/// corner gets one half and the others a quarter each (Meyer et al., figure 4).
 void share_area(const IntrinsicMesh& mesh, std::uint32_t t, std::vector<double>& areas) {
     const double area = mesh.area(t);
     std::array<double, 3> cotangents;
@@ -39,7 +40,8 @@ void share_area(const IntrinsicMesh& mesh, std::uint32_t t, std::vector<double>&
             areas[corners[j]] += area * (j == obtuse ? 0.5 : 0.25);
         return;
     }
-    std::array<double, 3> parts;  // a² cot / 8 of edge k, for each of its ends.
+    std::array<double, 3>
+        parts;  // For edge k: a² cot / 8, the part that each of its two ends gets.
     double sum = 0;
     for (std::uint32_t k = 0; k < 3; ++k) {
         parts[k] = mesh.lengths[t][k] * mesh.lengths[t][k] * cotangents[k];
@@ -52,18 +54,20 @@ void share_area(const IntrinsicMesh& mesh, std::uint32_t t, std::vector<double>&
     }
 }
 
-/// The smallest weight of a corner in a triangle's centre. In the centroid it is 1/3.
+/// The smallest weight that a corner may have at a triangle's centre. At the centroid it is 1/3.
 constexpr double least_weight = 1.0 / 9;
 
-/// Sums over a face.
+/// Sums over the triangles of a face.
 struct Face {
     std::uint32_t triangles = 0;
     double area = 0;
-    Vector3d moment;                                           ///< Area times centroid.
-    double nearest = std::numeric_limits<double>::infinity();  ///< Squared, to the centroid.
+    Vector3d moment;  ///< The sum of area times centroid.
+    /// The squared distance of the nearest triangle from the centroid.
+    double nearest = std::numeric_limits<double>::infinity();
 };
 
-/// The position on a triangle nearest to a point, or approximately so if it is at its border.
+/// The position on a triangle nearest to a point. If the position is at the triangle's border, it
+/// is approximate.
 SurfacePlace place_near(const SurfaceMesh& mesh, std::uint32_t t, Vector3d point) {
     const Vector3d origin = mesh.corner(t, 0);
     const Vector3d x = unit(mesh.corner(t, 1) - origin);
@@ -74,7 +78,7 @@ SurfacePlace place_near(const SurfaceMesh& mesh, std::uint32_t t, Vector3d point
 
 /// The circumcentre of a triangle, moved inside if it is near an edge or outside.
 SurfacePlace middle_of(const SurfaceMesh& mesh, std::uint32_t t) {
-    // Barycentric weights of the circumcentre are proportional to the sine of twice the angle.
+    // Barycentric weights of the circumcentre are proportional to the sines of twice the angles.
     std::array<double, 3> weights;
     double sum = 0;
     for (std::uint32_t k = 0; k < 3; ++k) {
@@ -207,7 +211,8 @@ SurfaceCells face_cells(const SurfaceMesh& mesh) {
     }
     for (const Face& face : faces) cells.areas.push_back(face.area);
 
-    // The centroid of a concave polygon may lie on the line of an edge, hence the lower bound.
+    // The centroid of a concave polygon may be on the line of an edge, so the height has a lower
+    // bound.
     const auto height = [&](TriangleEdge edge) {
         const Vector3d middle = position_of(mesh, cells.places[cell_of[edge.triangle]]);
         const Vector3d least = position_of(mesh, middle_of(mesh, edge.triangle));
@@ -257,14 +262,14 @@ Result<SurfaceCells> make_cells(const SurfaceMesh& mesh, const CellOptions& opti
     if (Result<void> fine = check_cells(mesh, options); !fine) return tl::unexpected(fine.error());
     if (options.kind == CellKind::faces) return face_cells(mesh);
     if (options.kind == CellKind::vertices) return vertex_cells(mesh);
-    // A surface that cannot be copied may still be unfolded.
+    // If a copy of the surface cannot be made, cells may still be made on the surface itself.
     if (is_fine(mesh, options)) {
         Result<SurfaceCells> cells = cells_by_copy(mesh, options, team, cancel);
         if (cells) return cells;
     }
     std::vector<SurfacePlace> places =
         scatter(mesh, static_cast<std::size_t>(options.count), options.seed);
-    relax(mesh, places, options.rounds, team, cancel, options.anisotropy);
+    relax(mesh, places, options.rounds, team, cancel, options.anisotropy, options.progress);
     return voronoi_cells(mesh, std::move(places), team, cancel, options.anisotropy);
 }
 

@@ -1,5 +1,5 @@
-// Inserts positions one by one, in random rounds along a curve, and flips edges until the triangles
-// within each old one are Delaunay. Locates positions by walking over edges.
+// Inserts positions one by one, in random rounds along a curve, and flips edges until the new
+// triangles within each old one are Delaunay. Locates positions by walking over edges.
 #include "surface/mutual_tessellation.h"
 
 #include "core/hash.h"
@@ -14,7 +14,8 @@ namespace cascade {
 
 namespace {
 
-/// Interleaves the bits of two numbers: the position on a curve that keeps near points near.
+/// Interleaves the bits of two numbers. The result is a position on a curve. Points that are near
+/// each other on the curve are near each other in the plane.
 std::uint64_t along_curve(const Steps& steps) {
     std::uint64_t key = 0;
     for (int bit = 24; bit >= 0; --bit) {
@@ -24,8 +25,8 @@ std::uint64_t along_curve(const Steps& steps) {
     return key;
 }
 
-/// The order by triangle. Within a triangle in random rounds, each of twice as many positions as
-/// the one before, and within a round along a curve.
+/// Orders positions by triangle. Within a triangle, random rounds follow each other, each with
+/// twice as many positions as the previous one, and each round follows a curve.
 std::vector<std::uint32_t> insertion_order(const std::vector<LatticePlace>& places) {
     using Entry = std::tuple<std::uint32_t, int, std::uint64_t, std::uint32_t>;
     std::vector<Entry> entries;
@@ -40,7 +41,7 @@ std::vector<std::uint32_t> insertion_order(const std::vector<LatticePlace>& plac
     return order;
 }
 
-/// Whether d is inside the circle through a, b, c, by more than rounding errors.
+/// Whether d is inside the circle through a, b and c by more than rounding errors.
 bool is_in_circle(Vector2d a, Vector2d b, Vector2d c, Vector2d d) {
     a = a - d;
     b = b - d;
@@ -82,7 +83,7 @@ public:
     }
 
 private:
-    /// The old triangle that contains a face. Splitting a face or an edge copies it.
+    /// The old triangle that contains a face. Splitting a face or an edge copies this property.
     std::uint32_t& origin(FaceHandle f) { return mesh_.property(origin_, f); }
     std::uint32_t origin(FaceHandle f) const { return mesh_.property(origin_, f); }
 
@@ -97,7 +98,8 @@ private:
         for (Vector3d& normal : made_.normals) normal = unit(normal);
     }
 
-    /// Adds points in the order of positions: indices do not depend on the order of insertion.
+    /// Adds points in the order of positions, so that indices do not depend on the order of
+    /// insertion.
     void add_points() {
         for (std::size_t k = 0; k < places_.size(); ++k) {
             const LatticePlace& place = places_[k];
@@ -122,7 +124,7 @@ private:
         }
     }
 
-    /// The position in an old triangle of a point in it or on its sides.
+    /// The position of a point in an old triangle that contains it, possibly on a side.
     Steps steps_in(std::uint32_t triangle, VertexHandle v) const {
         const std::uint32_t point = number(v);
         if (point < old_.points.size()) {
@@ -143,14 +145,15 @@ private:
                frame_[2] * (static_cast<double>(steps[2]) / lattice_steps);
     }
 
-    /// The result of a walk to a point: a face, and one of its edges if the point lies on it.
+    /// The end of a walk to a point: a face, and one of its edges if the point lies on it.
     struct Found {
         FaceHandle face;
         HalfedgeHandle edge;
     };
 
-    /// Walks over the edges that separate the face from the point, in random order, so that it
-    /// cannot cycle: O. Devillers, S. Pion and M. Teillaud, "Walking in a triangulation", 2002.
+    /// Walks from face `f` to a point, across edges that have the face on one side and the point on
+    /// the other. If there are several, chooses at random, so that the walk cannot cycle: O.
+    /// Devillers, S. Pion and M. Teillaud, "Walking in a triangulation", 2002.
     Found locate(const Steps& point, FaceHandle f) const {
         for (std::uint32_t step = 0;; ++step) {
             HalfedgeHandle h = mesh_.halfedge_handle(f), on, leave;
@@ -170,7 +173,8 @@ private:
         }
     }
 
-    /// Inserts a point near a face and returns a face at the point, in the same old triangle.
+    /// Inserts a point, searching from the face `near`. Returns a face at the point, in the same
+    /// old triangle.
     FaceHandle insert(std::uint32_t point, FaceHandle near) {
         const Found found = locate(steps_in(origin(near), vertex(point)), near);
         if (found.edge.is_valid()) mesh_.split_copy(mesh_.edge_handle(found.edge), vertex(point));
@@ -213,7 +217,7 @@ private:
     const std::vector<LatticePlace>& places_;
     MutualTessellation made_;
     OpenMesh::FPropHandleT<std::uint32_t> origin_;
-    std::vector<std::uint32_t> place_of_point_;  ///< By new point: the position's index.
+    std::vector<std::uint32_t> place_of_point_;  ///< For each new point, the index of its position.
     std::uint32_t framed_ = TriangleEdge::none;
     FlatTriangle frame_;  ///< The frame of the old triangle `framed_`.
     std::vector<HalfedgeHandle> suspects_;
@@ -225,7 +229,7 @@ Result<MutualTessellation> tessellate(HalfEdges& mesh, const SurfaceMesh& old,
                                       std::span<const SurfacePlace> places,
                                       const std::atomic<bool>& cancel) {
     if (places.size() > most_faces / 2 || old.triangles.size() > most_faces - 2 * places.size()) {
-        return failure("the surface and its places have more points than can be numbered");
+        return failure("the surface and its positions have more points than can be numbered");
     }
     const Result<std::vector<LatticePlace>> lattice = to_lattice(old, places);
     if (!lattice) return tl::unexpected(lattice.error());

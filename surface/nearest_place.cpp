@@ -11,8 +11,9 @@ namespace {
 
 constexpr std::uint32_t most_in_leaf = 4;
 
-/// Points farther away, in sizes of the model, are moved nearer along a straight line. This
-/// preserves the nearest position and lets distances differ despite rounding.
+/// A point farther away than this multiple of the model's size is moved nearer along a straight
+/// line. This does not change the nearest position. Without it, rounding would make all distances
+/// equal.
 constexpr double farthest_kept = 1e5;
 
 double square_distance(Vector3d a, Vector3d b) { return dot(a - b, a - b); }
@@ -50,7 +51,7 @@ std::array<double, 3> nearest_weights(const std::array<Vector3d, 3>& corners, Ve
         for (double& weight : weights) weight /= sum;
         return weights;
     }
-    // If the projection is outside, the nearest point is on an edge.
+    // If the projection is outside of the triangle, the nearest point is on an edge.
     double best = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < 3; ++k) {
         const Vector3d a = corners[k], b = corners[(k + 1) % 3];
@@ -80,7 +81,7 @@ NearestPlace::NearestPlace(const SurfaceMesh& mesh) : mesh_(mesh), order_(mesh.t
         middles.push_back((a + b + c) * (1.0 / 3));
     }
     boxes_.push_back({{}, {}, 0, static_cast<std::uint32_t>(order_.size()), 0});
-    // The list grows during the loop, to fewer boxes than triangles.
+    // The loop appends boxes to the list. There are fewer boxes than triangles.
     for (std::uint32_t box = 0; box < boxes_.size(); ++box) {
         fit(boxes_[box]);
         if (boxes_[box].count > most_in_leaf) split(box, middles);
@@ -124,7 +125,8 @@ void NearestPlace::search(const Box& box, Vector3d point, Best& best) const {
             std::swap(near, far);
             std::swap(to_near, to_far);
         }
-        // A box at equal distance may have a triangle of lower index, so it is searched, too.
+        // A box at the same distance may contain a triangle with a lower index, so it is searched,
+        // too.
         if (to_near <= best.distance) search(*near, point, best);
         if (to_far <= best.distance) search(*far, point, best);
         return;
@@ -145,7 +147,7 @@ std::optional<SurfacePlace> NearestPlace::find(Vector3d point) const {
     const Box& all = boxes_[0];
     const Vector3d middle = (all.low + all.high) * 0.5;
     const double size = length(all.high - all.low);
-    // A quarter of the vector, which is finite for all finite numbers.
+    // A quarter of the vector is used, because the whole vector may overflow.
     const Vector3d part = point * 0.25 - middle * 0.25;
     const double away = std::hypot(part.x, part.y, part.z);
     if (away > farthest_kept * size / 4) {

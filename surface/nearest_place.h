@@ -1,4 +1,4 @@
-// The nearest position on a surface to a point in space.
+// Finds the nearest position on a surface to a point in space.
 #pragma once
 
 #include "mesh/flat.h"
@@ -10,21 +10,23 @@
 namespace cascade {
 
 /// The triangles of a mesh in a tree of bounding boxes, each split along its longest side at the
-/// median triangle. A search takes O(log n) if the point is near the surface. Of equally near
-/// positions it finds the one on the triangle with the lowest index. The mesh must outlive it
-/// unchanged. Searches are thread-safe.
+/// median triangle. A search takes O(log n) steps if the point is near the surface. If several
+/// positions are equally near, it finds the one on the triangle with the lowest index. The mesh
+/// must outlive the tree unchanged. Searches are thread-safe.
 class NearestPlace {
 public:
     explicit NearestPlace(const SurfaceMesh& mesh);
 
-    /// Empty if the mesh has no triangles or the point is not finite.
+    /// The nearest position. Empty if the mesh has no triangles or the point is not finite.
     std::optional<SurfacePlace> find(Vector3d point) const;
 
 private:
     struct Box {
         Vector3d low, high;
-        std::uint32_t first = 0, count = 0;  ///< In `order_`. count is 0 if it has two parts.
-        std::uint32_t part = 0;              ///< The first part. The second one follows it.
+        /// The triangles of the box, as a range of `order_`. `count` is 0 if the box is divided
+        /// into two parts.
+        std::uint32_t first = 0, count = 0;
+        std::uint32_t part = 0;  ///< The index of the first part. The second part follows it.
     };
     struct Best;
     void split(std::uint32_t box, std::span<const Vector3d> middles);

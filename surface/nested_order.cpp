@@ -1,5 +1,5 @@
-// Farthest-first traversal. Each cell taken shortens distances around it, in a search that ends
-// where another one is nearer, so searches become smaller and smaller.
+// Farthest-first traversal. Taking a cell shortens the distances of the cells around it. The search
+// for these cells ends where another taken cell is nearer, so searches become smaller and smaller.
 #include "surface/nested_order.h"
 
 #include <functional>
@@ -11,7 +11,7 @@ namespace cascade {
 
 namespace {
 
-/// A cell at a distance. Among equal ones the first cell counts.
+/// A cell at a distance. If distances are equal, the cell with the lowest index is first.
 using Distance = std::pair<double, std::int64_t>;
 
 class FarthestFirst {
@@ -27,7 +27,7 @@ public:
             const auto [distance, negative] = farthest_.top();
             farthest_.pop();
             const auto cell = static_cast<std::size_t>(-negative);
-            // Outdated by a nearer entry.
+            // A nearer entry has replaced this one.
             if (distance != distances_[cell]) continue;
             order.push_back(static_cast<std::uint32_t>(cell));
             take(cell);
@@ -60,7 +60,7 @@ private:
     }
 
     const SurfaceCells& cells_;
-    std::vector<double> distances_;           ///< To the nearest cell taken so far.
+    std::vector<double> distances_;           ///< Distances to the nearest cell taken so far.
     std::priority_queue<Distance> farthest_;  ///< Cells not taken yet. Some entries are outdated.
 };
 

@@ -1,4 +1,5 @@
-// The metric tensor by central differences of the function, and the planes for operators.
+// Computes the metric tensor by central differences of the function, and from it the planes that
+// operators read.
 #include "surface/parameter_surface.h"
 
 #include <fmt/format.h>
@@ -12,12 +13,13 @@ namespace cascade {
 
 namespace {
 
-/// Half the width of a central difference: its error and the rounding error are both about 1e-10.
+/// Half the width of a central difference. With this width, the truncation error and the rounding
+/// error are both about 1e-10.
 constexpr double difference = 1e-5;
 /// A cell with a smaller fraction of the mean area counts as degenerate.
 constexpr double degenerate_area = 1e-6;
 
-/// The metric tensor JᵀJ of a cell, where J holds the derivatives by column and by row.
+/// The metric tensor JᵀJ of a cell. J holds the derivatives of the position by column and by row.
 struct MetricTensor {
     double m11 = 0, m12 = 0, m22 = 0;
     double area() const { return std::sqrt(std::max(0.0, m11 * m22 - m12 * m12)); }
@@ -84,11 +86,12 @@ Result<SurfaceMetric> measure_surface(const SurfaceFunction& surface, const Grid
         for (std::int64_t i = 0; i < grid.width; ++i) {
             const MetricTensor& tensor = tensors[static_cast<std::size_t>(j * grid.width + i)];
             const double area = tensor.area();
-            // Also true if all areas are 0 or two directions are nearly parallel.
+            // The condition is also true if all areas are 0, or if the two directions are nearly
+            // parallel.
             if (!(area > degenerate_area * mean) ||
                 !(area > degenerate_area * std::sqrt(tensor.m11 * tensor.m22))) {
                 return failure("the surface has no area " + place_of(grid, i, j),
-                               "its directions along sx and sy must differ and have a length in "
+                               "its directions along sx and sy must not be parallel or zero in "
                                "every cell; keep away from poles");
             }
             // Ṽ = [√m11, m12/√m11; 0, area/√m11] is upper triangular, and so is its inverse.

@@ -1,4 +1,4 @@
-// Descends over the triangles around the last position.
+// Goes from triangle to nearer triangle, starting at the last position.
 #include "surface/place_follower.h"
 
 #include "core/check.h"
@@ -10,7 +10,7 @@
 namespace cascade {
 namespace {
 
-/// After this many triangles the tree is faster.
+/// If a search visits more triangles than this, a search in the tree is faster.
 constexpr int most_moves = 24;
 
 std::vector<std::vector<std::uint32_t>> triangles_at_points(const SurfaceMesh& mesh) {
@@ -57,7 +57,7 @@ PlaceFollower::PlaceFollower(const SurfaceMesh& mesh)
     }
 }
 
-/// No point is inside a triangle without an area.
+/// The data of a triangle. A triangle without area is stored so that no point counts as inside.
 PlaceFollower::Inside PlaceFollower::inside_of(const SurfaceMesh& mesh, std::uint32_t triangle) {
     Inside inside;
     inside.corner = mesh.corner(triangle, 0);
@@ -80,11 +80,13 @@ PlaceFollower::Inside PlaceFollower::inside_of(const SurfaceMesh& mesh, std::uin
     return inside;
 }
 
-/// The largest ratio, for points of the triangles around, of the height over the plane of this one,
-/// on either side of it, to the distance from it in that plane. Almost all triangles are beyond the
-/// line of an edge or beyond a corner. Heights and the distance from there are linear, so their
-/// corners decide. At most 1: then no triangle bent by less than 90° comes nearer to a point whose
-/// height is less than its distance from the edges. Infinite if one is bent by more.
+/// How steeply the surrounding triangles rise, on each side of this triangle. A point of a
+/// surrounding triangle has a height over this triangle's plane, and a distance from this triangle
+/// in the plane. The result is the largest ratio of height to distance. Almost all surrounding
+/// triangles are beyond the line of an edge or beyond a corner. Both quantities are linear there,
+/// so it is enough to test corners. The result is at most 1. Then no triangle bent by less than 90°
+/// comes nearer to a point whose height is less than its distance from the edges. Infinite if a
+/// triangle is bent by 90° or more.
 std::array<float, 2> PlaceFollower::steepness_around(const SurfaceMesh& mesh,
                                                      std::uint32_t triangle,
                                                      std::span<const std::uint32_t> around) const {
@@ -92,7 +94,7 @@ std::array<float, 2> PlaceFollower::steepness_around(const SurfaceMesh& mesh,
     const std::array<std::uint32_t, 3> own = mesh.triangles[triangle];
     const std::array outward{unit(inside.of_second + inside.of_third), -unit(inside.of_second),
                              -unit(inside.of_third)};
-    // By edge, numbered by the corner opposite, then by corner.
+    // Outward directions: first by edge, numbered by the opposite corner, then by corner.
     std::array<Vector3d, 6> directions;
     for (std::uint32_t k = 0; k < 3; ++k) {
         directions[k] = outward[k];
@@ -127,7 +129,8 @@ std::array<float, 2> PlaceFollower::steepness_around(const SurfaceMesh& mesh,
     return {static_cast<float>(most[0] * rounding), static_cast<float>(most[1] * rounding)};
 }
 
-/// A position whose squared distance exceeds `most` may be returned as infinitely far.
+/// The nearest position on a triangle. If the squared distance exceeds `most`, the result may have
+/// an infinite distance instead.
 PlaceFollower::Near PlaceFollower::measured(std::uint32_t number, Vector3d point,
                                             double most) const {
     const Inside& inside = insides_.data()[number];
@@ -137,7 +140,8 @@ PlaceFollower::Near PlaceFollower::measured(std::uint32_t number, Vector3d point
     if (first > 0 && second > 0 && third > 0) {
         return {number, true, square, over.height, over.weights};
     }
-    // The triangle is on the other side of each of its edges' lines.
+    // How far the point is beyond the line of the edge that it is farthest beyond. The triangle is
+    // on the other side of this line.
     const double beyond =
         std::max({-first * double{inside.heights[0]}, -second * double{inside.heights[1]},
                   -third * double{inside.heights[2]}});
@@ -176,7 +180,7 @@ void PlaceFollower::stay(std::span<const Vector3d> points, std::span<const std::
     using Numbers = AllOver::Numbers;
     std::array<Numbers, 3> at, second, third, heights;
     for (std::size_t k = 0; k < most; ++k) {
-        // Lanes without a point compute with the first one.
+        // Lanes without a point repeat the first point.
         const std::size_t n = k < points.size() ? k : 0;
         const std::uint32_t triangle = from[n] < triangles_.size() ? from[n] : 0;
         const Inside& inside = insides_.data()[triangle];

@@ -1,4 +1,4 @@
-// The nearest positions on a surface to points that move a little at a time.
+// Finds the nearest positions on a surface to points that move a little at a time.
 #pragma once
 
 #include "core/links.h"
@@ -15,11 +15,12 @@
 
 namespace cascade {
 
-/// Moves from triangle to triangle as long as one that shares a corner is nearer, which takes a few
-/// dozen nanoseconds where NearestPlace takes a microsecond. The position found is nearer than all
-/// others around it, and nearest of all if no other sheet of the surface has come nearer meanwhile.
-/// Of equally near positions it is the one on the triangle with the lowest index. The mesh must
-/// have triangles and outlive it unchanged. Thread-safe.
+/// Goes from triangle to triangle, starting at the previous one, as long as a triangle that shares
+/// a corner is nearer to the point. This takes a few dozen nanoseconds, where NearestPlace takes a
+/// microsecond. The position found is nearer than all positions around it. It is the nearest on the
+/// whole surface unless the point has come nearer to another sheet of the surface. If several
+/// positions are equally near, it is the one on the triangle with the lowest index. The mesh must
+/// have triangles and outlive the object unchanged. Thread-safe.
 class PlaceFollower {
 public:
     explicit PlaceFollower(const SurfaceMesh& mesh);
@@ -28,29 +29,29 @@ public:
         SurfacePlace place;
         Vector3d position;
         double distance = 0;     ///< The distance of the point from the position.
-        bool is_border = false;  ///< The position is on a boundary of the surface.
+        bool is_border = false;  ///< Whether the position is on a boundary of the surface.
     };
-    /// Starts at the triangle of an earlier position. Without one, after a long way, and where the
-    /// way ends at a boundary, beyond which another part may be nearer, finds the nearest position
-    /// of all. Empty if the point is not finite.
+    /// Starts at `from`, the triangle of an earlier position. Searches the whole surface instead if
+    /// there is no such triangle, if the way is long, or if it ends at a boundary, because another
+    /// part of the surface beyond the boundary may be nearer. Empty if the point is not finite.
     std::optional<Found> find(Vector3d point, std::uint32_t from) const;
 
-    /// Brings the data of stay() into the cache.
+    /// Prefetches the data that stay() needs.
     void prepare(std::uint32_t triangle) const {
         if (triangle >= triangles_.size()) return;
         const Inside* const inside = insides_.data() + triangle;
         __builtin_prefetch(inside);
         __builtin_prefetch(reinterpret_cast<const char*>(inside) + 64);
     }
-    /// A point over the inside of a triangle.
+    /// A point above or below the inside of a triangle.
     struct Over {
         std::array<double, 3> weights;
-        double height = 0;  ///< Above the triangle.
+        double height = 0;  ///< Height above the triangle.
         Vector3d normal;    ///< The triangle's normal, of length 1.
         std::uint32_t triangle = 0;
     };
-    /// The result of find() at once, if it is inside the triangle `from` or one next to it. Empty
-    /// elsewhere.
+    /// Does the same as find(), but quickly, if the nearest position is inside the triangle `from`
+    /// or a triangle next to it. Otherwise returns nothing.
     std::optional<Over> stay(Vector3d point, std::uint32_t from) const {
         for (int moves = 0; moves <= most_moves_of_stay && from < triangles_.size(); ++moves) {
             const Inside& inside = insides_.data()[from];
@@ -58,23 +59,24 @@ public:
             over.triangle = from;
             if (inside.is_nearest(over)) return over;
             const std::size_t corner = inside.farthest_edge(over);
-            // Too near to an edge, or not finite.
+            // Here the point is too near to an edge, or not finite.
             if (!(over.weights[corner] < 0)) return std::nullopt;
             from = inside.across[corner];
         }
         return std::nullopt;
     }
 
-    /// The results of stay() for several points, side by side so that compilers vectorise them.
+    /// The results of stay() for several points, side by side, so that compilers vectorise the
+    /// computation.
     struct AllOver {
         static constexpr std::size_t most = 8;
         using Numbers = std::array<double, most>;
-        std::array<Numbers, 3> weights, normals;  ///< By corner and by component.
+        std::array<Numbers, 3> weights, normals;  ///< Weights by corner, normals by component.
         Numbers heights;
         std::array<std::uint32_t, most> triangles;
-        std::array<bool, most> is_over{};  ///< False if nothing was found.
+        std::array<bool, most> is_over{};  ///< False where stay() found nothing.
     };
-    /// For at most as many points as AllOver has room for.
+    /// Does the work of stay() for several points, at most as many as AllOver has room for.
     void stay(std::span<const Vector3d> points, std::span<const std::uint32_t> from,
               AllOver& all) const;
 
@@ -83,12 +85,13 @@ private:
     static constexpr double infinity = std::numeric_limits<double>::infinity();
     /// The data of a triangle for points near it, side by side in memory.
     struct alignas(64) Inside {
-        Vector3d corner;                 ///< The first one.
-        Vector3d of_second, of_third;    ///< The gradients of these corners' weights.
-        Vector3d normal;                 ///< Of length 1. 0 if there is no area.
+        Vector3d corner;  ///< The position of corner 0.
+        /// The gradients of the second and the third corner's weights.
+        Vector3d of_second, of_third;
+        Vector3d normal;                 ///< Of length 1; 0 if the triangle has no area.
         std::array<float, 3> heights{};  ///< The height of each corner over its opposite edge.
-        /// How steeply the triangles around rise on the side of the normal and on the other side:
-        /// see steepness_around().
+        /// How steeply the surrounding triangles rise on the side of the normal, and on the other
+        /// side: see steepness_around().
         std::array<float, 2> steepness{};
         std::array<std::uint32_t, 3> across{};  ///< By corner: the triangle over the opposite edge.
 
@@ -97,16 +100,18 @@ private:
             const double second = dot(of_second, at), third = dot(of_third, at);
             return {{1 - second - third, second, third}, dot(normal, at), normal, 0};
         }
-        /// The corner opposite the edge that the point is farthest beyond.
+        /// The index of a corner. The edge opposite this corner is the edge that the point is
+        /// farthest beyond.
         std::size_t farthest_edge(const Over& over) const {
             std::array<double, 3> within{};
             for (std::size_t k = 0; k < 3; ++k) within[k] = double{heights[k]} * over.weights[k];
             return static_cast<std::size_t>(std::min_element(within.begin(), within.end()) -
                                             within.begin());
         }
-        /// Whether no position on the triangles around is nearer. They are all beyond the edges,
-        /// and rise towards the point more slowly than a ball around it that touches this one. Very
-        /// near to an edge, where rounding could decide, the answer is no.
+        /// Whether the position in this triangle is nearer than all positions on the surrounding
+        /// triangles. That is the case if those triangles rise towards the point less steeply than
+        /// a ball around the point that touches this triangle. Returns false very near to an edge,
+        /// where rounding could decide.
         bool is_nearest(const Over& over) const {
             return is_nearest(over.height,
                               to_edge({double{heights[0]}, double{heights[1]}, double{heights[2]}},
@@ -117,8 +122,8 @@ private:
             const double steep = double{steepness[height < 0 ? 1 : 0]};
             return steep * std::abs(height) < to_edge * rounding;
         }
-        /// Slightly less than the inward distance from the nearest edge of a point with these
-        /// weights.
+        /// The distance, in the triangle's plane, of a point with these weights from the nearest
+        /// edge, reduced slightly to allow for rounding.
         static double to_edge(const std::array<double, 3>& heights,
                               const std::array<double, 3>& weights) {
             constexpr double edge = 1e-9;
@@ -130,12 +135,12 @@ private:
     };
     struct Triangle {
         std::array<Vector3d, 3> corners;
-        std::array<bool, 3> is_open{};  ///< By corner: the opposite edge is at a boundary.
-        std::array<bool, 3> is_rim{};   ///< By corner: it is at a boundary.
+        std::array<bool, 3> is_open{};  ///< By corner: whether the opposite edge is at a boundary.
+        std::array<bool, 3> is_rim{};   ///< By corner: whether the corner is at a boundary.
     };
     struct Near {
         std::uint32_t triangle = 0;
-        bool is_inside = false;  ///< The position is not on an edge.
+        bool is_inside = false;  ///< Whether the position is inside the triangle, not on an edge.
         double square = 0;       ///< The squared distance.
         double height = 0;       ///< The point's height above the triangle, if `is_inside`.
         std::array<double, 3> weights{};
@@ -151,7 +156,7 @@ private:
     std::vector<Triangle> triangles_;
     std::vector<std::uint32_t> ends_;  ///< The triangles around t end before around_[ends_[t]].
     std::vector<std::uint32_t>
-        around_;  ///< The triangles that share a corner with each, ascending.
+        around_;  ///< The triangles that share a corner with each triangle, ascending.
 };
 
 }  // namespace cascade

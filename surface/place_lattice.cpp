@@ -1,4 +1,4 @@
-// Rounds weights to integral steps. Coinciding positions move to the next free ones of a spiral.
+// Rounds weights to integral steps. Moves coinciding positions to the next free points of a spiral.
 #include "surface/place_lattice.h"
 
 #include <fmt/format.h>
@@ -35,8 +35,9 @@ LatticePlace nearest(const SurfacePlace& place) {
     return {place.triangle, {first, second, lattice_steps - first - second}};
 }
 
-/// A key that is equal for all representations of one position: a point, an edge and the position
-/// along it, or a triangle and the steps in it.
+/// A key that identifies a position. Positions that coincide have equal keys even if they are given
+/// in different triangles. It names a point, or an edge and the position along it, or a triangle
+/// and the steps in it.
 struct Key {
     int kind = 0;
     std::uint32_t owner = 0, edge = 0;
@@ -61,7 +62,8 @@ Key key_of(const SurfaceMesh& mesh, const LatticePlace& place) {
 
 /// Point k = 1, 2, … of a spiral around (0, 0) through all points with integer coordinates.
 std::array<std::int64_t, 2> on_spiral(std::int64_t k) {
-    // The larger coordinate. (2 ring − 1)² points come before.
+    // The larger absolute coordinate. (2 ring − 1)² points come before the points with this
+    // coordinate.
     const auto ring = static_cast<std::int64_t>((std::sqrt(static_cast<double>(k)) + 1) / 2);
     const std::int64_t along = k - (2 * ring - 1) * (2 * ring - 1), side = 2 * ring;
     const std::int64_t part = along % side;
@@ -85,7 +87,9 @@ public:
     }
 
     void separate() {
-        std::int64_t tried = 0;  // Index on the spiral. A position continues after the one before.
+        // The index on the spiral of the last point tried. The next coinciding position continues
+        // from there.
+        std::int64_t tried = 0;
         for (std::size_t k = 1; k < order_.size(); ++k) {
             if (order_[k].first != order_[k - 1].first) tried = 0;
             else move_away(places_[order_[k].second], tried);
@@ -146,7 +150,7 @@ Result<std::vector<LatticePlace>> to_lattice(const SurfaceMesh& mesh,
     found.reserve(places.size());
     for (std::size_t k = 0; k < places.size(); ++k) {
         if (!is_on(mesh, places[k])) {
-            return failure(fmt::format("place {}, counted from 0, is not on the surface", k));
+            return failure(fmt::format("position {}, counted from 0, is not on the surface", k));
         }
         found.push_back(nearest(places[k]));
     }

@@ -1,9 +1,10 @@
 // Positions on a surface rounded to a lattice, for exact geometric predicates.
 //
-// A position is given by the weights of its triangle's corners. As integers with the sum 2²⁴ they
-// decide exactly which position is on an edge or in a corner, which positions coincide, and on
-// which side of a line one is: these predicates are invariant under affine maps of the triangle, so
-// no length is needed. Rounding moves a position by less than 10⁻⁷ of its triangle's size.
+// A position is given by the weights of its triangle's corners. As integers with the sum 2²⁴,
+// weights decide exactly which position is on an edge or at a corner, which positions coincide, and
+// on which side of a line a position is. These predicates are invariant under affine maps of the
+// triangle, so no length is needed. Rounding moves a position by less than 10⁻⁷ of its triangle's
+// size.
 #pragma once
 
 #include "core/result.h"
@@ -24,24 +25,27 @@ struct LatticePlace {
     std::uint32_t triangle = 0;
     Steps steps{lattice_steps, 0, 0};
 
-    /// The corner 0, 1 or 2 at the position, otherwise 3.
+    /// The index of the corner at the position, or 3 if it is not at a corner.
     std::uint32_t corner() const;
-    /// The edge whose interior contains the position, or 3. Edge k goes from corner k to k + 1.
+    /// The edge whose interior contains the position, or 3. Edge k goes from corner k to corner k +
+    /// 1.
     std::uint32_t edge() const;
 };
 
-/// Positive if p, q, r have the orientation of their triangle's corners, 0 on a line. Exact.
+/// Positive if p, q, r have the orientation of their triangle's corners; 0 if they are on a line.
+/// The result is exact.
 inline std::int64_t turn(const Steps& p, const Steps& q, const Steps& r) {
     return (q[1] - p[1]) * (r[2] - p[2]) - (q[2] - p[2]) * (r[1] - p[1]);
 }
 
-/// The steps of a position on edge `edge`, in the triangle across, where that is edge `edge_there`.
+/// Converts a position on edge `edge` to steps in the triangle across, whose edge there is
+/// `edge_there`.
 Steps steps_across(const Steps& steps, std::uint32_t edge, std::uint32_t edge_there);
 
-/// Rounds positions to the lattice so that no two coincide: of coinciding positions the first
-/// stays, and the others move inside their triangle by some 2⁻¹⁸ of its size. Fails with the index
-/// of a position that is on no triangle of the mesh: weights below −10⁻⁶, a sum that differs from 1
-/// by more than that, or non-finite weights.
+/// Rounds positions to the lattice so that no two coincide. If positions coincide, the first stays,
+/// and the others move inside their triangle by about 2⁻¹⁸ of its size. Fails with the index of a
+/// position that is on no triangle of the mesh: weights below −10⁻⁶, a sum of weights that differs
+/// from 1 by more than 10⁻⁶, or weights that are not finite.
 Result<std::vector<LatticePlace>> to_lattice(const SurfaceMesh& mesh,
                                              std::span<const SurfacePlace> places);
 

@@ -1,4 +1,4 @@
-// Interpolation of values at the points of a mesh.
+// Interpolates values given at the points of a mesh.
 #pragma once
 
 #include "mesh/flat.h"
@@ -21,7 +21,7 @@ double value_at(const SurfaceMesh& mesh, const std::vector<Number>& point_values
     return value;
 }
 
-/// value_at() for many positions, such as those of cells.
+/// value_at() for many positions, such as the positions of cells.
 template <typename Number>
 std::vector<double> values_at(const SurfaceMesh& mesh, const std::vector<Number>& point_values,
                               std::span<const SurfacePlace> places) {

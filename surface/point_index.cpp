@@ -9,7 +9,7 @@ namespace cascade {
 
 namespace {
 
-// Box coordinates are clamped to this range. Points beyond share the outermost boxes.
+// Box coordinates are clamped to this range, so points farther away share the outermost boxes.
 constexpr double farthest_box = 1 << 30;
 
 std::int32_t number_of(double place) {

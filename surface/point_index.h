@@ -11,16 +11,17 @@
 
 namespace cascade {
 
-/// Points sorted by the box of side `reach` that contains them.
+/// Points sorted by the boxes that contain them. Boxes have side `reach`.
 class PointIndex {
 public:
-    /// `reach`, positive, is about the usual search radius. The points must outlive it unchanged.
+    /// `reach`, positive, is about the usual search radius. The points must outlive the index
+    /// unchanged.
     PointIndex(std::span<const Vector3d> points, double reach);
 
-    /// Calls `visit(number, square)`, with the square of its distance, for all points at most
-    /// `radius` from `centre`, including one at `centre`, in an order that depends only on the
-    /// points. A radius of many times `reach` searches many boxes, but never more than there are
-    /// points.
+    /// Calls `visit(number, square)` for all points whose distance from `centre` is at most
+    /// `radius`, including a point at `centre`. `square` is the squared distance. The order depends
+    /// only on the points. If `radius` is many times `reach`, many boxes are searched, but never
+    /// more than there are points.
     template <typename Visit>
     void near(Vector3d centre, double radius, const Visit& visit) const {
         const auto look_at = [&](const Entry& entry) {
@@ -33,7 +34,7 @@ public:
             for (const Entry& entry : entries_) look_at(entry);
             return;
         }
-        // A margin covers the rounding of box_of().
+        // Enlarged slightly to allow for rounding in box_of().
         const double wide = radius + 1e-6 * reach_;
         const Box first = box_of(centre - Vector3d{wide, wide, wide});
         const Box last = box_of(centre + Vector3d{wide, wide, wide});
@@ -64,8 +65,8 @@ private:
         Vector3d point;
     };
     Box box_of(Vector3d p) const;
-    /// Boxes of a block of 4 × 4 × 4 have adjacent slots, in order along x, so that a search reads
-    /// few cache lines.
+    /// The slot of a box. Boxes of a block of 4 × 4 × 4 have adjacent slots, in order along x, so
+    /// that a search reads few cache lines.
     std::size_t slot_of(const Box& box) const {
         std::uint32_t hash = static_cast<std::uint32_t>(box.x >> 2) * 0x9e3779b1u;
         hash = (hash ^ static_cast<std::uint32_t>(box.y >> 2)) * 0x85ebca77u;
@@ -78,7 +79,8 @@ private:
     Vector3d low_;
     double reach_;
     std::size_t mask_ = 0;
-    std::vector<std::uint32_t> starts_;  ///< The start of each slot in `entries_`, and the end.
+    /// The start of each slot's points in `entries_`, and the end of the last.
+    std::vector<std::uint32_t> starts_;
     std::vector<Entry> entries_;
 };
 

@@ -1,5 +1,5 @@
-// Cuts the longest edge first, from a priority queue, and records the cuts of each triangle, so
-// that positions of the old mesh can be found in the new one.
+// Cuts the longest edge first, using a priority queue. Records the cuts of each triangle, so that
+// positions of the old mesh can be found in the new one.
 #include "surface/refinement.h"
 
 #include <algorithm>
@@ -21,7 +21,8 @@ struct LongEdge {
     }
 };
 
-/// A queue of edges, the longest first. Of equal ones, the triangle with the lowest index is first.
+/// A queue of edges, the longest first. If edges are equally long, that of the triangle with the
+/// lowest index is first.
 class LongEdges {
 public:
     LongEdges(const SurfaceMesh& mesh, double longest) : mesh_(mesh), longest_(longest) {
@@ -39,7 +40,7 @@ public:
         }
     }
 
-    /// The longest edge that still exists, or none.
+    /// The longest edge in the queue that still exists; none if the queue is empty.
     TriangleEdge take() {
         while (!heap_.empty()) {
             std::pop_heap(heap_.begin(), heap_.end());
@@ -70,7 +71,7 @@ void Refinement::link(TriangleEdge a, TriangleEdge b) {
 std::uint32_t Refinement::cut_triangle(TriangleEdge edge, std::uint32_t middle) {
     const auto [t, k] = edge;
     const auto u = static_cast<std::uint32_t>(mesh_.triangles.size());
-    // In each part, the new point replaces the corner that the part lost.
+    // In each part, the new point replaces the corner that belongs to the other part.
     mesh_.triangles.push_back(mesh_.triangles[t]);
     mesh_.triangles[u][k] = middle;
     mesh_.triangles[t][corner_after(k)] = middle;

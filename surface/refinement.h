@@ -1,4 +1,4 @@
-// Refinement of a mesh by cutting long edges, for quantities computed at its points.
+// Refines a mesh by cutting long edges, for quantities computed at its points.
 #pragma once
 
 #include "mesh/flat.h"
@@ -9,11 +9,11 @@
 
 namespace cascade {
 
-/// The same surface with more triangles. Halves the longest edge, and with it the triangles on both
-/// sides, until no edge is longer than `longest_edge` or `most_cuts` were made (M.-C. Rivara,
-/// "Algorithms for refining triangular grids suitable for adaptive and multigrid techniques", 1984,
-/// explains why triangles stay well shaped). The points of the mesh keep their indices. Texture
-/// coordinates and attributes are left out.
+/// The same surface with more triangles. Halves the longest edge again and again, each time
+/// together with the triangles on both sides, until no edge is longer than `longest_edge` or
+/// `most_cuts` cuts were made (M.-C. Rivara, "Algorithms for refining triangular grids suitable for
+/// adaptive and multigrid techniques", 1984, explains why triangles stay well shaped). The points
+/// of the mesh keep their indices. Texture coordinates and attributes are left out.
 class Refinement {
 public:
     Refinement(const SurfaceMesh& mesh, double longest_edge, std::size_t most_cuts,
@@ -26,12 +26,13 @@ public:
 private:
     static constexpr std::uint32_t none = 0xffffffff;
 
-    /// A triangle was cut from the middle of its edge `edge` to the opposite corner. It kept its
-    /// index and the edge's first half. `second` is the index of the other half.
+    /// Records that a triangle was cut from the middle of its edge `edge` to the opposite corner.
+    /// The part with the edge's first half has the triangle's index, and `second` is the index of
+    /// the other part.
     struct Cut {
         std::uint32_t edge = 0;
         std::uint32_t second = 0;
-        std::uint32_t next = none;  ///< The next cut of the triangle that kept the index.
+        std::uint32_t next = none;  ///< The next cut of the part that has the triangle's index.
     };
     struct Cuts {
         std::uint32_t first = none, last = none;
@@ -43,7 +44,8 @@ private:
 
     SurfaceMesh mesh_;
     std::vector<Cut> cuts_;
-    std::vector<Cuts> cuts_of_;  ///< By triangle, since its creation.
+    std::vector<Cuts>
+        cuts_of_;  ///< By triangle: the list of cuts of the triangle since it was created.
 };
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
-// Rounds of repulsion on neighbour lists with a skin (Verlet lists, as in molecular dynamics),
-// rebuilt when positions have moved too far.
+// Rounds of repulsion on neighbour lists with a skin (Verlet lists, as in molecular dynamics). The
+// lists are rebuilt when positions have moved too far.
 #include "surface/relax.h"
 
 #include "core/hash.h"
@@ -21,9 +21,9 @@ namespace {
 
 // The force that spreads positions over a surface.
 
-/// Two positions nearer than this, in radii, are pushed apart harder, with a force that grows
-/// linearly towards 0. Otherwise others could press them together for good. Uniformly spread
-/// positions are 0.54 apart.
+/// Two positions nearer to each other than this, in radii, are pushed apart harder, with a force
+/// that grows linearly as they approach. Without this force, other positions could press them
+/// together permanently. Uniformly spread positions are 0.54 apart.
 inline constexpr float repulsion_core = 0.35F;
 
 struct Vector2f {
@@ -31,11 +31,12 @@ struct Vector2f {
 };
 
 /// Neighbours of positions: their numbers, their relative positions when the list was made (in
-/// radii, in the frame of that time), and the rotations of their own frames relative to it.
+/// radii, in the frame of that time), and the rotations from that frame to the neighbours' own
+/// frames.
 class NeighbourList {
 public:
-    /// Forces are computed for this many neighbours at a time, so a list has memory for as many
-    /// beyond its end.
+    /// Forces are computed for this many neighbours at a time, so a list has memory for this many
+    /// more beyond its end.
     static constexpr std::size_t together = 16;
 
     std::vector<std::uint32_t> numbers;
@@ -49,7 +50,7 @@ private:
     std::size_t size_ = 0;
 };
 
-/// Sums forces. One per thread.
+/// Sums forces. One object per thread.
 class Repulsion {
 public:
     /// The metric at a position and its movement since the list was made, in radii.
@@ -59,27 +60,29 @@ public:
         Vector2f moved;
     };
 
-    /// The sum of the forces 1 - d of neighbours `first` … `end` - 1 at distances d < 1 in the
-    /// metric, in order. `moved` has the movement of every position.
+    /// The sum, in order, of the forces of neighbours `first` … `end` - 1. A neighbour at the
+    /// distance d < 1 in the metric has the force 1 - d. `moved` has the movement of every
+    /// position.
     Vector2f push_on(const Pushed& place, const NeighbourList& neighbours, std::size_t first,
                      std::size_t end, const std::vector<Vector2f>& moved);
 
 private:
-    std::vector<float> x_, y_;  ///< Movements of neighbours, then their forces.
+    std::vector<float> x_, y_;  ///< Movements of neighbours, later replaced by their forces.
 };
 
 constexpr float core_strength = 4;
-/// Positions at a smaller squared distance, in radii, coincide.
+/// Positions whose squared distance in radii is smaller than this coincide.
 constexpr float least_square = 1e-14F;
 
-/// The direction in which a position is pushed apart from one that coincides with it.
+/// The direction in which a position is pushed away from a coinciding one.
 Vector2f own_direction(std::uint32_t number) {
     const double angle = 2 * std::numbers::pi / 4294967296.0 * pcg4d({number, 0, 0, 0})[0];
     return {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
 }
 
 /// Replaces the movements of `count` neighbours from `first` on by their forces on a position. A
-/// coinciding neighbour pushes in the direction `apart`. Returns the number of coinciding ones.
+/// coinciding neighbour pushes in the direction `apart`. Returns the number of coinciding
+/// neighbours.
 WITH_WIDE_VECTORS std::uint32_t find_forces(const NeighbourList& neighbours, std::size_t first,
                                             std::size_t count, const Repulsion::Pushed place,
                                             Vector2f apart, float* __restrict by_x,
@@ -122,7 +125,7 @@ void NeighbourList::add(std::uint32_t number, Vector2d stood, Vector2d turn) {
 
 Vector2f Repulsion::push_on(const Pushed& place, const NeighbourList& neighbours, std::size_t first,
                             std::size_t end, const std::vector<Vector2f>& moved) {
-    // Neighbours after the last, of the next position, only fill the last vector.
+    // The last vector may also hold neighbours of the next position, whose forces are not used.
     constexpr std::size_t together = NeighbourList::together;
     const std::size_t count = end - first, filled = (count + together - 1) / together * together;
     if (x_.size() < filled) {
@@ -147,17 +150,20 @@ Vector2f Repulsion::push_on(const Pushed& place, const NeighbourList& neighbours
 }
 
 constexpr double strength = 0.15;
-/// The neighbour lists reach this much farther than the force, in radii.
+/// How much farther the neighbour lists reach than the force, in radii.
 constexpr double skin = 0.25;
 /// The longest move of a position in a round, in radii. On folded surfaces, positions have many
 /// neighbours and would oscillate without this limit.
 constexpr double longest_step = 0.06;
-/// Lists are rebuilt when more than one in this many positions has moved half the skin. A few
-/// positions always move far, and exact lists for them do not make the result more uniform.
+/// Lists are rebuilt when more than one in this many positions has moved by half the skin. A few
+/// positions always move far. Rebuilding the lists for their sake would not make the result more
+/// uniform.
 constexpr std::size_t places_per_far_one = 100;
-/// A list serves for more than one in this many of the rounds so far: early rounds move farthest.
+/// Lists are rebuilt when their age in rounds exceeds the number of rounds so far divided by this.
+/// So they are rebuilt often in early rounds, in which positions move farthest.
 constexpr int rounds_per_age = 4;
-/// At the end, positions with another one nearer than `crowd` radii are pushed in separate rounds.
+/// The number of separate rounds at the end. They move only positions that have another position
+/// nearer than `crowd` radii.
 constexpr int settling_rounds = 12;
 constexpr double crowd = 0.4;
 
@@ -185,7 +191,7 @@ public:
         }
     }
 
-    void run(int rounds) {
+    void run(int rounds, const std::function<void(double)>& progress) {
         std::size_t far_moved = places_.size();
         int made = -1;
         for (int round = 0; round < rounds && !cancel_; ++round) {
@@ -198,6 +204,7 @@ public:
             moved_.swap(moving_);
             far_moved = 0;
             for (const Part& part : parts_) far_moved += part.far_moved;
+            if (progress) progress(static_cast<double>(round + 1) / rounds);
         }
         settle();
     }
@@ -206,9 +213,10 @@ private:
     /// The data of one thread.
     struct Part {
         RowRange range;            ///< A range of `active_`.
-        NeighbourList neighbours;  ///< Position after position.
+        NeighbourList neighbours;  ///< The neighbours of one position after another.
         Repulsion repulsion;
-        std::size_t far_moved = 0;           ///< Positions that have moved half the skin or more.
+        /// Number of positions that have moved by half the skin or more.
+        std::size_t far_moved = 0;
         std::vector<std::uint32_t> crowded;  ///< Unsorted, with repetitions.
     };
 
@@ -223,7 +231,8 @@ private:
         return is_anisotropic() ? stretches_[place.triangle] : Stretch{};
     }
 
-    /// Separates positions that outdated lists let collide. The others stay.
+    /// Separates positions that have come too near to each other because lists were outdated. All
+    /// other positions stay.
     void settle() {
         // Lists are new in each round, so nothing has moved since they were made.
         std::fill(moved_.begin(), moved_.end(), Vector2f{});
@@ -236,8 +245,8 @@ private:
         }
     }
 
-    /// All positions nearer to another one than uniformly spread positions ever are, in ascending
-    /// order, if only active positions may have moved since the last call.
+    /// The positions, in ascending order, that have another position nearer than uniformly spread
+    /// positions ever have. Only active positions may have moved since the last call.
     std::vector<std::uint32_t> crowded_places(const PointIndex& index) {
         team_.run([&](int thread) {
             Part& part = part_of(thread);
@@ -258,11 +267,11 @@ private:
         return crowded;
     }
 
-    /// The reach of all lists, each in its own metric.
+    /// The search radius of all lists, each in its own metric.
     double reach() const { return (1 + skin) * radius_; }
 
-    /// Updates the active positions and sorts all of them into boxes of the usual reach on the
-    /// surface.
+    /// Updates the active positions in space and sorts all positions into boxes of the lists' usual
+    /// reach.
     PointIndex index_places() {
         for (const std::uint32_t k : active_) positions_[k] = position_of(mesh_, places_[k]);
         double side = reach();
@@ -353,15 +362,16 @@ private:
     const std::atomic<bool>& cancel_;
     double radius_;
     EdgeShapes shapes_;
-    std::vector<Stretch> stretches_;  ///< By triangle. Empty without an anisotropy.
-    /// Since the lists were made, in the frame of that time: the rotation of the frame of each
-    /// position's triangle, and the movement of the position (in radii). A round reads `moved_`,
-    /// writes `moving_`.
+    std::vector<Stretch> stretches_;  ///< By triangle. Empty if the metric is isotropic.
+    /// Changes since the lists were made, in the frame of that time: the rotation of the frame of
+    /// each position's triangle, and the movement of the position (in radii). A round reads
+    /// `moved_` and writes `moving_`.
     std::vector<Vector2d> turns_;
     std::vector<Vector2f> moved_, moving_;
-    std::vector<Vector3d> positions_;    ///< At the time of the lists.
+    std::vector<Vector3d> positions_;    ///< Positions in space when the lists were made.
     std::vector<std::uint32_t> active_;  ///< The positions that move, in ascending order.
-    std::vector<std::size_t> ends_;      ///< The ends of the active lists in their threads' lists.
+    /// The end of each active position's list in its thread's lists.
+    std::vector<std::size_t> ends_;
     std::vector<Part> parts_;
 };
 
@@ -372,9 +382,10 @@ double repulsion_radius(double area, std::size_t count) {
 }
 
 void relax(const SurfaceMesh& mesh, std::vector<SurfacePlace>& places, int rounds, Team& team,
-           const std::atomic<bool>& cancel, const Anisotropy* anisotropy) {
+           const std::atomic<bool>& cancel, const Anisotropy* anisotropy,
+           const std::function<void(double)>& progress) {
     if (places.size() < 2) return;
-    Relaxation(mesh, places, team, cancel, anisotropy).run(rounds);
+    Relaxation(mesh, places, team, cancel, anisotropy).run(rounds, progress);
 }
 
 }  // namespace cascade

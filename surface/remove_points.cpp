@@ -1,4 +1,4 @@
-// Decides which points may be removed and how holes are filled. OpenMesh flips and collapses.
+// Decides which points may be removed and how holes are filled. OpenMesh flips and collapses edges.
 #include "surface/remove_points.h"
 
 #include <algorithm>
@@ -7,10 +7,10 @@ namespace cascade {
 
 namespace {
 
-constexpr double boundary_may_move = 0.1;            ///< In spacings.
-constexpr double longest_boundary_edge = 2;          ///< In spacings.
+constexpr double boundary_may_move = 0.1;            ///< As a multiple of the spacing.
+constexpr double longest_boundary_edge = 2;          ///< As a multiple of the spacing.
 constexpr double high_care = 0.26, low_care = 0.09;  ///< Cosines of 75° and 85°.
-constexpr std::size_t most_tried = 24;  ///< Above this ring size, not all triangulations are tried.
+constexpr std::size_t most_tried = 24;  ///< For larger rings, not all triangulations are tried.
 constexpr double least_sine = 1e-9;
 
 bool is_fine(const TriangleQuality& quality, Care care) {
@@ -32,7 +32,7 @@ void PointRemoval::take_ring(std::uint32_t point) {
         ring_.push_back(number(mesh_.to_vertex_handle(spoke)));
 }
 
-/// The boundary runs from the ring's last point through this one to its first.
+/// The boundary runs from the ring's last point through `point` to the ring's first point.
 bool PointRemoval::may_leave_boundary(std::uint32_t point) {
     const Vector3d from = place(ring_.back()), to = place(ring_.front());
     const double moved =
@@ -53,7 +53,8 @@ bool PointRemoval::has_point_twice() {
     return std::adjacent_find(sorted_.begin(), sorted_.end()) != sorted_.end();
 }
 
-/// Whether closing the hole's last edge, or its last three corners, duplicates no edge or triangle.
+/// Whether the hole can be closed by its last edge, or by its last three corners, without a
+/// duplicate edge or triangle.
 bool PointRemoval::may_close() {
     const HalfedgeHandle beyond =
         mesh_.opposite_halfedge_handle(mesh_.next_halfedge_handle(spokes_[0]));
@@ -97,7 +98,9 @@ bool PointRemoval::is_new(const RingTriangle& corners) {
 /// The best of all triangulations of the hole.
 std::vector<RingTriangle> PointRemoval::best_filling(Care care) {
     const auto count = static_cast<std::uint32_t>(ring_.size());
-    RingTriangle asked{};  // Triangles on the same edge are requested consecutively.
+    // The last triangle for which is_new() was tested. Triangles with the same new edge are
+    // requested one after another.
+    RingTriangle asked{};
     bool may_be = false;
     return best_triangles(count, [&](const RingTriangle& corners) {
         const TriangleQuality found = quality(corners);
@@ -108,7 +111,7 @@ std::vector<RingTriangle> PointRemoval::best_filling(Care care) {
     });
 }
 
-/// A triangulation by cutting ears, in the plane into which the ring is unrolled.
+/// Triangulates the hole by cutting ears, in the plane into which the ring is unrolled.
 std::vector<RingTriangle> PointRemoval::cut_ears_around(std::uint32_t point, Care care) {
     unroll_ring(point);
     return cut_ears(flat_, is_closed_, [&](const RingTriangle& corners) {
@@ -116,8 +119,8 @@ std::vector<RingTriangle> PointRemoval::cut_ears_around(std::uint32_t point, Car
     });
 }
 
-/// Cuts off each ear by flipping the edge from the point to its tip. The three triangles left at
-/// the point, or one at the boundary, then become one.
+/// Cuts off each ear by flipping the edge from the point to the ear's tip. At the end, the three
+/// triangles left around the point (one at a boundary) become one.
 void PointRemoval::fill(std::span<const RingTriangle> triangles) {
     changed_.clear();
     for (const HalfedgeHandle spoke : spokes_) {

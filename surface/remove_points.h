@@ -1,4 +1,4 @@
-// Removal of points from a surface: the second part of G. Turk's re-tiling (thesis, section 5.3.1).
+// Removes points from a surface: the second part of G. Turk's re-tiling (thesis, section 5.3.1).
 #pragma once
 
 #include "mesh/half_edges.h"
@@ -13,21 +13,23 @@ namespace cascade {
 /// How closely new triangles must follow the surface.
 enum class Care {
     high,  ///< Within 75° of each corner's normal.
-    low,   ///< Within 85° of the mean of these normals.
+    low,   ///< Within 85° of the mean of the corners' normals.
 };
 
 class PointRemoval {
 public:
-    /// `normals` are the surface's unit normals at the points, `spacing` is the distance of cells.
+    /// `normals` are the surface's unit normals at the points. `spacing` is the distance between
+    /// cells.
     PointRemoval(HalfEdges& mesh, const std::vector<Vector3d>& normals, double spacing)
         : mesh_(mesh), normals_(normals), spacing_(spacing), moved_(mesh.n_vertices()) {}
 
     /// Removes a point and triangulates the hole over its one-ring such that the worst triangle has
-    /// the best score. Turk projects the ring to a tangent plane, where it may overlap itself. This
-    /// needs no plane. A ring of more than 24 points, which would take long, is unrolled into a
-    /// plane and its ears are cut off. If the point must stay, changes nothing and returns the
-    /// reason. A point at a boundary is removed only if the boundary moves by at most 1/10 of the
-    /// spacing and the new edge is no longer than twice the spacing.
+    /// the best score. Turk projects the ring to a tangent plane, where the ring may overlap
+    /// itself. The method here needs no plane. It would take long for a ring of more than 24
+    /// points, so such a ring is unrolled into a plane and its ears are cut off. If the point must
+    /// stay, changes nothing and returns the reason. A point at a boundary is removed only if the
+    /// boundary moves by at most 1/10 of the spacing and the new edge is no longer than twice the
+    /// spacing.
     std::optional<WhyKept> remove(std::uint32_t point, Care care);
 
     /// The faces around the last removed point. Those not deleted fill its hole.
@@ -50,11 +52,12 @@ private:
     HalfEdges& mesh_;
     const std::vector<Vector3d>& normals_;
     double spacing_;
-    std::vector<double> moved_;  ///< The boundary edge's largest movement, by its first point.
+    /// How far each boundary edge has moved at most, by the edge's first point.
+    std::vector<double> moved_;
     std::vector<HalfedgeHandle> spokes_;  ///< From the point to be removed, counterclockwise.
-    std::vector<std::uint32_t> ring_;     ///< Their ends.
-    bool is_closed_ = false;              ///< The point is not at a boundary.
-    bool meets_edge_ = false;  ///< A triangle was refused because an edge existed already.
+    std::vector<std::uint32_t> ring_;     ///< The vertices at the ends of the spokes.
+    bool is_closed_ = false;   ///< Whether the ring is closed: the point is not at a boundary.
+    bool meets_edge_ = false;  ///< Whether a triangle was refused because an edge existed already.
     std::vector<FaceHandle> changed_;
     std::vector<std::uint32_t> sorted_;
     std::vector<double> distances_, angles_;

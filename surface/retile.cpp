@@ -1,5 +1,5 @@
-// Removes old points in rounds, with edges improved after each, first under strict and then under
-// weaker tests of the new triangles.
+// Removes old points in rounds and improves edges after each. New triangles are tested strictly in
+// the first rounds and less strictly in later ones.
 #include "surface/retile.h"
 
 #include "mesh/half_edges.h"
@@ -17,13 +17,14 @@ namespace cascade {
 
 namespace {
 
-// Improvement of triangles by flipping edges.
+// Improves triangles by flipping edges.
 
-/// Flips edges of a mesh if that improves the worst rating among the two triangles
-/// (TriangleQuality::score()) and the folds at the edge and at the four sides. On a plane this is
-/// Lawson's algorithm for the Delaunay triangulation, which maximises the smallest angle (R.
-/// Sibson, "Locally equiangular triangulations", 1978). It turns no triangle upside down and
-/// creates no second edge between two points.
+/// Flips an edge if that improves the worst of its ratings. These are the ratings of the edge's two
+/// triangles (TriangleQuality::score()), of the fold at the edge, and of the folds at the
+/// triangles' four other sides. On a plane this is Lawson's algorithm for the Delaunay
+/// triangulation, which maximises the smallest angle (R. Sibson, "Locally equiangular
+/// triangulations", 1978). Turns no triangle upside down and creates no second edge between two
+/// points.
 class EdgeFlipper {
 public:
     /// `normals` are the surface's normals at the points. Queues the edges of all faces.
@@ -32,7 +33,7 @@ public:
     /// Queues the edges of a changed face, unless it is deleted.
     void look_at(FaceHandle f);
 
-    /// Processes the queue, including the edges of faces that change on the way. Terminates because
+    /// Processes the queue, including the edges of faces that change meanwhile. Terminates because
     /// every flip increases the sorted list of the scores of all triangles and edges. Stops early
     /// when `cancel` becomes true.
     void improve(const std::atomic<bool>& cancel);
@@ -42,7 +43,7 @@ private:
     struct Face {
         double score = 0;
         bool is_upright = true;
-        Vector3d direction;  ///< Its unit normal.
+        Vector3d direction;  ///< The unit normal.
     };
     Face face(VertexHandle a, VertexHandle b, VertexHandle c) const;
     Face& at(FaceHandle f) { return faces_[static_cast<std::size_t>(f.idx())]; }
@@ -56,10 +57,12 @@ private:
     std::vector<EdgeHandle> suspects_;
 };
 
-constexpr double least_gain = 1e-9;   ///< In a score. Above rounding errors.
-constexpr double upside_down = 0.05;  ///< A mean cosine.
+/// The least gain of a rating that counts. It is larger than rounding errors.
+constexpr double least_gain = 1e-9;
+constexpr double upside_down = 0.05;  ///< A mean cosine below this counts as upside down.
 
-/// Rates the fold at an edge between triangles: 1 up to a right angle, 0 if they lie on each other.
+/// Rates the fold at an edge between two triangles with these normals: 1 if they are at most at a
+/// right angle to each other, 0 if the triangles are folded onto each other.
 double openness_between(Vector3d one, Vector3d other) { return std::min(1.0, 1 + dot(one, other)); }
 
 EdgeFlipper::EdgeFlipper(HalfEdges& mesh, std::span<const Vector3d> normals)
@@ -67,7 +70,7 @@ EdgeFlipper::EdgeFlipper(HalfEdges& mesh, std::span<const Vector3d> normals)
     for (const FaceHandle f : mesh.faces()) look_at(f);
 }
 
-/// Queues an edge once. Its tag marks it as queued.
+/// Queues an edge, unless its tag says that it is queued already.
 void EdgeFlipper::suspect(HalfedgeHandle h) {
     const EdgeHandle e = mesh_.edge_handle(h);
     if (mesh_.status(e).tagged()) return;
@@ -109,8 +112,7 @@ double EdgeFlipper::openness(const Face& one, HalfedgeHandle side) {
     return other.is_valid() ? openness_between(one.direction, at(other).direction) : 1;
 }
 
-/// Flips an edge if that raises the lowest of these ratings: of its two triangles, of the fold
-/// along the edge, and of the folds along the triangles' four other sides.
+/// Flips an edge if that raises the lowest of its ratings; see EdgeFlipper.
 void EdgeFlipper::flip_if_better(EdgeHandle e) {
     const HalfedgeHandle h = mesh_.halfedge_handle(e, 0), o = mesh_.halfedge_handle(e, 1);
     const VertexHandle c = mesh_.opposite_vh(h), d = mesh_.opposite_vh(o);
@@ -135,7 +137,7 @@ void EdgeFlipper::flip_if_better(EdgeHandle e) {
     for (const HalfedgeHandle side : {bc, ca, ad, db}) suspect(side);
 }
 
-constexpr int most_rounds = 16;  ///< Attempts to remove points that could not be removed before.
+constexpr int most_rounds = 16;  ///< The most rounds that try to remove points again.
 
 class Retiler {
 public:
@@ -170,12 +172,13 @@ public:
     }
 
 private:
-    /// The side of a square with one position's share of the area.
+    /// The typical distance between neighbouring positions: the side of a square whose area is the
+    /// area of the mesh divided by the number of positions.
     static double spacing(const SurfaceMesh& mesh, std::size_t places) {
         return std::sqrt(mesh.total_area() / static_cast<double>(std::max<std::size_t>(places, 1)));
     }
 
-    /// Returns whether any point was removed.
+    /// Tries to remove all points that are left. Returns whether any point was removed.
     bool remove_all(Care care, const std::atomic<bool>& cancel) {
         const std::size_t before = left_.size();
         std::erase_if(left_, [&](KeptPoint& kept) {

@@ -1,4 +1,5 @@
-// Kept points take the mean of the values around them, layer by layer from the new points.
+// Old points get the mean of the values around them, layer by layer, starting next to the new
+// points.
 #include "surface/retile.h"
 
 #include <algorithm>
@@ -9,7 +10,7 @@ namespace cascade {
 
 namespace {
 
-/// The points around each point from `first` on, once for each triangle.
+/// For each point from `first` on, the points around it, once for each triangle.
 std::map<std::uint32_t, std::vector<std::uint32_t>> neighbours_from(const SurfaceMesh& mesh,
                                                                     std::size_t first) {
     std::map<std::uint32_t, std::vector<std::uint32_t>> neighbours;

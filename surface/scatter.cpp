@@ -1,5 +1,5 @@
-// Stratified sampling along a Morton curve: within a connected component each position has an equal
-// share of the area and is random within it.
+// Stratified sampling along a Morton curve. Within a connected component, each position has an
+// equal share of the area and is random within its share.
 #include "surface/scatter.h"
 
 #include "core/hash.h"
@@ -46,8 +46,8 @@ std::vector<std::size_t> shared_out(const std::vector<double>& areas, std::size_
     std::vector<std::size_t> shares(areas.size(), 0);
     double area = std::accumulate(areas.begin(), areas.end(), 0.0);
     std::size_t left = count;
-    // Components whose share is below 1 get one position, and the others share the rest, which may
-    // push more of them below 1.
+    // A component with a share below 1 gets one position. The other components share the rest. This
+    // may reduce the shares of more components to below 1.
     for (bool is_found = count >= areas.size(); is_found;) {
         is_found = false;
         const double each = area / static_cast<double>(left);

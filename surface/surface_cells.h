@@ -1,4 +1,4 @@
-// Cells that cover a surface, and the Voronoi edges between them, for diffusion.
+// Cells that cover a surface, and the Voronoi edges between cells, for diffusion.
 #pragma once
 
 #include "mesh/flat.h"
@@ -8,19 +8,20 @@
 
 namespace cascade {
 
-/// The edge between two cells, as stored for each of them.
+/// The edge between two cells, stored once for each cell.
 struct VoronoiEdge {
     std::uint32_t neighbour = 0;
-    double length = 0;    ///< Positive.
-    double distance = 0;  ///< Between the cells' positions along the surface. Positive.
-    /// The flow per difference of concentrations. Dimensionless.
+    double length = 0;  ///< Positive.
+    double distance =
+        0;  ///< The distance between the two cells' positions along the surface. Positive.
+    /// The flow across the edge for a difference of 1 between the concentrations. Has no unit.
     double weight() const { return length / distance; }
 };
 
 /// Edges are symmetric: the edge from cell i to j has the same length and distance as the edge from
-/// j to i. Boundaries of the surface have no edges. For all kinds of cells diffusion is dc_i/dt =
-/// Σ_j w_ij (c_j − c_i) / A_i with weights w = length / distance ≥ 0 and areas A (G. Turk,
-/// "Texturing Surfaces Using Reaction-Diffusion", thesis, 1992, section 4.4).
+/// j to i. There are no edges at boundaries of the surface. For all kinds of cells diffusion is
+/// dc_i/dt = Σ_j w_ij (c_j − c_i) / A_i with weights w = length / distance ≥ 0 and areas A (G.
+/// Turk, "Texturing Surfaces Using Reaction-Diffusion", thesis, 1992, section 4.4).
 struct SurfaceCells {
     std::vector<SurfacePlace> places;
     std::vector<double> areas;

@@ -1,11 +1,11 @@
-// Gram-Schmidt orthogonalisation of two edges of the triangle, normalised first.
+// Gram-Schmidt orthogonalisation of two edges of the triangle, which are normalised first.
 #include "surface/tangent_frame.h"
 
 namespace cascade {
 
 namespace {
 
-/// Any unit vector perpendicular to a unit vector.
+/// Any unit vector perpendicular to the unit vector v.
 Vector3d any_normal_to(Vector3d v) {
     const double x = std::abs(v.x), y = std::abs(v.y), z = std::abs(v.z);
     const Vector3d least = x <= y && x <= z ? Vector3d{1, 0, 0}
@@ -23,7 +23,7 @@ TangentFrame tangent_frame(const SurfaceMesh& mesh, std::uint32_t triangle) {
     const Vector3d side = unit(mesh.corner(triangle, 2) - a);
     if (length(along) == 0) along = length(side) > 0 ? side : Vector3d{1, 0, 0};
     Vector3d normal = unit(cross(along, side));
-    // With nearly parallel edges, rounding has tilted the cross product.
+    // If edges are nearly parallel, rounding has tilted the cross product.
     normal = unit(normal - along * dot(normal, along));
     if (!(length(normal) > 0.5)) normal = any_normal_to(along);
     return {along, unit(cross(normal, along)), normal};

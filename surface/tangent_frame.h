@@ -1,4 +1,4 @@
-// Conversion between directions in space and in a triangle's plane.
+// Converts between directions in space and in a triangle's plane.
 #pragma once
 
 #include "mesh/flat.h"
@@ -6,7 +6,7 @@
 namespace cascade {
 
 /// Three perpendicular unit vectors: the axes of a triangle's own frame (mesh/flat.h) and its
-/// outward normal. For a triangle without area, any such frame that contains its longest edge.
+/// outward normal. For a triangle without area, any such vectors, the first along its longest edge.
 struct TangentFrame {
     Vector3d along;   ///< The x axis: from corner 0 to corner 1.
     Vector3d across;  ///< The y axis, to the left of `along`.

@@ -1,7 +1,7 @@
-// Floods the surface from its farthest points downwards. Where two floods meet, the lower peak
-// ends.
+// Floods the surface from its peaks downwards. Where two floods meet, the lower peak ends.
 #include "surface/tips.h"
 
+#include "mesh/disjoint_sets.h"
 #include "mesh/flat.h"
 #include "surface/distance.h"
 
@@ -16,11 +16,12 @@
 namespace cascade {
 namespace {
 
-/// Peaks lower than these parts of the highest one, and of the mean distance, are no tips: bumps of
-/// the surface, and errors of the mean over so many sources.
+/// Peaks lower than one of these fractions, of the highest peak and of the mean distance, are no
+/// tips. They are bumps of the surface, or errors of means that are taken over a few sources.
 constexpr double least_of_highest = 0.05, least_of_mean = 0.03;
 constexpr std::size_t most_sources = 30;
-/// Enough triangles for a position; more only take longer.
+/// With this number of triangles, tips are found exactly enough. More triangles would only take
+/// longer.
 constexpr std::size_t fine_enough = 10'000;
 
 /// A corner of a triangle.
@@ -40,7 +41,8 @@ std::uint32_t main_triangle(const SurfaceMesh& mesh) {
     return static_cast<std::uint32_t>(found - components.begin());
 }
 
-/// The mean distance of each point from the largest component of the surface; infinite elsewhere.
+/// For each point of the largest component, its mean distance from all of that component. Infinite
+/// elsewhere.
 std::vector<double> mean_distances(const SurfaceMesh& mesh, const std::atomic<bool>& cancel) {
     const auto prepared = std::make_shared<const DistanceMesh>(mesh, cancel, DistanceOptions{0});
     std::vector<std::vector<double>> from;
@@ -65,7 +67,7 @@ std::vector<double> mean_distances(const SurfaceMesh& mesh, const std::atomic<bo
             }
         }
     }
-    // Each source counts with the area that is nearest to it.
+    // Each source is weighted by the area that is nearest to it.
     std::vector<double> areas(from.size());
     for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
         for (const std::uint32_t point : mesh.triangles[k]) {
@@ -82,46 +84,29 @@ std::vector<double> mean_distances(const SurfaceMesh& mesh, const std::atomic<bo
     return means;
 }
 
-/// Sets of points, each with its highest one.
-class Floods {
-public:
-    explicit Floods(std::size_t points) : parents_(points) {
-        std::iota(parents_.begin(), parents_.end(), 0U);
-    }
-    std::uint32_t peak_of(std::uint32_t point) {
-        while (parents_[point] != point) {
-            point = std::exchange(parents_[point], parents_[parents_[point]]);
-        }
-        return point;
-    }
-    void join(std::uint32_t lower, std::uint32_t higher) { parents_[lower] = higher; }
-
-private:
-    std::vector<std::uint32_t> parents_;
-};
-
 struct Peak {
     double height = 0;
     std::uint32_t point = 0;
 };
 
-/// The peaks of a function of points, with their heights over the pass to a higher one; of the
-/// highest one over the lowest point. `falling` has all points that count.
+/// The peaks of a function on the points of a mesh. The height of a peak is measured from the pass
+/// to a higher peak. The height of the highest peak is measured from the lowest point. `falling`
+/// has all points to consider, by falling value.
 std::vector<Peak> peaks_of(const DistanceMesh& mesh, const std::vector<double>& values,
                            const std::vector<std::uint32_t>& falling) {
     std::vector<bool> is_under(values.size());
-    Floods floods(values.size());
+    DisjointSets floods(values.size());  // Each is represented by its highest point.
     std::vector<Peak> peaks;
     for (const std::uint32_t point : falling) {
         is_under[point] = true;
         for (const std::uint32_t triangle : mesh.triangles_around(point)) {
             for (const std::uint32_t other : mesh.mesh().triangles[triangle]) {
                 if (!is_under[other]) continue;
-                std::uint32_t lower = floods.peak_of(point), higher = floods.peak_of(other);
+                std::uint32_t lower = floods.find(point), higher = floods.find(other);
                 if (lower == higher) continue;
                 if (values[lower] > values[higher]) std::swap(lower, higher);
                 if (lower != point) peaks.push_back({values[lower] - values[point], lower});
-                floods.join(lower, higher);
+                floods.put_under(lower, higher);
             }
         }
     }
@@ -141,7 +126,8 @@ std::vector<Vector3d> tips_of(const SurfaceMesh& mesh, const std::atomic<bool>& 
     for (std::uint32_t point = 0; point < points.size(); ++point) {
         if (std::isfinite(values[point])) falling.push_back(point);
     }
-    // Equal values in order of their points, so that the result does not depend on the sorting.
+    // Equal values are ordered by point, so that the result does not depend on the sorting
+    // algorithm.
     std::ranges::sort(falling, [&](std::uint32_t a, std::uint32_t b) {
         return std::pair(-values[a], a) < std::pair(-values[b], b);
     });

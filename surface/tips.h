@@ -10,13 +10,14 @@
 
 namespace cascade {
 
-/// The peaks of the mean distance to all of the surface, along it (M. Hilaga, Y. Shinagawa, T.
-/// Kohmura and T. Kunii, "Topology Matching for Fully Automatic Similarity Estimation of 3D
-/// Shapes", 2001). A peak counts if its height over the pass to a higher one (its persistence; H.
-/// Edelsbrunner, D. Letscher and A. Zomorodian, "Topological Persistence and Simplification", 2002)
-/// is at least a twentieth of the highest peak's. By falling height, at most `most_tips`; a ball
-/// has none. Of several connected components only the one with the largest area has tips.
-/// Undefined if `cancel` became true. Throws std::bad_alloc.
+/// The positions of tips: the peaks of a function whose value at a position is the mean distance,
+/// along the surface, to all other positions (M. Hilaga, Y. Shinagawa, T. Kohmura and T. Kunii,
+/// "Topology Matching for Fully Automatic Similarity Estimation of 3D Shapes", 2001). A peak's
+/// height is its persistence, measured from the pass to a higher peak (H. Edelsbrunner, D. Letscher
+/// and A. Zomorodian, "Topological Persistence and Simplification", 2002). A peak counts if its
+/// height is at least a twentieth of the highest peak's. Returns at most `most_tips`, by falling
+/// height. A ball has none. Only the connected component with the largest area has tips. The result
+/// is undefined if `cancel` became true. Throws std::bad_alloc.
 std::vector<Vector3d> tips_of(const SurfaceMesh& mesh, const std::atomic<bool>& cancel);
 
 inline constexpr std::size_t most_tips = 16;

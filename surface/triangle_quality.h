@@ -10,15 +10,19 @@
 namespace cascade {
 
 struct TriangleQuality {
-    double least_sine = 0;    ///< The sine of its smallest angle. 0 if its corners are collinear.
-    double least_cosine = 0;  ///< The cosine between its normal and the corners' normals.
-    double mean_cosine = 0;   ///< The same for their mean. Negative if upside down.
+    double least_sine = 0;  ///< The sine of the smallest angle; 0 if the corners are collinear.
+    /// The least cosine between the triangle's normal and a corner's normal.
+    double least_cosine = 0;
+    /// The cosine between the triangle's normal and the mean of its corners' normals. Negative if
+    /// the triangle is upside down.
+    double mean_cosine = 0;
 
-    /// The score that flips maximise: the smallest angle, reduced for deviation from the surface.
+    /// The score by which flips choose between triangles: the sine of the smallest angle, reduced
+    /// if the triangle deviates from the surface.
     double score() const { return least_sine * std::clamp(least_cosine / 0.9, 0.01, 1.0); }
 };
 
-/// `normals` are the unit normals of the surface at the corners (or 0 where it has none).
+/// `normals` are the unit normals of the surface at the corners, or 0 where the surface has none.
 inline TriangleQuality quality_of(const std::array<Vector3d, 3>& corners,
                                   const std::array<Vector3d, 3>& normals) {
     const Vector3d ab = corners[1] - corners[0], bc = corners[2] - corners[1];

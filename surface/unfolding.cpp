@@ -1,5 +1,5 @@
-// Spreads over edges from the position's triangle, rotating each next one into the plane, until all
-// edges of the front are out of reach.
+// Goes across edges from the position's triangle outwards and rotates each next triangle into the
+// plane, until all edges of the front are out of reach.
 #include "surface/unfolding.h"
 
 #include <algorithm>

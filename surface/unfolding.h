@@ -11,13 +11,13 @@
 namespace cascade {
 
 /// The shape of every triangle relative to each of its edges: the position of the third corner
-/// along the edge and to its left, in units of the edge's length. 48 bytes per triangle.
+/// along the edge and to its left, as multiples of the edge's length. 48 bytes per triangle.
 /// Thread-safe.
 class EdgeShapes {
 public:
     explicit EdgeShapes(const SurfaceMesh& mesh);
 
-    /// The third corner of a triangle whose edge goes from `from` to `to`.
+    /// The position of a triangle's third corner if its edge `edge` goes from `from` to `to`.
     Vector2d apex(TriangleEdge edge, Vector2d from, Vector2d to) const {
         const auto [along, left] = shapes_[edge.triangle][edge.edge];
         const Vector2d base = to - from;
@@ -34,8 +34,8 @@ private:
 /// approximately. Not thread-safe. Takes four bytes per triangle.
 ///
 /// A path along a surface is at least as long as the straight line in space. An image in the plane
-/// may be nearer if the straight line to it leaves the unfolded triangles. `is_image` rejects
-/// those. Triangles out of reach in space are not unfolded.
+/// may be nearer, if the straight line to the image leaves the unfolded triangles. `is_image`
+/// rejects such images. Triangles out of reach in space are not unfolded.
 class Unfolding {
 public:
     /// The surface and its shapes must outlive the unfolding.
@@ -48,21 +48,24 @@ public:
     };
 
     /// Whether a point in the plane, at this squared distance from the position, can be the image
-    /// of one at that squared distance in space. The margin is a tenth, as unfolding is not exact.
+    /// of a point at that squared distance in space. Allows an error of a tenth, because unfolding
+    /// is not exact.
     static bool is_image(double square_in_plane, double square_in_space) {
         return square_in_plane >= 0.81 * square_in_space;
     }
 
-    /// All triangles reached by a path of at most `radius` from the position, which is the origin,
-    /// in the frame of its triangle. Valid until the next call.
+    /// All triangles reached by a path of at most `radius` from the position. They are laid into
+    /// the plane of the position's triangle, in its frame, with the position at the origin. Valid
+    /// until the next call.
     std::span<const Piece> around(const SurfacePlace& place, double radius);
-    /// The same with distances in a metric of that frame.
+    /// Does the same as around() above, but measures distances in a metric of that frame.
     std::span<const Piece> around(const SurfacePlace& place, double radius, const Stretch& metric);
 
-    /// Whether the last patch contains all triangles connected with the position.
+    /// Whether the last patch contains all triangles that are connected with the position's
+    /// triangle.
     bool is_everything() const { return is_everything_; }
 
-    /// The triangle in the last patch. Null if it is not in it.
+    /// A triangle in the last patch; null if the patch does not contain it.
     const FlatTriangle* flat_of(std::uint32_t triangle) const {
         const std::uint32_t mark = marks_[triangle];
         return mark > first_mark_ ? &pieces_[mark - first_mark_ - 1].flat : nullptr;
@@ -71,7 +74,7 @@ public:
 private:
     /// An edge to a triangle not visited yet, in a heap with the nearest on top. Edges that meet in
     /// the nearest corner are equally near, and the one found first is on top. The order is total,
-    /// so that it does not depend on the library's heap.
+    /// so that results do not depend on the library's heap.
     struct Front {
         double square = 0;  ///< The squared distance.
         std::uint32_t piece = 0, edge = 0;
@@ -91,7 +94,7 @@ private:
     const EdgeShapes& shapes_;
     std::vector<Piece> pieces_;
     std::vector<Front> fronts_;
-    Vector3d position_;                 ///< In space.
+    Vector3d position_;  ///< The position in space around which the surface is unfolded.
     std::vector<std::uint32_t> marks_;  ///< Per triangle: first_mark_ + 1 + index of its piece.
     std::uint32_t first_mark_ = 0;
     bool is_everything_ = false;

@@ -1,5 +1,5 @@
-// Each cell unfolds its surroundings and cuts the triangles by the bisectors to its neighbours. The
-// results of the two cells of a Voronoi edge are averaged afterwards.
+// For each cell, unfolds the surroundings and cuts the triangles by the bisectors to the
+// neighbours. The results of the two cells of a Voronoi edge are averaged afterwards.
 #include "surface/voronoi_cells.h"
 
 #include "surface/convex_region.h"
@@ -14,7 +14,7 @@ namespace cascade {
 
 namespace {
 
-/// The part of a triangle that belongs to a cell.
+/// A part of a triangle that a cell claims.
 struct Claim {
     std::uint32_t triangle = 0;
     std::uint32_t cell = 0;
@@ -24,10 +24,10 @@ struct Claim {
 /// The results of one thread, cell after cell.
 struct Found {
     std::vector<Claim> claims;
-    std::vector<VoronoiEdge> edges;  ///< As seen by their cells, in ascending order of neighbours.
+    std::vector<VoronoiEdge> edges;  ///< As found by each cell, in ascending order of neighbours.
 };
 
-/// Finds the regions of some cells. One per thread.
+/// Finds the regions of some cells. One object per thread.
 class RegionFinder {
 public:
     RegionFinder(const SurfaceMesh& mesh, const EdgeShapes& shapes,
@@ -40,7 +40,8 @@ public:
           anisotropy_(anisotropy),
           unfolding_(mesh, shapes) {}
 
-    /// Unfolds all of the surface that affects the region of a cell, at least to `reach`.
+    /// Finds the region of a cell. Unfolds all of the surface that affects the region, at least to
+    /// `reach`.
     void find(std::uint32_t cell, double reach, Found& found) {
         position_ = positions_[cell];
         double ratio = 1;
@@ -50,7 +51,7 @@ public:
         }
         const std::size_t claims = found.claims.size();
         for (;; reach *= 2) {
-            // The set within `reach` in the anisotropic metric is within `wide` on the surface.
+            // Points within `reach` in the anisotropic metric are within `wide` on the surface.
             const double wide = reach * std::sqrt(ratio);
             const auto pieces = unfolding_.around(places_[cell], wide);
             collect_neighbours(cell, wide);
@@ -104,7 +105,8 @@ private:
                   });
     }
 
-    /// Claims all points nearer to the cell than to its neighbours. Returns the largest distance.
+    /// Claims all points that are nearer to the cell than to its neighbours. Returns the largest
+    /// distance of a claimed point.
     double claim_all(std::uint32_t cell, std::span<const Unfolding::Piece> pieces, double reach,
                      Found& found) {
         ConvexRegion region = ConvexRegion::square(reach);
@@ -150,7 +152,8 @@ private:
         }
     }
 
-    /// Whether a stretched point of a piece can be the image of its point on the surface.
+    /// Whether a point of a piece, in stretched coordinates, can be the image of the corresponding
+    /// point of the surface.
     bool is_image(Vector2d point, const Unfolding::Piece& piece, const FlatTriangle& flat) const {
         const SurfacePlace place = {piece.triangle, weights_at(flat, point)};
         const Vector2d image = position_of(piece.flat, place.weights);
@@ -185,8 +188,9 @@ std::vector<T> joined(std::vector<Found>& found, std::vector<T> Found::*part) {
     return all;
 }
 
-/// Divides each triangle among the cells that claim it. A triangle without claims, in a dent that
-/// unfolding misses, goes to the cell with the largest claim to a neighbouring triangle.
+/// Divides each triangle among the cells that claim it. A triangle may have no claims if it is in a
+/// dent that unfolding misses. It goes to the cell with the largest claim to a neighbouring
+/// triangle.
 void share_areas(const SurfaceMesh& mesh, const std::vector<Claim>& claims, SurfaceCells& cells) {
     std::vector<double> claimed(mesh.triangles.size());
     std::vector<Claim> most(mesh.triangles.size());
@@ -221,7 +225,7 @@ void share_areas(const SurfaceMesh& mesh, const std::vector<Claim>& claims, Surf
     }
 }
 
-/// The edge to a neighbour in a sorted list. Null if there is none.
+/// The entry of this neighbour in a list of edges sorted by neighbour; null if there is none.
 const VoronoiEdge* edge_to(std::uint32_t neighbour, std::span<const VoronoiEdge> edges) {
     const auto found = std::lower_bound(edges.begin(), edges.end(), neighbour,
                                         [](const VoronoiEdge& edge, std::uint32_t number) {
@@ -230,11 +234,11 @@ const VoronoiEdge* edge_to(std::uint32_t neighbour, std::span<const VoronoiEdge>
     return found != edges.end() && found->neighbour == neighbour ? &*found : nullptr;
 }
 
-/// Averages the values of the two cells of an edge. An edge that only one cell sees has half its
-/// length. The edges of `cells` are those seen by each cell.
+/// Averages the values that the two cells of each edge have found. An edge found by only one cell
+/// gets half its length. When called, `cells` must have the edges as each cell has found them.
 void match_edges(SurfaceCells& cells) {
     SurfaceCells matched;
-    // Edges that the neighbour sees, but the cell does not.
+    // Edges that the neighbour has found, but the cell has not.
     std::vector<std::pair<std::uint32_t, VoronoiEdge>> unseen;
     for (std::uint32_t cell = 0; cell < cells.ends.size(); ++cell) {
         for (const VoronoiEdge& edge : cells.edges_of(cell)) {
@@ -278,7 +282,7 @@ SurfaceCells voronoi_cells(const SurfaceMesh& mesh, std::vector<SurfacePlace> pl
     cells.places = std::move(places);
     cells.areas.assign(cells.places.size(), 0);
     cells.ends.assign(cells.places.size(), 0);
-    if (cells.places.empty()) return cells;
+    if (cells.places.empty() || cancel) return cells;
     std::vector<Vector3d> positions;
     positions.reserve(cells.places.size());
     for (const SurfacePlace& place : cells.places) positions.push_back(position_of(mesh, place));

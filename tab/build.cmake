@@ -1,5 +1,5 @@
-# The target cascade_engine: engine.wasm beside the program, which pages carry that `cascade export` writes. It
-# is a build of its own, by another compiler (tab/engine.cmake).
+# The target cascade_engine builds engine.wasm, which is put into the pages that `cascade export`
+# writes. It is a separate build by another compiler (tab/engine.cmake).
 set(engine_build ${PROJECT_BINARY_DIR}/tab)
 if(CASCADE_TESTS AND CASCADE_UNITS AND NOT CASCADE_SANITIZE)
   set(engine_belongs ALL)
@@ -11,4 +11,3 @@ add_custom_target(cascade_engine ${engine_belongs}
   COMMAND ${CMAKE_COMMAND} --build ${engine_build}
   COMMAND ${CMAKE_COMMAND} -E copy_if_different ${engine_build}/engine.wasm ${PROJECT_BINARY_DIR}
   VERBATIM)
-install(FILES ${PROJECT_BINARY_DIR}/engine.wasm DESTINATION ${CMAKE_INSTALL_LIBDIR} OPTIONAL)

@@ -1,10 +1,11 @@
-# All of Cascade as one WebAssembly module, engine.wasm, for a browser's tab: the rooms that a session
-# needs, without those of their files that need threads, a file system, or a library that exists only as
-# native code. Files of tab/substitutes take their place.
+# Builds all of Cascade as one WebAssembly module, engine.wasm, for a browser's tab. It consists of
+# the rooms that a session needs. Files that need threads, a file system or a native library are
+# left out, and files of tab/substitutes replace them.
 #
 #     cmake -S . -B build/tab -DCMAKE_TOOLCHAIN_FILE=cmake/wasi.cmake && cmake --build build/tab
 
-# Libraries that consist of headers. Only they are taken from the folder of this machine's own programs.
+# Libraries that consist only of headers. No other libraries are taken from the folder of this
+# machine's programs.
 set(native_headers ${PROJECT_BINARY_DIR}/native_headers)
 file(MAKE_DIRECTORY ${native_headers})
 foreach(name fmt tl nlohmann eigen3 fftw3.h)
@@ -16,7 +17,7 @@ endforeach()
 
 list(APPEND CASCADE_WITHOUT
   core/cache_sizes core/descriptor core/file core/floating_point core/granted_files core/growing_file
-  core/kept_files core/late_library core/link_target core/open_below core/own_folder core/parallel
+  core/kept_files core/late_library core/link_target core/open_below core/own_folder core/parallel core/shared_files
   core/plane_memory core/read_file core/temporary_file core/transform_planner
   ir/tiered_backend
   atlas/flatten atlas/join_charts atlas/unwrap
@@ -27,10 +28,10 @@ list(APPEND CASCADE_WITHOUT
   picture/deflate picture/png_reader picture/read_grey_picture picture/read_png picture/drawing_pdf picture/exr
   picture/openvdb_module picture/vdb picture/write_drawing
   export/levels render/ray_caster
-  run/domain/free_memory run/domain/reshape_model
+  run/domain/free_memory run/domain/reshape_model run/domain/deadline
   run/pictures/frame_folder run/pictures/frames run/pictures/grid_files
   run/pictures/model_files run/pictures/plain_model run/pictures/model_maps run/pictures/growing_model run/pictures/nested_tiling run/pictures/map_size run/pictures/series
-  run/session/session
+  run/session/session run/session/session_model
   run/commands/.* run/emit_c/.*
   view/admission view/carried view/loaded_models view/local_server view/outbox view/page_requests view/page_server
   view/standalone_page)

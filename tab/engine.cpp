@@ -1,16 +1,17 @@
 // The engine of a page without a server: it runs a session and answers the messages of
 // spec/page.md.
 //
-// Exported functions, all for the one thread of a browser's worker:
+// Exported functions. All must be called by the one thread of a browser's worker:
 //
-// - allocate(size): memory for the bytes of the next call, which frees it.
-// - carry(name, name_size, bytes, size): a file that the script may read.
-// - begin(name, name_size, text, size, overrides, overrides_size, is_exact): the script, its
-//   overrides as in pictures, and whether denormal numbers are flushed from now on wherever the
-//   program flushes them. Returns 0, after telling the page why, if the run could not start. May
-//   be called again for another script, which replaces the first but shares its model if equal.
-// - receive(message, size): a message of the page.
-// - turn(): takes some steps and sends changes. Returns 0 if it has no more to do.
+// - allocate(size): returns memory for bytes that the next call takes and frees.
+// - carry(name, name_size, bytes, size): adds a file that the script may read.
+// - begin(name, name_size, text, size, overrides, overrides_size, is_exact): starts the script.
+//   `overrides` are written as in pictures. `is_exact` says whether denormal numbers are flushed
+//   from now on wherever the native program flushes them. Returns 0 if the run could not start,
+//   after telling the page why. A later call replaces the script, and keeps its model if both
+//   scripts have the same one.
+// - receive(message, size): handles a message of the page.
+// - turn(): takes some steps and sends changes to the page. Returns 0 if there is no more work.
 #include "core/file.h"
 #include "ir/tiered_backend.h"
 #include "run/domain/carried_model.h"
@@ -56,9 +57,9 @@ private:
     void tell_script() { send_text(print_script(turns_->run())); }
 
     std::optional<Turns> turns_;
-    std::shared_ptr<const Snapshot> newest_;  ///< The page has this one.
+    std::shared_ptr<const Snapshot> newest_;  ///< The snapshot that the page has.
     bool wants_snapshot_ = false;
-    bool has_library_ = false;  ///< The page.
+    bool has_library_ = false;  ///< Whether the page has the library.
     std::uint64_t told_script_ = 0;
 };
 
@@ -105,11 +106,15 @@ void Engine::receive(std::string_view text) {
     if (std::holds_alternative<NextSnapshot>(message->request)) {
         wants_snapshot_ = true;
     } else if (std::holds_alternative<NamePage>(message->request)) {
-        return;  // There is only one page.
+        return;  // The engine serves only one page, so it needs no name for the page.
     } else if (std::holds_alternative<AskForSurface>(message->request)) {
         send_surface();
     } else if (const auto* question = std::get_if<PageQuestion>(&message->request)) {
         send_text(print_reply(id, *question, turns_->run()));
+    } else if (std::holds_alternative<SaveModel>(message->request)) {
+        send_text(print_failure(id, {"a page without the program writes no models and maps",
+                                     "'cascade view' does, and so does 'cascade run -o NAME.glb' "
+                                     "with the script"}));
     } else if (std::holds_alternative<LoadPart>(message->request)) {
         send_text(print_failure(id, {"a page without the program makes no cells of models",
                                      "'cascade view' does"}));
@@ -139,7 +144,8 @@ bool Engine::turn() {
         }
         wants_snapshot_ = false;
         send_frame(print_snapshot(*newest_));
-        // Sent last: a page that gets the library first lets its user choose from it.
+        // Sent last, because a page that receives the library before its first snapshot asks its
+        // user to choose a system.
         if (!has_library_) send_text(print_systems());
         has_library_ = true;
     }
@@ -151,7 +157,7 @@ Engine& engine() {
     return one;
 }
 
-/// Takes the bytes stored in memory from allocate().
+/// Takes the bytes in memory that allocate() returned, and frees this memory.
 std::string taken(char* bytes, std::size_t size) {
     std::string text(bytes, size);
     delete[] bytes;

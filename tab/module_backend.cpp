@@ -1,4 +1,4 @@
-// Calls the functions of modules with the planes of their kernels.
+// Calls the functions of WebAssembly modules with the planes of their kernels.
 #include "tab/module_backend.h"
 
 #include "ir/interpreter.h"
@@ -16,10 +16,12 @@ namespace {
 
 bool are_modules_exact = false;
 
-/// Kernels of earlier texts are stored for reuse, up to this number.
+/// The largest number of compiled kernels that are stored for reuse, including kernels of earlier
+/// scripts.
 constexpr std::size_t most_kept = 256;
 
-// The arguments that all kernels have: fields, masks, uniforms, results, columns, stride, rows.
+// The type of a function with the arguments that all kernels have: fields, masks, uniforms,
+// results, columns, stride, rows.
 using Shared = void(const void*, const void*, const void*, const void*, std::int32_t, std::int32_t,
                     std::int32_t, std::int32_t, std::int32_t);
 template <typename Function, typename... More>
@@ -33,7 +35,7 @@ using VolumeFunction = PlaneFunction;
 using LinkedFunction = Extended<Shared, const void*, const void*, const void*, const void*,
                                 const void*, const void*, const void*, const void*>::Type;
 
-/// A function pointer, which is an index in the engine's table of functions.
+/// A function pointer. In WebAssembly it is an index in the engine's table of functions.
 class ModuleFunction {
 public:
     explicit ModuleFunction(std::uint32_t place) : place_(place) {}
@@ -117,7 +119,8 @@ public:
         return known;
     }
 
-    /// Writing a module's bytes takes microseconds, and a browser compiles them at once.
+    /// Always null, because compile() is fast: writing a module takes microseconds, and the browser
+    /// compiles a module in milliseconds.
     KernelPointer find(const CellKernel&, Stencil) override { return nullptr; }
 
     KernelCounts counts() const override { return counts_; }

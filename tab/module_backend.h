@@ -1,5 +1,5 @@
-// The backend of a tab: kernels as WebAssembly modules (wasm/kernel_module.h), which the browser
-// compiles and adds to the engine's table of functions.
+// The backend of a browser's tab. Kernels are WebAssembly modules (wasm/kernel_module.h), which the
+// browser compiles and adds to the engine's table of functions.
 #pragma once
 
 #include "ir/backend.h"
@@ -8,12 +8,14 @@
 
 namespace cascade {
 
-/// From now on modules flush denormal numbers wherever the program does (WasmOptions::is_exact).
+/// Modules made after this call flush denormal numbers wherever the native program does
+/// (WasmOptions::is_exact).
 void make_modules_exact();
 
 std::unique_ptr<Backend> make_module_backend();
 
-/// For kernels that run once: the interpreter or, because it flushes results only, exact modules.
+/// A backend for kernels that run once. It is the interpreter. After make_modules_exact() it makes
+/// modules, because in a tab the interpreter flushes only results.
 std::unique_ptr<Backend> make_starting_backend();
 
 }  // namespace cascade

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Bad input as a user would give it: sizes, files, disks, options. Each has its exit status and its
-# message, and leaves no files. Messages about wrong statements are tested by spec/messages.md.
+# Bad input as a user might give it: sizes, files, disks, options. Each gives the right exit status and message, and
+# leaves no files. spec/messages.md tests messages about statements with errors.
 set -u
 rm -rf ./* .cascade-*
 unset NO_COLOR
@@ -11,7 +11,8 @@ fail() {
     echo "--- err"; head -c 2000 err
     exit 1
 }
-# refused STATUS TEXT ARGUMENTS…: that status, that text, one error, nothing written.
+# refused STATUS TEXT ARGUMENTS…: the command ends with this status and one error that contains TEXT, and writes
+# nothing.
 refused() {
     local wanted=$1 text=$2 got
     shift 2
@@ -32,7 +33,7 @@ repeat() { head -c "$1" /dev/zero | tr '\0' "$2"; }
 
 stage 'iterations: 20' good.cascade
 
-# Files that are no script.
+# Files that are not scripts.
 : >empty.cascade
 mkdir folder.cascade
 head -c 20000000 /dev/zero | tr '\0' '#' >large.cascade
@@ -50,7 +51,7 @@ if [ "$(id -u)" != 0 ]; then
     refused 2 "cannot read 'secret.cascade': Permission denied" run secret.cascade
 fi
 
-# Deep and long expressions, in a value, a rate and a setting: they run, or they get a message.
+# Deep and long expressions in a value, a rate and a setting run or get a message.
 { printf 'stage s: turing_spots { iterations: 2; ka: '; repeat 100000 '('; printf 'x*0.01'; repeat 100000 ')'; echo ' }'; } >deep.cascade
 { printf "system t { u: 1; u' = lap(u) - "; repeat 100001 '-'; echo 'u }'; echo 'stage s: t { iterations: 2 }'; } >signs.cascade
 { printf "system t { u: 1; u' = lap(u) - 0.0000001*(u"; yes '+u' | head -n 1000000 | tr -d '\n'; echo ') }'; echo 'stage s: t { iterations: 2 }'; } >chain.cascade
@@ -61,7 +62,7 @@ runs chain.cascade
 refused 2 'open.cascade:1:100036: error: this' run open.cascade
 rm -f ./*.png
 
-# Numbers that make no run.
+# Numbers with which nothing can run.
 for bad in '-1|at least 0' '2.5|a whole number' '1e30|at most' 'x|varies by cell'; do
     stage "iterations: ${bad%|*}" number.cascade
     refused 2 "number.cascade:1:37: error: iterations must be" run number.cascade
@@ -85,7 +86,7 @@ for nonsense in '--range 1' '--range 1,1' '--scale 0' '--detail 0' '--detail 9' 
     # shellcheck disable=SC2086
     refused 64 "'cascade run --help' shows how to use it." run good.cascade $nonsense
 done
-refused 64 "'50' is a number" run good.cascade -o film.gif --frames 50
+refused 64 "the number '50'" run good.cascade -o film.gif --frames 50
 refused 64 'write maps/u, or maps/u.png/ for a folder' sweep good.cascade --vary seed=1,2 -o maps/u.png
 refused 64 'write a, or a.glb/ for a folder' run good.cascade --save a.glb
 refused 64 '--save FOLDER writes each species' run good.cascade -o numbers.npy
@@ -97,7 +98,7 @@ refused 64 'euler has no stages to choose' compile good.cascade --stages 5
 refused 64 '--stages N says how many' compile good.cascade --set solver=rkl1
 refused 64 'solver=rkl1 keeps its speed' compile good.cascade --solver rkl1
 
-# Outputs that cannot be written are found before the first step.
+# Outputs that cannot be written are refused before the first step.
 touch file
 refused 3 "there is no folder 'nowhere'" run good.cascade -o nowhere/a.png
 refused 3 'the folder file cannot be made' run good.cascade --frames file
@@ -111,7 +112,7 @@ if [ -c /dev/full ]; then
         grep -q 'standard output cannot be written' err || fail "$command on a full disk"
     done
 fi
-# A disk of 48 KiB, where this user may make one.
+# A full disk: one of 48 KiB, if this user may mount one.
 mkdir disk
 if mount -t tmpfs -o size=48k tmpfs disk 2>/dev/null; then
     trap 'umount disk' EXIT
@@ -127,7 +128,7 @@ if mount -t tmpfs -o size=48k tmpfs disk 2>/dev/null; then
     trap - EXIT
 fi
 
-# Pictures and saved runs that have been damaged.
+# Damaged pictures and saved runs.
 runs good.cascade -o picture.png --save saved
 head -c 300 picture.png >cut.png
 sed 's/Cascade script/Dascade script/' picture.png >changed.png
@@ -147,9 +148,9 @@ refused 2 "field.cascade:1:34: error: cannot read 'good.cascade': it is not a .n
     run field.cascade
 mkfifo pipe.npy
 stage 'b: field("pipe.npy")' pipe.cascade
-refused 2 "pipe.cascade:1:34: error: 'pipe.npy' is a pipe or a device and no file" run pipe.cascade
+refused 2 "pipe.cascade:1:34: error: 'pipe.npy' is a pipe or a device, not a file" run pipe.cascade
 
-# Values that no time step is to blame for.
+# Non-finite values for another reason than the length of steps.
 printf "system q { u: 1; k: log(x - 1); u' = k + lap(u) }\nstage s: q { iterations: 9; speed: 0.1 }\n" >log.cascade
 refused 3 'u is not finite any more at column 0, row 0, after step 1' run log.cascade -q
 grep -qF 'no value was above 1 before that step: look for a division by zero' err || fail "log.cascade"

@@ -1,5 +1,5 @@
 #!/bin/bash
-# `cascade bench`: numbers that are there and fit together, and bad input. No time is asserted.
+# `cascade bench`: its numbers are complete and consistent, and bad input is refused. No time is asserted.
 set -u
 rm -rf ./*
 about=bench
@@ -24,7 +24,7 @@ if [ "$CASCADE_JIT" = 1 ] || [ "$CASCADE_JIT" = ON ]; then
 fi
 [ -z "$(ls | grep -v -e '\.cascade$' -e '^out$' -e '^err$')" ] || fail "a file was written"
 
-# A program that does not find its code generator interprets, and says so in every line.
+# A program without its code generator interprets, and says so in every line.
 if [ "$CASCADE_JIT" = 1 ] || [ "$CASCADE_JIT" = ON ]; then
     mkdir -p alone/bin
     cp "$CASCADE" alone/bin/cascade
@@ -36,7 +36,7 @@ if [ "$CASCADE_JIT" = 1 ] || [ "$CASCADE_JIT" = ON ]; then
     rm -r alone
 fi
 
-# Rows: all columns, positive, and of one piece.
+# Every row has all columns, with positive and consistent numbers.
 consistent() {
     awk -F, -v rows="$1" 'NR == 1 { columns = NF; next }
         { good += NF == columns && $10 > 0 && $11 > 0 && $12 > 0 && $13 > 0 && $14 > 0 && $15 > 0 && $16 > 0
@@ -76,7 +76,7 @@ says out 'it takes no step'
 printf 'stage s: turing_spots { iterations: 100; frozen: 1 }\n' >frozen.cascade
 run 0 bench frozen.cascade --seconds 0.02
 says out 'nothing moves in it'
-# One that ends at once, again and again.
+# A stage that ends soon and starts again and again.
 printf 'stage s: turing_spots { until: t > 2; iterations: 100 }\n' >short.cascade
 run 0 bench short.cascade --seconds 0.02 --csv
 
@@ -98,7 +98,7 @@ says err 'finite'
 run 0 bench spots.cascade --seconds 0.02 --csv --until-stage large
 consistent 1
 
-# One script that fails does not hide the others; Ctrl-C and the limit of time end it.
+# A script that fails does not prevent the output for the others. Ctrl-C and the limit of time end the command.
 run 3 bench grows.cascade heat.cascade --seconds 0.02 --csv
 says out 'heat.cascade,s,'
 run 124 bench spots.cascade --seconds 100 --limit-time 0.3s

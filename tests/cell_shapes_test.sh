@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# What cells look like: shapes by formulas and of files, coats below them, and other looks of a saved run.
+# The appearance of cells that crawl: shapes by formulas and from files, the skin below them, and drawing a saved run in
+# another way.
 set -u
 rm -rf ./*
 
 fail() { echo "cell_shapes: $*"; exit 1; }
-# points FILE.obj: its numbers of points and triangles.
+# points FILE.obj: prints its numbers of points and triangles.
 points() { grep -c '^v ' "$1"; grep -c '^f ' "$1"; }
 
 cells='cells still { p'"'"' += cling(1) }
@@ -17,7 +18,7 @@ draw() { # draw NAME PICTURE [OPTION …]: writes NAME.png and NAME.obj
     "$CASCADE" run -q "$name.cascade" -o "$name.png" -o "$name.obj" "$@" 2>err || fail "$name: $(cat err)"
 }
 
-# A shape of the script is drawn as the one of the library that says the same.
+# A shape of the script is drawn like the library's shape with the same formulas.
 draw ball 'picture { shape: ball; color: rgb(1, 0, 0) }'
 draw own 'shape own { middle = vector(0, -cos(pi * t), 0); radius = sin(pi * t) }
 picture { shape: own; color: rgb(1, 0, 0) }'
@@ -29,7 +30,7 @@ draw form 'shape box { k: 1 in 1 .. 2; radius = k }
 picture { shape: box; color: rgb(1, 0, 0) }'
 cmp -s forms.obj form.obj && fail "all cells have one form"
 
-# What cannot be drawn is said, and the rest drawn.
+# Cells that cannot be drawn are reported, and the others are drawn.
 draw torn 'shape torn { k: 1; radius = (1 - t) / k }
 picture { shape: torn; k: if(x > 0.5, 1, 0); color: rgb(1, 0, 0) }'
 "$CASCADE" run torn.cascade -o torn.png >out 2>&1 || fail "torn: $(cat out)"
@@ -60,12 +61,12 @@ grep -q "file.cascade:4:18: error: .*pyramid.obj" err || fail "a missing file: $
 "$CASCADE" run -q file.cascade -o there.obj --allow-read elsewhere || fail "--allow-read"
 cmp -s there.obj file.obj || fail "another place, another shape"
 
-# The fewer pixels, the more triangles in pictures; files do not change.
+# A smaller `detail` gives more triangles in pictures, but does not change files.
 draw fine 'picture { shape: ball; color: rgb(1, 0, 0); detail: 0.05 }'
 cmp -s ball.obj fine.obj || fail "detail: changes files"
 cmp -s ball.png fine.png && fail "detail: changes no picture"
 
-# The skin shows what grew before, in pictures and files.
+# The skin shows a pattern that grew before, in pictures and files.
 coat() { # coat NAME SKIN DOMAIN
     cat >"$1.cascade" <<END
 system bands { u: y > 0.5; u' = 0 }
@@ -91,7 +92,7 @@ coat wrong 'rgb(r, 0, 1 - coat.u)' 'surface: sphere; cells: 900'
 "$CASCADE" run -q wrong.cascade -o wrong.png 2>err && fail "the skin reads cells"
 grep -q "'r' is not a parameter of bands" err || fail "the skin reads cells: $(cat err)"
 
-# So does a body that grew in a volume, in the coordinates of scripts: a ball around (0.5, 0.5, 0.5).
+# A body that grew in a volume also shows the pattern, in the coordinates of scripts: a ball around (0.5, 0.5, 0.5).
 cat >body.cascade <<'END'
 system ball { u: 0.3 - sqrt((x - 0.5)^2 + (y - 0.5)^2 + (z - 0.5)^2); u' = 0 }
 cells still { p' += cling(1) }
@@ -111,7 +112,7 @@ awk '/^o / { name = $2 }
 "$CASCADE" run -q --resume grown -o again.obj || fail "a body that is resumed"
 cmp -s body.obj again.obj || fail "a body that is resumed is another one"
 
-# Without any cell that is drawn, files hold the surface alone; and without a surface there are none.
+# If no cell is drawn, files contain the surface alone. Without a surface no file is written.
 draw bare 'picture { width: 0; color: rgb(1, 0, 0) }' -o bare.glb
 grep -q "^o copies" bare.obj && fail "copies of nothing"
 grep -q gpu_instancing bare.glb && fail "instances of nothing"
@@ -121,7 +122,7 @@ for name in nothing.obj nothing.glb; do
     grep -q "there is nothing to be seen" err || fail "$name: $(cat err)"
 done
 
-# A model with texture coordinates gets maps that show what stands on it.
+# A model with texture coordinates gets maps that show the cells on it.
 cat >square.obj <<'END'
 v 0 0 0
 v 4 0 0

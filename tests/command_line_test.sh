@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The program as a user meets it: exit statuses, streams, files, Ctrl-C.
+# The program on the command line: exit statuses, streams, files, Ctrl-C.
 set -u
 rm -rf ./* && mkdir kept
 unset NO_COLOR
@@ -15,7 +15,7 @@ printf 'stage s: turing_spots {\n  betta: 2\n}\n' >wrong.cascade
 printf 'stage s: turing_spots { iterations: 100000000 }\n' >long.cascade
 printf 'system s { u: 1; u'"'"' = u^3 }\nstage s: s { iterations: 1000 }\n' >explodes.cascade
 
-# What comes where.
+# What is written to standard output and standard error.
 run 0 run spots.cascade
 says out 'wrote spots.png'
 says err "stage 1/2 'large': 400 of 400 steps"
@@ -30,7 +30,7 @@ mkdir again && cp first.png again/
     fail "a picture does not make itself again"
 "$CASCADE" run - -q <spots.cascade && [ -s cascade.png ] || fail "standard input is no script"
 
-# Fewer roundings: the code says so, the picture has other numbers and carries the option.
+# --fast: the code contains fused operations, and the picture has other numbers and contains the option.
 if grep -qw fma /proc/cpuinfo; then
     run 0 run spots.cascade --fast --dump ir
     says out 'multiply_add'
@@ -61,10 +61,10 @@ run 0 run --resume half -o resumed.png
 grep -q 'another text' err && fail "the script of the saved run is as it was"
 mkdir edited && cp -r half edited/half && sed 's/^/ /' spots.cascade >edited/spots.cascade
 (cd edited && "$CASCADE" run --resume half -o resumed.png >../out 2>../err) || fail "an edited script stops the resumed run"
-says err 'spots.cascade differs from the script of the saved run, which goes on with its own'
+says err 'spots.cascade differs from the script of the saved run, which continues with its own script'
 cmp -s edited/resumed.png resumed.png || fail "an edited script changes the resumed run"
 
-# Wrong scripts: 2, and nothing is written.
+# Scripts with errors: status 2, and nothing is written.
 rm -f wrong.png
 run 2 run wrong.cascade
 says err "wrong.cascade:2:3: error: 'betta' is not a parameter of turing_spots"
@@ -82,20 +82,20 @@ run 2 run spots.cascade --set large.kaa=1
 run 2 run spots.cascade --until-stage larg
 run 2 run spots.cascade --show 'large.c'
 
-# Failed runs: 3.
+# Failed runs: status 3.
 run 3 run explodes.cascade
 says err "stage 's' (s): u is not finite any more at column 0, row 0, after step 6"
 run 3 run spots.cascade -o no_such_folder/spots.png
 says err 'no_such_folder'
 [ -c /dev/full ] && { "$CASCADE" systems >/dev/full 2>err && fail "a full disk is no success"; }
 
-# Wrong use: 64.
+# Wrong use: status 64.
 run 64
 run 64 run spots.cascade --pallete tan
 says err 'did you mean --palette?'
 run 64 fly
 
-# --dump of every stage; a wrong script has tokens and a tree.
+# --dump of every form; a script with errors still has tokens and a tree.
 for stage in tokens ast program graph ir; do
     run 0 check spots.cascade --dump "$stage"
     [ -s out ] && [ ! -s err ] || fail "--dump $stage"
@@ -138,9 +138,9 @@ run 64 new brusselater
 says err "did you mean 'brusselator'?"
 run 0 --help
 run 0 --version
-says out 'cascade 0.1.0'
+says out 'cascade '
 
-# What its equations say of a stage before it runs.
+# Remarks from the equations of a stage before it runs.
 cat >faint.cascade <<'END'
 stage one: brusselator { decay: 6; u: [feed] + random(0, 0.01); v: [decay] / [feed] + random(0, 0.01); iterations: 10 }
 stage two: brusselator { u: [feed] + random(0, 0.01); v: [decay] / [feed] + random(0, 0.01); iterations: 10000 }
@@ -152,7 +152,7 @@ run 0 run faint.cascade --steps 10 -o faint.png
 says err "stage 'one': nothing will grow"
 says err "stage 'two': nothing will grow: it ends before anything can grow"
 
-# A reader that goes away, a diagnostic that nobody reads.
+# Closed pipes on standard output and standard error.
 "$CASCADE" systems 2>err | head -n 1 >out
 [ "${PIPESTATUS[0]}" = 0 ] && [ ! -s err ] || fail "cascade systems | head"
 "$CASCADE" run spots.cascade -o pipe.png 2>&1 >/dev/null | true

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Where the system gives no threads (a limit of processes, as containers have): everything is
-# computed on the one that there is, with the same bytes.
+# If the system refuses threads (as with a limit of processes in containers), everything is computed on the main thread,
+# with the same bytes.
 set -u
 rm -rf ./*
 
@@ -8,7 +8,7 @@ about="denied threads"
 source "$SOURCE/tests/support/program_runs.bash"
 [ -z "$SANITIZE" ] || { echo "denied threads: sanitizers begin threads of their own"; exit 77; }
 
-# A filter of system calls that answers clone and clone3 as a full table of processes does.
+# A filter of system calls that answers clone and clone3 as if the table of processes were full.
 cat >deny.py <<'END_OF_PYTHON'
 import ctypes, os, platform, struct, sys
 
@@ -55,7 +55,7 @@ run 0 run model.cascade -q -o free.png -o free.ply
 denied run model.cascade -q -o denied.png -o denied.ply
 cmp free.png denied.png && cmp free.ply denied.ply || fail "another picture of a model"
 
-# Sweeps, and what they say on the way.
+# Sweeps and their progress.
 printf 'domain { grid: 32, 32 }\nstage s: turing_spots { iterations: 50 }\n' >small.cascade
 run 0 sweep small.cascade --vary seed=1,2,3 -o free -q
 denied sweep small.cascade --vary seed=1,2,3 -o denied

@@ -1,6 +1,6 @@
 #!/bin/bash
-# Every kind of output of every kind of script on every kind of domain: it is written, or refused before the first step.
-# A bug report, a crash or an output that is not there is a failure.
+# Every kind of output, for every kind of script on every kind of domain, is written or refused before the first step. A
+# bug report, a crash or a missing output is a failure.
 set -u
 failed=0
 count=0
@@ -33,7 +33,7 @@ declare -A scripts=(
     [picture_body]="$fields } picture { body: a - 0.5 }"
     [both_bodies]="$fields } $cells; body: coat.a - 0.05 } picture { body: coat.a - 0.5 }"
 )
-# What is asked for, and a file that must be there.
+# Options for an output, and a file that must then exist.
 outputs=(
     'film.gif -o film.gif'
     'film.apng -o film.apng --scale 4 --label step'
@@ -62,7 +62,7 @@ for domain in "${!domains[@]}"; do
         "$CASCADE" check "$name.cascade" >/dev/null 2>&1 || continue
         for output in "${outputs[@]}"; do
             read -r file options <<<"$output"
-            # Pictures of planes have a pixel for each cell where no size is asked for.
+            # Without --size, pictures of planes have a pixel for each cell.
             case $domain.$script in line.fields | plane.fields | mask.fields) size= ;; *) size='--size 24x16' ;; esac
             rm -rf out && mkdir out
             count=$((count + 1))

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# A page that carries its engine: headless Chromium opens the file from the disk, without a network, and its
-# canvas is compared with the PNG files of `cascade run`. And what `cascade export` refuses.
+# Exported pages: headless Chromium opens the file from the disk, without a network, and its canvas is compared with PNG
+# files of `cascade run`. Also what `cascade export` refuses.
 set -u
 
 fail() { echo "exported_page: $*"; exit 1; }
@@ -60,7 +60,7 @@ SCRIPT
 "$CASCADE" export crawling.cascade >/dev/null || fail "the page of cells was not written"
 "$CASCADE" run crawling.cascade -o crawling.png --quiet || fail "the cells were not drawn"
 
-# Bad input: one message, and nothing is left.
+# Bad input: one message, and no file is left.
 refused() {
     local wanted=$1
     shift
@@ -78,5 +78,11 @@ mkdir -p folder.html
 refused "folder.html" spots.cascade --html folder.html
 refused "a script is missing"
 
-rm -rf profile
+sed -n "/^cat >lesson.cascade/,/^SCRIPT/p" "$SOURCE/tests/page_test.sh" | sed '1d;$d' >lesson.cascade
+"$CASCADE" export lesson.cascade >/dev/null || fail "the page of an exercise was not written"
+sed 's/^domain.*/domain { surface: sphere; cells: 500 }/' dots.cascade | sed 's/disc(0.3, 0.3, 0.1)/x/' >points.cascade
+"$CASCADE" export points.cascade >/dev/null || fail "the page of a ball was not written"
+rm -rf profile profile_of_points_2 profile_of_lesson_2
 node "$SOURCE/tests/page/exported.mjs" "$browser" || fail "see above"
+node "$SOURCE/tests/page/points.mjs" "$browser" "$CASCADE" points.cascade points.html || fail "see above"
+node "$SOURCE/tests/page/lesson.mjs" "$browser" "$CASCADE" lesson.cascade lesson.html || fail "see above"

@@ -1,5 +1,5 @@
 #!/bin/bash
-# Films from the command line: what is written, what is said, and what is left after Ctrl-C.
+# Films from the command line: files, messages, and results after Ctrl-C.
 set -u
 failed=0
 fail() {
@@ -25,7 +25,7 @@ done
 grep -aq acTL film.apng || fail "the APNG is not animated"
 [ ! -e spots.png ] || fail "a film brings a picture"
 
-# The film of a script is that of the picture that an APNG is.
+# An APNG contains its script: run as a picture, it gives the same film.
 cp film.apng again.png
 "$CASCADE" run again.png -q -o again.gif || fail "an APNG does not run again"
 cmp -s film.gif again.gif || fail "the film of an APNG is another one"
@@ -37,7 +37,7 @@ for ending in gif webp apng; do
     cmp -s "one.$ending" "four.$ending" || fail "threads change a film ($ending)"
 done
 
-# Refused, with a reason, and nothing is left.
+# Refused with a reason, and no file is left.
 refused() {
     local text=$1
     shift
@@ -47,7 +47,7 @@ refused() {
     compgen -G 'bad.*' >/dev/null && fail "$* leaves $(echo bad.*)"
     compgen -G '.cascade-*' >/dev/null && fail "$* leaves a temporary file"
 }
-refused "is a film in a format that is not written" -o bad.avi
+refused "is a film in a format that Cascade cannot write" -o bad.avi
 refused "a GIF shows at most 50 frames a second" -o bad.gif --fps 55
 refused "no film is written" --fps 5 -o bad.png
 refused "no film is written" --seconds 5 --sheet bad.png
@@ -77,7 +77,7 @@ refused "no frames of a run are drawn" -o bad.png --label step
 refused "no room for a label" -o bad.gif --label step
 refused "this differs from cell to cell" -o bad.gif --label b
 
-# Surfaces without a background have films with alpha, where the format has it.
+# Surfaces without a background have transparent films, if the format has transparency.
 echo 'domain { surface: sphere; cells: 200 }' >ball.cascade
 echo 'stage s: turing_spots { iterations: 4 }' >>ball.cascade
 ball() { "$CASCADE" run -q ball.cascade --size 48x36 --background none "$@" >/dev/null 2>err; }
@@ -88,7 +88,7 @@ grep -q "an MP4 film has no transparent pixels" err || fail "an MP4 without back
 ball -o ball.png --label step --frames balls || fail "a picture without background: $(cat err)"
 [ "$(od -An -t u1 -j 25 -N 1 ball.png | tr -d ' ')" = 4 ] || fail "a grey picture without background has no alpha"
 
-# A label lies over the pattern; a sweep and a volume are films, too.
+# Labels, and films of sweeps and volumes.
 "$CASCADE" run spots.cascade -q --scale 8 -o label.gif --label stage --label step || fail "a label"
 "$CASCADE" run spots.cascade -q --scale 8 -o plain.gif || fail "no label"
 cmp -s label.gif plain.gif && fail "a label is not drawn"
@@ -97,7 +97,7 @@ cmp -s label.gif plain.gif && fail "a label is not drawn"
 "$CASCADE" run spots.cascade -q --grid 12x10x8 --slices 8 -o slices.gif || fail "slices"
 [ "$(gif_frames slices.gif)" = 8 ] || fail "the film of slices has $(gif_frames slices.gif) frames"
 
-# Ctrl-C leaves the film up to there.
+# After Ctrl-C the film shows the run up to that moment.
 timeout --preserve-status -s INT 2 "$CASCADE" run spots.cascade --set iterations=1000000000 \
     --set interval=1000 -o stopped.gif >out 2>err
 status=$?
@@ -105,7 +105,8 @@ status=$?
 [ "$(gif_frames stopped.gif)" -ge 1 ] || fail "a stopped run has no film"
 [ "$(tail -c 1 stopped.gif)" = ';' ] || fail "the film of a stopped run has no end"
 
-# An encoder that hangs or lies: nothing waits for it once the program is to end, and no film is said to be written.
+# An encoder that hangs or reports false success: the program does not wait for it after a signal, and reports no film
+# as written.
 mkdir -p bin
 stand_in() { printf '#!/bin/sh\n%s\n' "$1" >bin/ffmpeg && chmod 755 bin/ffmpeg; }
 with_stand_in() { PATH=$PWD/bin:$PATH timeout "$@" >out 2>err; }
@@ -123,10 +124,10 @@ for how in "-s TERM 2:143" "-s INT 2:130" "60:124 --limit-time 1s"; do
     grep -q "at the trial of ffmpeg; nothing has been written" err || fail "$how: $(cat err)"
     no_film "an encoder that hangs"
 done
-# It hangs only when it has taken all frames; the run is saved all the same.
+# An encoder that hangs after all frames: the run is still saved.
 stand_in 'case "$*" in *null*) cat >/dev/null ;; *) cat >/dev/null; sleep 100 ;; esac'
 with_stand_in --preserve-status -s TERM 3 "$CASCADE" run spots.cascade -o lie.mp4 --save kept
-grep -q "it did not get on, and was ended" err || fail "an encoder that hangs at the end: $(cat err)"
+grep -q "it made no progress and was stopped" err || fail "an encoder that hangs at the end: $(cat err)"
 grep -q "written all the same: kept" err || fail "an encoder that hangs at the end: $(cat err)"
 "$CASCADE" run --resume kept -q -o kept.png || fail "the run is not saved"
 no_film "an encoder that hangs at the end"
@@ -141,7 +142,7 @@ done
 stand_in 'cat >/dev/null'
 with_stand_in 60 "$CASCADE" sweep spots.cascade -q --vary ka=1/80,1/40 --film lie.mp4 && fail "a sweep believes a lie"
 
-# With ffmpeg, if it is there.
+# With ffmpeg, if it is installed.
 if command -v ffmpeg >/dev/null && command -v ffprobe >/dev/null; then
     for ending in mp4 webm; do
         "$CASCADE" run spots.cascade -q -o "film.$ending" --fps 12.5 || fail "$ending"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Every .cpp and .h is laid out as .clang-format says. Needs no build: reads $SOURCE. Releases of
-# clang-format disagree about details, so the test asks for the one of Debian 12.
+# Every .cpp and .h has the layout of .clang-format. Needs no build: reads $SOURCE. Releases of clang-format differ in
+# details, so the test uses that of Debian 12.
 set -u
 cd "${SOURCE:-$(dirname "${BASH_SOURCE[0]}")/..}" || exit 1
 

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# The 20 headers that are included most stay small: every file that includes one compiles all of its text. The bound is
-# that of preprocessed lines, nearly all of which are the standard library's.
+# The 20 headers that are included most are small, since every file that includes one compiles all of its text. The
+# bound is for preprocessed lines, nearly all of which are the standard library's.
 set -u
 cd "${SOURCE:-$(dirname "${BASH_SOURCE[0]}")/..}" || exit 1
 bound=95000  # The largest, run/simulation/simulation.h, has 89,000 with g++ 12; <vector> alone has 20,000.
 
-# lines_of HEADER: its preprocessed lines.
+# lines_of HEADER: prints the number of its preprocessed lines.
 lines_of() { "${CXX:-g++}" -std=c++20 -I. -isystem /usr/include/eigen3 -E -P -x c++ "$1" 2>/dev/null | wc -l; }
 
 folders=$(sed -nE 's/^([a-z]+)[/:].*/\1/p' cmake/rooms.txt | sort -u)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Hints of options are true: a command with a fault gets the hint, and what the hint says to write
-# makes the fault go. (Hints about the text of scripts: tests/unit/lang/hints_test.cpp.)
+# Hints about options are true: a command with an error gets the hint, and following the hint removes the error. (Hints
+# about the text of scripts: tests/unit/lang/hints_test.cpp.)
 set -u
 fail() { echo "FAILED: $*" >&2; exit 1; }
 rm -rf ./*
@@ -25,7 +25,7 @@ sed "/^stage/d" s.cascade >bare.cascade
 sed 's/grid: 8, 8/surface: sphere; cells: 100/' s.cascade >ball.cascade
 "$CASCADE" run s.cascade -q --save saved -o s.png || fail "a run"
 
-# What runs, and yields something else than meant: a hint in a warning.
+# A command that runs but probably not as meant gets a hint in a warning.
 hint_of_run() {
     local text=$1; shift
     "$CASCADE" "$@" >out 2>err </dev/null || fail "$*"
@@ -41,9 +41,9 @@ hint "-o NAME.gif, .webp, .apng, .mp4 or .webm writes one" run s.cascade --fps 5
 hint ".webp and .apng show up to 60" run s.cascade -o film.gif --fps 60 -- run s.cascade -q -o film.apng --fps 60
 "$CASCADE" run s.cascade -q --frames film || fail "frames"
 cp s.cascade t.cascade
-hint "name another one with --frames" run t.cascade -q --frames film -- run t.cascade -q --frames film3
+hint "name another folder with --frames" run t.cascade -q --frames film -- run t.cascade -q --frames film3
 
-# What is missing.
+# Missing parts.
 hint "add 'stage spots: mine { }'" run bare.cascade -- run s.cascade -q
 hint "did you mean 's.cascade'?" check z.cascade -- check s.cascade
 hint "did you mean 's.cascade'?" check s -- check s.cascade
@@ -95,7 +95,7 @@ hint "the option --grid 32x32 sets it" sweep s.cascade --vary grid=32,64 -o w3 -
 hint "the option --grid 32x32 sets it" check s.cascade --set domain.grid=32 -- check s.cascade --set domain.extent=32
 hint "write first.k" check s.cascade --set stage.k=2 -- check s.cascade --set first.k=2
 hint "once for each name" check s.cascade --set k=2,u=1 -- check s.cascade --set k=2 --set u=1
-hint "two dots stand between the ends of a range" sweep s.cascade --vary k=0.02-0.06:3 -- \
+hint "two dots separate the ends of a range" sweep s.cascade --vary k=0.02-0.06:3 -- \
     sweep s.cascade -q --vary k=0.02..0.06:3 -o w4
 hint "did you mean 'cascade systems'?" list -- systems
 "$CASCADE" sweep s.cascade -q --vary extent=4,8 -o w5 || fail "an extent that is varied"

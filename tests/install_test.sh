@@ -17,7 +17,7 @@ if [ "$CASCADE_JIT" = 1 ] && grep 'could not be loaded' dots.err; then
     exit 1
 fi
 
-# The public headers are the only ones, and the library exports nothing but what they declare.
+# Only the public headers are installed, and the library exports only what they declare.
 headers=$(cd "$prefix/include" && find . -type f | sort | xargs)
 [ "$headers" = './cascade/cascade.h ./cascade/cascade_c.h' ] || { echo "unexpected headers: $headers"; exit 1; }
 library=$(echo "$prefix"/lib*/libcascade.so)
@@ -31,7 +31,7 @@ if [ -z "$SANITIZE" ] && [ -n "$extra" ]; then
 fi
 grep -q 'cascade::Pattern::step' <<<"$exported" || { echo "Pattern::step is not exported"; exit 1; }
 
-# So does Python's module, where it is built.
+# The Python module also runs from there, if it is built.
 python=$(sed -n 's/^Python3_EXECUTABLE:.*=//p' "$BUILD/CMakeCache.txt")
 if [ -z "$SANITIZE" ] && [ -d "$prefix/lib/python3" ] && "$python" -c 'import numpy' 2>/dev/null; then
     PYTHONPATH=$prefix/lib/python3/dist-packages "$python" -c '

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# --json: one object on standard output for every end of a command, and nothing else anywhere.
+# --json: however a command ends, it writes one object to standard output and nothing else.
 set -u
 rm -rf ./*
 
@@ -16,7 +16,7 @@ END
 printf 'stage spots: gray_scot { iterations: 40 }\n' >wrong.cascade
 printf 'OFF 4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n' >four.off
 
-# Arguments: the status, a condition on the answer `a` in Python, and those of the program.
+# answers STATUS CONDITION ARGUMENTS…: CONDITION is a Python expression of the answer `a`.
 answers() {
     local status=$1 condition=$2
     shift 2

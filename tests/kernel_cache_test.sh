@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Compiled kernels on disk, as a user meets them: where they are, what is not loaded when they are
-# found, and that no state of the folder changes a picture or fails a run.
+# Compiled kernels on disk: where they are stored, that LLVM is not loaded if they are found, and that no state of the
+# folder changes a picture or makes a run fail.
 set -u
 [ "$CASCADE_JIT" = 1 ] || exit 77
 rm -rf ./*
@@ -28,7 +28,7 @@ loads_llvm() {
     grep -q 'libLLVM' trace
 }
 
-# Nothing is kept if nobody wants it.
+# Nothing is stored with --no-kernel-cache.
 cascade_run first.png --no-kernel-cache
 [ ! -e "$HOME/.cache" ] || fail "--no-kernel-cache keeps kernels"
 CASCADE_KERNEL_CACHE='' cascade_run none.png
@@ -36,7 +36,7 @@ CASCADE_KERNEL_CACHE='' cascade_run none.png
 XDG_CACHE_HOME=relative cascade_run relative.png
 [ ! -e relative ] && [ ! -e "$HOME/.cache" ] || fail "a relative XDG_CACHE_HOME is used"
 
-# Nor in another user's home, as with sudo.
+# Nothing is stored in another user's home, as with sudo.
 if [ "$(id -u)" = 0 ]; then
     mkdir guest && chown 1 guest
     HOME=$PWD/guest cascade_run guest.png
@@ -60,7 +60,7 @@ loads_llvm --no-kernel-cache || fail "--no-kernel-cache finds kernels"
 [ "$(kernels "$folder")" = "$count" ] || fail "kernels were made again"
 cmp traced.png first.png || fail "another picture with kept kernels"
 
-# Nor does one that is over before code for it could be made, and it keeps nothing.
+# A run that ends before its code could be compiled does not load LLVM either, and stores nothing.
 LD_DEBUG=files CASCADE_KERNEL_CACHE=$PWD/short "$CASCADE" run short.cascade -q -o short.png 2>trace >out ||
     fail "a short run failed"
 grep -q 'libLLVM' trace && fail "LLVM is loaded for two steps"
@@ -68,7 +68,7 @@ grep -q 'libLLVM' trace && fail "LLVM is loaded for two steps"
 run 0 run short.cascade -q -o interpreted_short.png --backend interp
 cmp short.png interpreted_short.png || fail "another picture of two steps"
 
-# Damage, and folders of no use.
+# Damaged files and unusable folders.
 for file in "$folder"/*.kernel; do truncate -s 1000 "$file"; done
 cascade_run damaged.png
 cmp damaged.png first.png || fail "another picture with damaged kernels"
@@ -83,7 +83,7 @@ if [ -w /dev/full ]; then
     cmp full.png first.png || fail "another picture with a device for a folder"
 fi
 
-# Many at once in an empty folder.
+# Many runs at once with an empty folder.
 export CASCADE_KERNEL_CACHE=$PWD/shared
 for n in 1 2 3 4; do "$CASCADE" run two.cascade -q -o "at_once_$n.png" & done
 wait

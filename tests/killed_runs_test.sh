@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Kills runs at single system calls (SIGKILL by strace): runs that save over an older run, and runs with
-# checkpoints. There is always a run to resume, it ends with the bits of an uninterrupted run, and no file
-# of the killed runs stays. `KILLS=500 ctest -R killed_runs` kills 500 times.
+# Kills runs at single system calls (SIGKILL by strace): runs that save over an older run, and runs with checkpoints.
+# There is always a run to resume, which ends with the bits of an uninterrupted run, and no file of the killed runs
+# remains. `KILLS=500 ctest -R killed_runs` kills 500 times.
 set -u
 rm -rf ./*
 
@@ -26,8 +26,8 @@ saving=(run --resume work "${plain[@]}" --save work --stop-at small:20)
 keeping=(run two.cascade "${plain[@]}" --save work --checkpoint 0.000001s)
 renew() { rm -rf work && cp -r old work; }
 
-# All places to kill at: those calls that touch files, of either kind of run. The first ones of a
-# program load its libraries.
+# All system calls at which to kill: calls about files, in both kinds of runs. A program's first calls only load
+# libraries.
 calls='openat|write|fsync|renameat|unlinkat|flock|close|newfstatat'
 places=()
 for kind in saving keeping; do
@@ -50,10 +50,10 @@ for ((k = 0; k < kills; ++k)); do
     read -r kind call n <<<"${places[$((k * count / kills))]}"
     declare -n arguments=$kind
     renew
-    # The shell's own remark on each is not wanted.
+    # Hides the shell's message about each killed program.
     { strace -o trace -e "inject=$call:signal=SIGKILL:when=$n" "$CASCADE" "${arguments[@]}" >out 2>err; } 2>/dev/null
     [ $? = 137 ] && killed=$((killed + 1))
-    # A killed writer's last file is nobody's after an hour.
+    # After an hour, a temporary file of a killed writer is removed.
     find work -name '.cascade-*.tmp' -exec touch -d '2 hours ago' {} +
     "$CASCADE" run --resume work "${plain[@]}" --save work >out 2>err ||
         fail "nothing to resume after a kill of '$kind' at $call $n"

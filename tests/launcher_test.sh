@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The launcher `cascade` builds when it must and only then. CMake and the package tools are replaced
-# by small scripts that note their calls, so that no real build is needed.
+# The launcher `cascade` builds if and only if it must. Small scripts that record their calls replace CMake and the
+# package tools, so that no real build is needed.
 set -u
 
 fail() {
@@ -66,7 +66,7 @@ ln -sf tree/cascade by_link
 ./by_link >out 2>err
 [ ! -s calls ] && [ "$(cat out)" = "ran in $PWD: " ] || fail "through a link: $(cat out err)"
 
-# In a terminal one sees how far it is.
+# In a terminal the progress is shown.
 if command -v script >/dev/null; then
     touch tree/core/a.cpp
     sed -i 's|^    sleep 0.3|    echo "[1/20] one"; sleep 0.7; echo "[17/20] two"; sleep 2|' bin/cmake
@@ -75,7 +75,7 @@ if command -v script >/dev/null; then
     sed -i 's|^    echo "\[1/20.*|    sleep 0.3|' bin/cmake
 fi
 
-# In a pipe one sees it from time to time, and nothing holds the pipe open afterwards.
+# In a pipe the progress is shown from time to time, and no process keeps the pipe open afterwards.
 touch tree/core/a.cpp
 sed -i 's|^    sleep 0.3|    echo "[5/20] one"; sleep 2.3|' bin/cmake
 begin=$SECONDS
@@ -84,12 +84,12 @@ grep -q '^cascade: 5 of 20 steps, about a minute left$' err || fail "no progress
 [ $((SECONDS - begin)) -lt 20 ] || fail "the launcher waited for the end of what shows the progress"
 sed -i 's|^    echo "\[5/20.*|    sleep 0.3|' bin/cmake
 
-# A compiler takes up to 1 GiB.
+# The number of jobs depends on memory: a compiler takes up to 1 GiB.
 root=$PWD/tree
 compilers_with() { (. tree/cmake/setup.sh; awk() { echo "$memory"; }; nproc() { echo 8; }; memory=$1; compilers); }
 [ "$(compilers_with 0) $(compilers_with 3) $(compilers_with 20)" = '1 3 8' ] || fail "compilers do not fit into memory"
 
-# What is known of the cause of a failure is said.
+# Known causes of a failed build are reported.
 touch break_build tree/core/a.cpp
 sed -i 's|some error|fatal error: No space left on device|' bin/cmake
 launch && fail "a failed build is no success"

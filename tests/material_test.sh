@@ -1,18 +1,18 @@
 #!/bin/bash
-# Materials of the picture block: maps of planes and models decoded again and compared with the formulas,
-# the same bits from the interpreter and from native code, and what is refused.
+# Materials of the picture block: maps of planes and models are decoded and compared with the formulas, interpreter and
+# native code give the same bits, and wrong combinations are refused.
 set -u
 rm -rf ./*
 about=material
 . "$SOURCE/tests/support/program_runs.bash"
 
-# check_maps NAME ARGUMENTS…: runs a check of tests/support/maps.py, where there is Python.
+# check_maps NAME ARGUMENTS…: runs a check of tests/support/maps.py if Python is installed.
 check_maps() {
     command -v python3 >/dev/null || return 0
     python3 "$SOURCE/tests/support/maps.py" "$@" >out 2>err || fail "maps.py $*"
 }
 
-# A pattern that repeats, of waves that formulas know: every map says its own part of it.
+# A periodic pattern of waves given by formulas: every map must contain its own part.
 cat > waves.cascade <<'END'
 system wave {
   u: 0.5 + 0.5 * sin(2 * pi * sx) * cos(4 * pi * sy)
@@ -46,7 +46,7 @@ picture { color: if(u < 0.1, rgb(1, 0, 0), rgb(0, 0, 1)) }
 END
 run 0 run -q disc.cascade -o disc.glb --bake 512
 check_maps disc disc
-# The lines between are those of the texture's size, whatever the grid's.
+# A texture whose size is not a multiple of the grid's.
 run 0 run -q waves.cascade -o odd.glb --bake 100
 check_maps size odd 100 67
 
@@ -60,7 +60,7 @@ for backend in interp jit; do
     cmp -s interp.glb $backend.glb || fail "the model of $backend"
 done
 
-# Only what is said is written.
+# Only maps that the picture sets are written.
 cat > plain.cascade <<'END'
 stage s: gray_scott { iterations: 40 }
 END
@@ -68,7 +68,7 @@ run 0 run plain.cascade -o plain.glb --bake 64
 says out "wrote plain_color.png"
 [ "$(ls plain_*.png)" = plain_color.png ] || fail "maps of a picture that says nothing: $(ls plain_*)"
 check_maps json plain no-sampler opaque
-# Sides that do not repeat are clamped; holes are cut.
+# Maps are clamped at sides that are not periodic; holes are transparent.
 cat > holes.cascade <<'END'
 domain { grid: 40, 40; boundary: noflux, periodic; mask: (x - 0.5)^2 + (y - 0.5)^2 < 0.16 }
 stage s: gray_scott { iterations: 40 }
@@ -85,18 +85,8 @@ END
 run 0 run -q volume.cascade -o across.glb --bake 64 --slice y=0.5
 check_maps size across 64 48
 
-# Models: the same maps.
-cat > square.obj <<'END'
-v 0 0 0
-v 1 0 0
-v 1 1 0
-v 0 1 0
-vt 0 0
-vt 1 0
-vt 1 1
-vt 0 1
-f 1/1 2/2 3/3 4/4
-END
+# A model gets the same kinds of maps as a plane.
+write_square
 cat > on_model.cascade <<'END'
 system wave { u: x; u' = 0 }
 stage s: wave { iterations: 1 }
@@ -116,13 +106,13 @@ done
 check_maps on_model on_model
 run 0 mesh on_model.glb
 says out "4 points, 2 triangles"
-# Heights shade its pictures, and --bump replaces them.
+# Heights shade pictures of models, and --bump replaces them.
 run 0 run -q on_model.cascade --mesh square.obj --cells 2000 -o raised.png --view 20,60
 sed '/height:/d; /emission:/d' on_model.cascade > flat.cascade
 run 0 run -q flat.cascade --mesh square.obj --cells 2000 -o flat.png --view 20,60
 cmp -s raised.png flat.png && fail "height and emission change no picture"
 
-# Numbers beyond 0 … 1 are clamped, and it is said.
+# Numbers outside 0 … 1 are clamped and reported.
 sed 's/roughness: .*/roughness: 2 * u/' waves.cascade > rough.cascade
 run 0 run rough.cascade -o rough.glb --bake 32
 says err "the roughness is not from 0 to 1 in 50 % of the cells, and is clamped there"
@@ -130,13 +120,13 @@ sed 's/opacity: .*/opacity: sqrt(-1 - u)/' waves.cascade > nan.cascade
 run 0 run nan.cascade -o nan.glb --bake 32
 says err "the opacity is not from 0 to 1 in 100 % of the cells, and is clamped there"
 
-# What is refused, without a file.
+# Refused commands write no file.
 run 64 run waves.cascade -o refused.glb --bake 9000
 run 2 run waves.cascade -o refused.glb
-says err "only what grows on a model is written so, and the domain is not a model"
+says err "only models can be written so, and the domain is not a model"
 says err "--bake N writes a rectangle with maps of N texels"
 run 2 run waves.cascade -o refused.ply --bake 64
-says err "only what grows on a model is written so"
+says err "only models can be written so"
 run 2 run waves.cascade --bake 64
 says err "no model is written with its maps"
 says err "-o NAME.glb writes a rectangle with them"

@@ -1,5 +1,5 @@
 #!/bin/bash
-# `cascade mesh`: models of every kind and what is said of them.
+# `cascade mesh`: models of every kind and the facts that it prints.
 set -u
 about=mesh
 . "$SOURCE/tests/support/program_runs.bash"
@@ -35,7 +35,7 @@ printf 'domain { mesh: "cube.obj"; cells: 400 }\nsystem s { u: distance(%s); u%s
     "$tip" "'" > at_tip.cascade
 "$CASCADE" run -q at_tip.cascade -o at_tip.png --save at_tip 2>err || fail "a printed point is none of the surface: $(cat err)"
 
-# Cells: their areas are the cube's, and a seed is a seed.
+# Cells: their areas add up to the cube's, and the seed chooses their positions.
 run 0 mesh cube.obj --cells 600
 says out "600 cells of mean area 0.01,"
 cp out first
@@ -45,7 +45,7 @@ run 0 mesh cube.obj --cells 600 --seed 2
 cmp -s out first && fail "another seed gives the same cells"
 run 64 mesh cube.obj --seed 2
 says err "--seed means nothing without a number of --cells"
-# Texture coordinates, in files that are read again.
+# Texture coordinates in written files, which are read again.
 run 0 mesh cube.obj --unwrap
 says out "made texture coordinates: "
 for file in new.glb new.obj new.ply; do
@@ -56,7 +56,7 @@ for file in new.glb new.obj new.ply; do
     says out "texture coordinates: "
     grep -q "several times\|mirrored" out && fail "the texture coordinates of $file overlap"
 done
-# The repaired model as it is, refined and simplified.
+# The repaired model, written unchanged, refined and simplified.
 for file in same.glb same.obj same.ply same.stl; do
     run 0 mesh cube.obj -o $file
     run 0 mesh $file
@@ -73,7 +73,7 @@ says out "made texture coordinates: "
 run 0 mesh new.ply --subdivide 1 -o fine.ply
 run 0 mesh fine.ply
 says out "texture coordinates: "
-# Colours and numbers of the file are kept where a format has them, and said to be left out where it has not.
+# Colours and numbers of the file are kept if the output format has them, otherwise their omission is reported.
 cat > coloured.ply <<'END'
 ply
 format ascii 1.0
@@ -139,7 +139,7 @@ says out "attributes nx, ny, nz, red, green, blue, u_, warmth"
 printf 'COFF\n3 1 0\n0 0 0 255 0 7 255\n1 0 0 1 2 3 255\n0 1 0 128 64 32 255\n3 0 1 2\n' > colours.off
 run 0 mesh colours.off -o colours.obj
 grep -q "^v 1 0 0 0.00392157 0.00784314 0.0117647" colours.obj || fail "colours of an OFF file"
-# Far from the origin an STL file is moved, and says so.
+# A model far from the origin is moved in an STL file, which is reported.
 sed 's/^v \([01]\) \([01]\) /v 40300\1.0\1 -360490\2.7\2 /' cube.obj > far.obj
 run 0 mesh far.obj -o far.stl
 says out "'far.stl' has the model moved by -403000"
@@ -179,7 +179,7 @@ printf 'v 9 0 0\nv 9 1 0\nv 9 0 1\nf 9 10 11\n' >> parts.obj
 run 3 mesh parts.obj --cells 1
 says err "'parts.obj': 1 cell cannot cover a surface of 2 connected components"
 
-# Several models; a broken one does not hide the others.
+# Several models: a broken one does not prevent the output for the others.
 head -n 12 cube.obj > open.obj
 printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 9\n' > broken.obj
 run 3 mesh open.obj broken.obj cube.obj
@@ -190,13 +190,13 @@ says err "'broken.obj': face 1 of the OBJ file names a point that is not there"
 : > empty.ply
 for name in empty.ply nothing.ply picture.png; do run 3 mesh $name; done
 run 3 mesh empty.ply
-says err "'empty.ply': this is no PLY file"
+says err "'empty.ply': this is not a PLY file"
 run 3 mesh picture.png
-says err "is no model"
+says err "is not a model"
 run 64 mesh
 says err "a model is missing"
 
-# Whatever the files hold, there is an answer.
+# Any file gets an answer.
 for seed in 1 2 3; do
     for model in cube.obj open.obj; do
         for ending in obj off stl ply gltf glb; do

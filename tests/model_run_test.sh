@@ -1,11 +1,11 @@
 #!/bin/bash
-# Runs on models, from the command line: every file that can come of one, read back.
+# Runs on models from the command line: every kind of output file is written and read again.
 set -u
 rm -rf ./*
 about=model_run
 . "$SOURCE/tests/support/program_runs.bash"
 
-# Reads arrays with NumPy, where there is one; the rest of the test does without.
+# Checks arrays with NumPy if it is installed.
 numpy() {
     local name
     for name in python3 /usr/bin/python3; do
@@ -19,21 +19,10 @@ numpy() {
 cat > spots.cascade <<'END'
 stage spots: gray_scott { iterations: 40 }
 END
-# A square with texture coordinates, which fill the texture.
-cat > square.obj <<'END'
-v 0 0 0
-v 1 0 0
-v 1 1 0
-v 0 1 0
-vt 0 0
-vt 1 0
-vt 1 1
-vt 0 1
-f 1/1 2/2 3/3 4/4
-END
+write_square
 model="run -q spots.cascade --mesh creature --cells 600"
 
-# Several outputs of one run; a name's ending says what it is.
+# Several outputs of one run, in formats chosen by the endings of names.
 run 0 ${model/-q /} -o one.png -o m.ply -o m.obj -o m.glb -o m.vtp -o m.cells.vtp -o m.npz
 for name in one.png m.ply m.obj m.glb m.vtp m.cells.vtp m.npz; do
     says out "wrote $name"
@@ -57,7 +46,7 @@ head = open("m.cells.vtp", "rb").read(2000)
 assert b'NumberOfPoints="600"' in head and b'NumberOfPolys="0"' in head, head
 END
 
-# A finer model than its cells: as many points as colours need. Tiled anew the points are the cells.
+# A coarse model is refined to as many points as colours need. With --retile the points are the cells.
 run 0 $model -o tiled.ply --retile --show 'u - v'
 run 0 mesh tiled.ply
 says out "600 points,"
@@ -90,7 +79,7 @@ for name in square.glb square_color.png square_height.png square_normal.png; do
 done
 run 0 mesh square.glb
 says out "4 points, 2 triangles"
-# A model without texture coordinates gets some, in all its files; others keep theirs unless --unwrap.
+# A model without texture coordinates gets some in all its files. Other models keep theirs, except with --unwrap.
 run 0 $model --bake 256 -o creature.glb -o creature.obj -o creature.ply
 for file in creature.glb creature.obj creature.ply; do
     run 0 mesh $file
@@ -119,7 +108,7 @@ run 2 $model --unwrap --retile -o none.ply
 says err "the triangles of --retile have no texture coordinates"
 run 2 run spots.cascade --unwrap -o none.glb --bake 64
 says err "the domain is not a model"
-# Coordinates that overlap are noticed.
+# Overlapping coordinates are reported.
 cat > tiles.obj <<'END'
 v 0 0 0
 v 1 0 0
@@ -136,7 +125,7 @@ says err "100.0 % of the texture belongs to several parts of the model, over whi
 says err "--unwrap gives each a place of its own"
 run 0 run spots.cascade --mesh tiles.obj --cells 300 --bake 64 --unwrap -o tiles.glb
 grep -q "several parts" err && fail "coordinates of ours overlap"
-# Far from the origin an STL file is moved, and its levels alike.
+# A model far from the origin is moved in an STL file, by the same distance in all levels.
 sed 's/^v \([01]\) \([01]\) /v 40300\1.0\1 360490\2.7\2 /' square.obj > far.obj
 run 0 run spots.cascade --mesh far.obj --cells 300 -o far.stl --lods 2
 says err "'far.stl' has the model moved by -403000"
@@ -144,7 +133,7 @@ run 0 mesh far.stl
 says out "1 boundary, Euler characteristic 1"
 run 0 run spots.cascade --mesh far.obj --cells 300 -o far.ply
 grep -q moved err && fail "a PLY file holds all digits"
-# Coordinates in one point, or in less than a sample, are found before the first step.
+# Texture coordinates that all coincide, or cover less than a sample, are refused before the first step.
 sed 's/iterations: [0-9]*/iterations: 100000000/' spots.cascade > long.cascade
 cmp -s long.cascade spots.cascade && fail "no script of many steps"
 for spot in 0 0.0001; do
@@ -155,7 +144,7 @@ for spot in 0 0.0001; do
     run 0 run -q spots.cascade --mesh spot.obj --cells 300 --bake 64 --unwrap -o spot.glb
 done
 
-# Levels of detail: files of their own, and all of them in the first GLB file.
+# Levels of detail: each has a file, and the first GLB file contains all levels.
 run 0 $model --lods 3 -o lods.glb -o lods.ply
 for name in lods.glb lods_lod1.glb lods_lod2.glb lods.ply lods_lod1.ply lods_lod2.ply; do
     [ -s "$name" ] || fail "no $name"
@@ -172,7 +161,7 @@ for name in maps.glb maps_color.png maps_lod1.glb maps_lod1_color.png maps_lod1_
 done
 run 0 mesh maps_lod1.glb
 says out "texture coordinates: "
-# OpenEXR: heights in lengths, which fill the range that the PNG file's text says.
+# OpenEXR: heights are lengths and have the range in the text of the PNG file.
 run 0 $model --bump 0.1 --bake 64 --exr -o lengths.glb
 for name in lengths.glb lengths_color.exr lengths_height.exr lengths_normal.exr; do
     [ -s "$name" ] || fail "no $name"
@@ -180,7 +169,7 @@ done
 [ ! -e lengths_color.png ] || fail "maps in two formats"
 run 2 $model --exr -o lengths.glb
 says err "no maps are written"
-# A model that grows: as many moments as there are intervals, and one for the start.
+# An animated model has a moment for each interval and one for the start.
 run 0 run -q spots.cascade --mesh creature --cells 600 --animate -o grows.glb --fps 5
 grep -qa '"animations"' grows.glb || fail "nothing moves"
 run 0 mesh grows.glb
@@ -190,8 +179,8 @@ run 2 $model --animate -o grows.glb --bake 64
 says err "maps do not move"
 run 2 run -q spots.cascade --animate -o grows.glb
 says err "the domain is not a model"
-# Levels of tiles: the points of each are a quarter of those of the one before, and a few of the
-# model that nothing could replace.
+# Levels with --retile: each has a quarter of the points of the previous level, and a few points of the model that could
+# not be removed.
 run 0 $model --retile --lods 3 -o tiles.obj
 points() { grep '^v ' "$1" | cut -d ' ' -f 2-4 | sort; }
 for pair in 'tiles tiles_lod1 150' 'tiles_lod1 tiles_lod2 37'; do
@@ -200,12 +189,12 @@ for pair in 'tiles tiles_lod1 150' 'tiles_lod1 tiles_lod2 37'; do
     [ "$others" -le 8 ] || fail "$others points of $coarse are not those of $fine"
     [ $(($(points "$coarse.obj" | wc -l) - others)) = "$count" ] || fail "$coarse has other points"
 done
-# Maps as large as the cells ask for.
+# Maps whose size follows from the size of cells.
 run 0 run spots.cascade --mesh square.obj --cells 300 --texels-per-cell 2 -o fitting.glb
 says err "maps of 64 texels: a cell is 3.7 texels wide"
 run 2 $model --texels-per-cell 2 -o fitting.png
 says err "no model is written with its maps"
-# The surface moves by its heights, and only then.
+# The surface moves by its heights with --displace, and only then.
 run 0 $model -o level.ply
 run 0 $model --bump 0.1 -o level_too.ply
 cmp -s level.ply level_too.ply || fail "--bump moves a model"
@@ -228,7 +217,7 @@ says err "the model and the model are both to be written to"
 run 64 $model --lods 1 -o lods.glb
 says err "whole number from 2 to 8"
 
-# Pictures: options travel inside them, and change them.
+# Options of pictures are stored in them and change them.
 run 0 $model -o plain.png --view 40,10
 run 0 $model -o turned.png --view 40,10 --up z --bump 0.03 --palette viridis
 cmp -s plain.png turned.png && fail "--up and --bump change nothing"
@@ -236,7 +225,7 @@ run 0 run -q turned.png -o again.png
 cmp -s turned.png again.png || fail "a picture of a model is not drawn again byte for byte"
 run 0 $model -o flat.png --view 40,10 --up z --palette viridis
 cmp -s flat.png turned.png && fail "--bump changes nothing"
-# Its size, camera and quality, too.
+# Size, camera and quality are stored in pictures and change them, too.
 run 0 $model -o wide.png --size 210x90 --quality draft --fov 60 --ground no --background '#204060'
 [ "$(od -An -t x1 -j 16 -N 8 wide.png | tr -d ' ')" = 000000d20000005a ] || fail "--size 210x90 draws another size"
 run 0 run -q wide.png -o again.png
@@ -245,7 +234,7 @@ for other in '--quality fine' '--light outdoors' '--fov 20' '--ground yes' '--ba
     run 0 run -q wide.png -o other.png $other
     cmp -s wide.png other.png && fail "$other changes nothing"
 done
-# What points upwards changes what scripts and pictures see, and no coordinate that leaves.
+# --up changes positions in scripts and pictures, but no coordinates in written files.
 run 0 $model --up z -o up.ply -o up.npz
 run 0 mesh m.ply
 grep size out > before
@@ -272,7 +261,7 @@ run 0 $model --threads 1 -o t1.npz -o t1.glb
 run 0 $model --threads 3 -o t3.npz -o t3.glb
 cmp -s t1.npz t3.npz && cmp -s t1.glb t3.glb || fail "files depend on the number of threads"
 
-# Cells that are kept.
+# Cells stored by --cache.
 run 0 ${model/-q /} --cache kept -o a.npz
 says err "kept the cells in kept/"
 run 0 ${model/-q /} --cache kept -o b.npz
@@ -286,7 +275,7 @@ run 0 ${model/-q /} --cache spots.cascade -o b.npz
 says err "the cells are not kept: "
 cmp -s a.npz b.npz || fail "cells that cannot be kept give other results"
 
-# What does not go together is said before anything is computed.
+# Options that exclude each other are refused before anything is computed.
 refused() {
     local message=$1
     shift
@@ -297,7 +286,7 @@ refused() {
     ls refused.* >/dev/null 2>&1 && fail "something was written by $*"
 }
 for name in refused.ply refused.obj refused.glb refused.vtp refused.npz refused.cells.vtp; do
-    refused "only what grows on a model is written so" run -q spots.cascade -o $name
+    refused "only models can be written so" run -q spots.cascade -o $name
 done
 refused "only a domain with a model has this setting" run -q spots.cascade -o refused.png --up z
 for option in "--retile" "--bump 0.1" "--cache kept2"; do
@@ -325,7 +314,7 @@ run 3 $model -o big.png --size 100000x100000
 says err "a picture of 100000 × 100000 pixels has more than 268435456 pixels"
 says err "use a smaller --size"
 run 64 $model -o m.fbx
-says err "'m.fbx' has no ending of a file that can be written"
+says err "the ending of 'm.fbx' is not that of a file that can be written"
 run 64 $model --bump 2
 says err "'2' is not a number from -1 to 1"
 run 64 $model --bump nan
@@ -335,7 +324,7 @@ says err "'w' is not one of x, y, z"
 run 64 $model --bake 9000
 says err "whole number from 1 to 8192"
 
-# A sweep draws a picture of each run, and measures what needs no rows and columns.
+# A sweep draws a picture of each run, and measures features that need no rows and columns.
 run 0 sweep spots.cascade --mesh sphere --cells 60 --vary seed=1,2 -o sweep
 says out "wrote sweep/sheet.png"
 [ "$(wc -l <sweep/features.csv)" = 3 ] || fail "sweep/features.csv: $(cat sweep/features.csv)"
@@ -348,7 +337,7 @@ for name in empty.ply broken.obj missing.ply; do
     refused "error:" run -q spots.cascade --mesh $name --cells 50 -o refused.png -o refused.ply
 done
 
-# Ctrl-C while cells are made: nothing is written, and the status says so.
+# Ctrl-C while cells are made: nothing is written, and the status is that of Ctrl-C.
 cat > many.cascade <<'END'
 stage spots: gray_scott { iterations: 10 }
 END
@@ -359,9 +348,9 @@ got=$?
 says err "nothing has been written"
 [ ! -e many.png ] || fail "a picture of cells that were never made"
 run 124 run many.cascade --mesh creature --cells 3000000 -o many.png --limit-time 1s
-says err "the limit of 1 s is reached at the making of the model's cells; nothing has been written"
+says err "the limit of 1 s is reached at making the model's cells; nothing has been written"
 
-# Ctrl-C while a picture is drawn: it is left out, and the other outputs are written.
+# Ctrl-C while a picture is drawn: this picture is left out, and the other outputs are written.
 cat > ball.cascade <<'END'
 stage spots: gray_scott { iterations: 10 }
 domain { grid: 64, 32; surface: (2 + cos(2 * pi * sy)) * cos(2 * pi * sx), (2 + cos(2 * pi * sy)) * sin(2 * pi * sx), sin(2 * pi * sy) }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The page of `cascade view` in a browser: every control does what it says, and the canvas shows the pixels of
-# `cascade run`. The files in page/built are what page/build.sh makes. Exit code 77 says that it could not be tried.
+# The page of `cascade view` in a browser: every control works, the canvas shows the pixels of `cascade run`, and
+# page/built contains the output of page/build.sh. Exit code 77 means that the test could not run.
 set -u
 
 fail() { echo "page: $*"; exit 1; }
@@ -97,20 +97,56 @@ domain { grid: 40, 20 }
 stage grow: crowd { founders: keys(0.2, 0.1, 0, 0.45, 0.4, 0, 0.8, 0.15, 0); r: 0.06; duration: 1 }
 picture { color: rgb(x, 0.3, 0.6); skin: rgb(0.9, 0.9, 0.85) }
 SCRIPT
-# Turned by the page: 8 degrees for a key, 0.4 for a pixel.
+# Views turned on the page: 8 degrees for a key, 0.4 for a pixel.
 for view in model:30,25 turned:70,33 dragged:-10,17 box:30,25 hole:30,25 crawling:30,25 crowd:30,25; do
     name=${view%:*} script=$name
     [ -f $name.cascade ] || script=model
     "$CASCADE" run $script.cascade --palette zebra --view="${view#*:}" -o $name.png --quiet || fail "the picture of $name was not drawn"
 done
 "$CASCADE" run hole.cascade --palette zebra --flat -o flat.png --quiet || fail "the plane was not drawn"
-[ -n "${SANITIZE:-}" ] || "$CASCADE" export spots.cascade --html spots.html >said || fail "the page without the program was not written"
-rm -rf profile profile_of_access profile_of_instruments profile_of_link profile_of_solids profile_of_tutorial models saved
+cat >lesson.cascade <<'SCRIPT'
+# exercise: Many small spots
+# exercise de: Viele kleine Flecken
+# task: Change the number kill, so that spots grow and stay.
+#   There must be many of them.
+# task de: Ändere die Zahl kill, damit Flecken wachsen und bleiben.
+#   Es müssen viele sein.
+# hint: Without the kill, v eats all of u. With too much of it, v dies out.
+# goal: deviation > 0.05
+# goal: spots in 5 .. 400
+# target: gray_scott
+# locked
+domain { grid: 64, 48 }
+system spots {
+  u: 1 - 0.5 * disc(0.5, 0.4, 0.15)
+  v: 0.25 * disc(0.5, 0.4, 0.15) + random(0.01, 0.01)
+  feed: 0.03
+  kill: 0.06
+  u' = 0.16 * lap(u) - u * v^2 + feed * (1 - u)
+  v' = 0.08 * lap(v) + u * v^2 - (feed + kill) * v
+  show: v
+}
+# open
+stage grow: spots {
+  kill: 0.3     # here
+  iterations: 2500
+}
+SCRIPT
+for name in spots colours; do
+    [ -n "${SANITIZE:-}" ] || "$CASCADE" export $name.cascade --html $name.html >said || fail "the page $name.html was not written"
+done
+rm -rf profile profile_of_* models saved
 node "$SOURCE/tests/page/page.mjs" "$browser" "$CASCADE" || fail "see above"
 node "$SOURCE/tests/page/instruments.mjs" "$browser" "$CASCADE" || fail "see above"
+for name in smooth library names saving; do
+    node "$SOURCE/tests/page/$name.mjs" "$browser" "$CASCADE" || fail "see above"
+done
 node "$SOURCE/tests/page/solids.mjs" "$browser" "$CASCADE" || fail "see above"
 node "$SOURCE/tests/page/access.mjs" "$browser" "$CASCADE" node_modules/axe-core/axe.min.js || fail "see above"
 node "$SOURCE/tests/page/link.mjs" "$browser" "$CASCADE" node_modules || fail "see above"
+{ echo 'domain { surface: sphere; cells: 500 }'; cat still.cascade; } >points.cascade
+node "$SOURCE/tests/page/points.mjs" "$browser" "$CASCADE" points.cascade || fail "see above"
+node "$SOURCE/tests/page/lesson.mjs" "$browser" "$CASCADE" lesson.cascade || fail "see above"
 mkdir -p models && cp spots.cascade models
 (cd models && node "$SOURCE/tests/page/models.mjs" "$browser" "$CASCADE" "$SOURCE") || fail "see above"
 node "$SOURCE/tests/page/tutorial.mjs" "$browser" "$CASCADE" "$SOURCE/docs/tutorial.md" || fail "see above"

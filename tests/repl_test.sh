@@ -9,7 +9,7 @@ fail() {
     exit 1
 }
 feed() { printf '%s\n' "$@" | "$CASCADE" repl >out 2>err || fail "exit status $?"; }
-# The same where a line is wrong.
+# Feeds input with a wrong line, after which the exit status must be 1.
 feed_wrong() {
     printf '%s\n' "$@" | "$CASCADE" repl >out 2>err
     local status=$?
@@ -17,7 +17,7 @@ feed_wrong() {
 }
 says() { grep -qF -- "$2" "$1" || fail "no '$2' in $1"; }
 
-# A script that grows, a block over several lines, stages one after the other.
+# A script typed line by line, a block over several lines, and several stages.
 feed 'domain { grid: 16, 8 }' \
     'stage large: turing_spots {' '  iterations: 30' '}' \
     ':run 20' ':run 5' ':stages' ':run' ':quit' 'never: read'
@@ -27,7 +27,7 @@ says out 'large: turing_spots, step 25 of 30'
 says out "stage 'large', step 30 of 30"
 grep -q error err && fail "something was wrong"
 
-# A wrong line changes nothing: the fields are those of an undisturbed run.
+# A wrong line changes nothing: the fields are the same as without the line.
 feed 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 100 }' ':run 100' ':save right'
 feed_wrong 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 100 }' ':run 60' \
     'stage t: turing_spotz { }' ':set s.kaa=1' ':show nobody' ':shwo' ':run x' ':load nowhere' \
@@ -38,20 +38,20 @@ says err "did you mean ':show'?"
 says out "stage 's', step 60 of 100"
 cmp right/s.b.npy wrong/s.b.npy || fail "a wrong line changed the fields"
 
-# A parameter that changes on the way keeps the fields.
+# Changing a parameter during a run keeps the fields.
 feed 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 100 }' ':run 60' \
     ':set s.ka=1/40' ':stages' ':run 40' ':save set'
 says out 's: turing_spots, step 60 of 100'
 cmp -s right/s.b.npy set/s.b.npy && fail ":set changed nothing"
 
-# A parameter that is set again is kept once.
+# A parameter that is set twice is stored once.
 feed 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 10 }' \
     ':set s.ka=1/40' ':set beta=12' ':set s.ka = 1/60' ':set s.ka=1/80' ':text'
 [ "$(grep -c '^# :set' out)" = 2 ] || fail "settings that were replaced are kept"
 says out '# :set beta=12'
 says out '# :set s.ka=1/80'
 
-# Saved, loaded, gone on with: the same bits.
+# A run that is saved, loaded and continued has the same bits.
 feed 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 100 }' ':run 60' ':save half'
 feed ':load half' ':run 40' ':save loaded'
 cmp right/s.b.npy loaded/s.b.npy || fail "loading lost something"
@@ -65,7 +65,7 @@ grep -q $'\x1b' out && fail "escapes in a pipe"
 says out ':load FILE'
 says out 'stage s: turing_spots { iterations: 10 }'
 
-# What is typed again replaces what it was, and the run goes on. An expression has a value.
+# A block that is typed again replaces the old one, and the run continues. An expression shows its value.
 feed 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 100 }' ':run 60' 'mean(b over domain)' \
     'stage s: turing_spots { iterations: 80; ka: 1/30 }' ':stages' ':text' '2 + 3'
 says out '4.0044 in all cells'
@@ -73,7 +73,7 @@ says out 's: turing_spots, step 60 of 80'
 says out '5 in all cells'
 [ "$(grep -c '^stage s' out)" = 1 ] || fail "the stage is there twice"
 
-# On from here, back, and forward again; all of it in a session that can be played.
+# :next, undo and redo; a session with all of these can be played.
 feed 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 100 }' \
     'stage t: turing_spots { a: a; b: b; beta: beta; iterations: 50 }' ':run 60' ':paint b = b + 1' \
     ':undo' ':redo' ':next' ':run 10' ':save done.session' ':save played_once' ':goto s' ':stages' ':undo' \
@@ -96,7 +96,7 @@ printf 'cascade session 1\nname x\n' >broken.session
 feed_wrong ':load broken.session'
 says err 'broken.session: line 3 of the session'
 
-# A picture carries the session: it is drawn again, played again, and gone on with.
+# A picture contains the session: it can be drawn again, played and continued.
 feed 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 100 }' \
     'stage t: turing_spots { a: a; b: b; beta: beta; iterations: 50 }' ':run 60' ':paint b = b + disc(0.5, 0.5, 0.2)' \
     ':run 10' ':set s.ka=1/60' ':next' ':run 7' ':show a' ':save live.png' ':save live' ':run 5' ':save later'
@@ -112,18 +112,19 @@ cmp later/t.a.npy gone_on/t.a.npy || fail "a picture's session does not go on"
 says err 'its session is not played, because options change the script'
 "$CASCADE" run live.png --frames film >out 2>err && fail "frames of a session"
 says err 'a session is played to its end before anything is written'
-# What began with a saved run is not grown by its log.
+# The log of a session that began with a saved run does not grow it again.
 feed ':load live' ':run 3' ':save resumed.png'
 "$CASCADE" run resumed.png -o own.png >out 2>err || fail "the script of a picture does not run"
 grep -q 'playing' err && fail "a session without its beginning is played"
 
-# The script itself can be saved, unless it is not all that the run is made of.
+# The script can be saved, unless the run also depends on :set.
 feed 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 10 }' ':save mine.cascade'
 grep -q '^stage s: turing_spots { iterations: 10 }$' mine.cascade || fail "the script is not saved"
 feed_wrong ':load mine.cascade' ':set ka=1/30' ':save other.cascade'
 says err "that ':set' changed are not in the text"
 [ -e other.cascade ] && fail "another script was saved than was run"
-# The ending decides, in any case of its letters, and no folder gets the name of a picture.
+# The ending of a name, in upper or lower case, chooses the kind of file. A name with another file's ending is refused,
+# so that no folder gets such a name.
 feed 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 10 }' ':save large.PNG'
 [ -f large.PNG ] || fail "NAME.PNG is not a picture"
 for name in photo.JPG anim.gif table.csv; do
@@ -132,20 +133,20 @@ for name in photo.JPG anim.gif table.csv; do
     [ -e "$name" ] && fail "a folder is called $name"
 done
 
-# What was painted is in a saved run, too.
+# A saved run contains painted values.
 feed 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 100 }' ':run 20' ':paint beta = 13' \
     ':save painted' ':run 30' ':save on'
 feed ':load painted' ':run 30' ':save resumed'
 cmp on/s.b.npy resumed/s.b.npy || fail "a painted parameter is lost"
 
-# What came of a run is said, and that there is nothing left to run.
+# Remarks on the result are shown, and that no steps are left.
 feed 'domain { grid: 16, 8 }' 'stage s: gray_scott { u: 1; v: 0; iterations: 50 }' ':run' ':show v' ':run' \
     ':set s.feed=0.05'
-says err "stage 's' ended even (u = 1, v = 0): all cells are the same"
+says err "stage 's' ended uniform (u = 1, v = 0): all cells are the same"
 says out '0 in all cells'
 [ "$(grep -c "':init' begins again" err)" = 2 ] || fail "not told that all is over"
 
-# Commands of the shell, of the script so far, and help on each.
+# Commands of the program for the script so far, and help for each.
 feed 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 100 }' ':run' ':features' ':check' ':check --dump equations' \
     ':sweep --vary s.ka=1/60,1/80 -o swept -q' ':systems brusselator' ':help run' ':help check' ':help :systems'
 says out 'wavelength'
@@ -160,7 +161,7 @@ feed_wrong ':check' ':bench --nonsense' ':help nothing'
 says err 'there is no script yet'
 says err "there is no command ':nothing'"
 
-# Cells that crawl: strokes change them and take them away, and a picture grows them again.
+# Cells that crawl: strokes change and remove cells, and a picture grows them again.
 feed_wrong "cells spot: scales { tone: random(0.5, 0.3); tone' = 0; soft: 1; p' += push(soft) }" \
     'domain { surface: sphere; cells: 200 }' 'stage s: spot { founders: 4; r: 0.08; duration: 8 }' \
     ':run 60' ':set soft=2' ':paint tone=if(y > 0.5, 1, tone)' ':paint remove=y > 0.9' ':undo' ':redo' \
@@ -178,12 +179,12 @@ feed 'help' && says out ':load FILE'
 feed '?' && says out ':load FILE'
 feed 'exit' 'stage s: nonsense'
 
-# The end of the pipe ends a block too, with the message of the parser.
+# The end of the pipe also ends a block, with the parser's message.
 feed_wrong 'stage s: turing_spots {'
 says err 'error:'
 
 command -v python3 >/dev/null || exit 0
-# The library that edits lines does not free those of its history.
+# The library for editing lines does not free its history.
 export ASAN_OPTIONS="${ASAN_OPTIONS:-}:detect_leaks=0"
 XDG_STATE_HOME=$PWD/state python3 - "$CASCADE" <<'END' || { echo "repl: in a terminal"; exit 1; }
 import os, pty, select, sys, time
@@ -235,7 +236,7 @@ history = open(file).read()
 if status != 0 or "stages" not in history:
     sys.exit(f"status {status}, history {history!r}")
 
-# A terminal that is closed, and a program that is killed, lose nothing that was typed.
+# If the terminal is closed or the program is killed, no typed line is lost.
 for number, signal in enumerate(["closed", 9]):
     pid, terminal = start()
     expect(b"1> ")
@@ -257,7 +258,7 @@ expect(b"grid: 11, 8")
 type_in(b"\x03\x04")
 os.waitpid(pid, 0)
 
-# Pictures in pixels, where the terminal answers that it shows them.
+# Pictures in pixels, if the terminal answers that it can show them.
 import base64, fcntl, re, struct, termios
 
 def picture(answers, **environment):
@@ -303,14 +304,14 @@ check(b"\x1b_G" not in asked, "tmux is asked for kitty's protocol", asked)
 check(b"\x1bP" in shown, "no sixels in tmux", shown)
 asked, shown = picture(b"\x1b[?62;22c")
 check("▀".encode() in shown and b"\x1bP" not in shown, "pixels in a terminal without", shown)
-asked, shown = picture(None)                    # It answers nothing.
+asked, shown = picture(None)                    # The terminal does not answer.
 check("▀".encode() in shown, "no picture in a silent terminal", shown)
 asked, shown = picture(None, CASCADE_PICTURES="characters")
 check(b"\x1b[c" not in shown and "▀".encode() in shown, "characters are not forced", shown)
 asked, shown = picture(b"\x1b[?62;22c", CASCADE_PICTURES="sixel")
 check(b"\x1b_G" not in asked and b"\x1bP" in shown, "sixels are not forced", shown)
 
-# While it grows, kitty's pictures replace each other by their number, and are removed at the end.
+# During growth, kitty's pictures replace each other by their number, and are removed at the end.
 pid, terminal = pty.fork()
 if pid == 0:
     os.environ.update({"TERM": "xterm", "TMUX": "", "STY": ""})
@@ -328,7 +329,7 @@ expect(b"2> ")
 type_in(b":quit\r")
 os.waitpid(pid, 0)
 
-# A page of a picture begins where its session ended.
+# `cascade view` of a picture begins at the end of its session.
 import signal, socket, subprocess
 
 class Page:
@@ -360,7 +361,7 @@ page = Page("live.png")
 page.ask(b'{"do": "next_snapshot"}', rb'"steps":7\b')
 page.end(signal.SIGINT)
 
-# Whatever ends a session, its file holds what was done; only the user's own end removes it.
+# However a session ends, its file contains all changes, unless the user ends the session.
 def sessions():
     return sorted(name for name in os.listdir() if ".unsaved" in name and name.endswith(".session"))
 
@@ -394,7 +395,7 @@ expect(b"1> ")
 type_in(b"stage s: turing_spots { iterations: 100 }\r")
 expect(b"2> ")
 type_in(b":run 7\r")
-expect(b"goes on with it")                      # Where the session is kept.
+expect(b"' continues it")                      # The message that names the session's file.
 type_in(b":paint b=b+1\r")
 type_in(b":set s.ka=1/70\r")
 type_in(b":stages\r")

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The static site is written, its links lead somewhere, and its scripts grow in headless Chromium without a network.
+# The static site is written, no link is broken, and its scripts grow in headless Chromium without a network.
 set -u
 
 fail() { echo "site: $*"; exit 1; }

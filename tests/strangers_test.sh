@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# What files from strangers may not do: reach beyond their folder, name what is written, or speak to
+# Files from strangers cannot read outside of their folder, choose names of written files, or send control characters to
 # the terminal (spec/security.md).
 set -u
 rm -rf ./* && mkdir -p private box
 about="strangers"
 source "$SOURCE/tests/support/program_runs.bash"
-# never FILE TEXT: the text is not in the file.
+# never FILE TEXT: fails if the text is in the file.
 never() { ! grep -qF -- "$2" "$1" || fail "'$2' in $1"; }
 
 # A model's buffers: a private key must not come out as coordinates.
@@ -34,7 +34,7 @@ for uri in ../private/key "$PWD/private/key" %2e%2e/private/key link; do
     done
 done
 
-# What a run writes is named after what was typed, and not over the picture that is run again.
+# Outputs are named after the typed name, and never overwrite the picture that is run again.
 echo 'stage s: turing_spots { iterations: 2 } ' >family.cascade
 echo 'domain { grid: 8, 8 }' >>family.cascade
 run 0 run family.cascade -q -o evil.png
@@ -56,7 +56,7 @@ run 0 run family.cascade --save kept --stop-at s:1 -q -o half.png
 run 0 run --resume kept/
 says out 'wrote kept.png'
 
-# A saved run does not say where files are read: the user's own script does, or the user.
+# A saved run does not choose where files are read: the user's own script or the user does.
 mkdir -p own private/own && cp kept/s.b.npy own/a.npy && cp kept/s.b.npy private/own/a.npy
 printf 'stage s: turing_spots { iterations: 4; b: field("a.npy") }\ndomain { grid: 8, 8 }\n' >own/field.cascade
 run 0 run own/field.cascade --save saved --stop-at s:2 -q -o half.png
@@ -75,11 +75,11 @@ cp moved/field.cascade private/own/
 run 2 run --resume saved -q -o stolen.png
 [ ! -e stolen.png ] || fail "stolen.png"
 
-# Pictures and saved runs hold no absolute path, and models are found again.
+# Pictures and saved runs contain no absolute path, and models are still found.
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n' >moved/tetra.obj
 run 0 run "$PWD/family.cascade" --mesh "$PWD/moved/tetra.obj" --cells 64 -q -o model.png --save model
 grep -qaF "$PWD" model.png model/run.json && fail "an absolute path"
-run 2 run model.png -q -o again.png 
+run 2 run model.png -q -o again.png
 run 0 run model.png --allow-read moved -q -o again.png
 cmp -s model.png again.png || fail "another picture"
 run 0 run model.png --mesh moved/tetra.obj -q -o again.png
@@ -136,15 +136,15 @@ if [ "$CASCADE_JIT" = 1 ]; then
     ! nm main.o | grep -q pwned || fail "a name became code"
 fi
 
-# A device has no end, and no script is that long.
+# Endless devices are refused as scripts.
 "$CASCADE" check /dev/zero >out 2>err && fail "/dev/zero is a script"
 says err 'at most 16777216 bytes are read'
 
-# Nobody waits for a pipe, and a name that is too long is called so.
+# The program does not wait for a pipe, and the message about a too long name says so.
 mkfifo box/pipe
 printf 'use "pipe"\nuse "%s"\nstage s: turing_spots { }\n' "$(printf 'x%.0s' {1..5000})" >box/names.cascade
 run 2 check box/names.cascade
-says err "'pipe' is a pipe or a device and no file"
+says err "'pipe' is a pipe or a device, not a file"
 says err "File name too long"
 [ "$(wc -c <err)" -lt 1500 ] || fail "a long name is printed whole"
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Sweeps, logs, features and limits as a user meets them.
+# Sweeps, logs, features and limits on the command line.
 set -u
 rm -rf ./*
 unset NO_COLOR
@@ -15,7 +15,7 @@ END2
 printf 'system s { u: 1; r: 1; u'"'"' = r * u^3 }\nstage s: s { iterations: 300; speed: 0.01 }\n' >grows.cascade
 printf 'stage s: turing_spots { iterations: 100000000 }\n' >long.cascade
 
-# A sheet, a table, a result of each run; the same with one run at a time and interpreted.
+# A sheet, a table and a result of each run. They are the same with one run at a time and with the interpreter.
 run 0 sweep spots.cascade --vary large.ka=1/80..1/20:3 --vary seed=1,2
 says out 'wrote spots_sweep/sheet.png'
 says out 'wrote spots_sweep/features.csv'
@@ -32,7 +32,7 @@ cp spots_sweep/sheet.png sheet.png
 run 0 sweep sheet.png -q -o sheet_again
 cmp sheet.png sheet_again/sheet.png || fail "a sheet does not make itself again"
 
-# A run of a sweep is the run alone.
+# A run of a sweep has the bits of the same run alone.
 run 0 sweep spots.cascade --vary turing_spots.ka=1/40,1/30 --fields -q -o fields
 run 0 run spots.cascade --set turing_spots.ka=1/30 --save alone -q
 cmp 'fields/fields/turing_spots.ka=1_30/small.b.npy' alone/small.b.npy || fail "other bits in a sweep"
@@ -40,19 +40,96 @@ run 0 run spots.cascade --set turing_spots.ka=1/30 --features -q
 wavelength=$(awk '$1 == "wavelength" { print $2 }' out)
 grep -q "^1/30,${wavelength%?}" fields/features.csv || fail "other features in a sweep"
 
-# Results are kept: more values run alone, --force runs all.
+# Results are stored: with more values only the new ones run, and --force runs all.
 run 0 sweep spots.cascade --vary turing_spots.ka=1/40,1/30,1/35 -o fields
 says err '3 runs (2 done before), 600 steps'
 run 0 sweep spots.cascade --vary turing_spots.ka=1/40,1/30,1/35 -o fields --force
 says err '3 runs, 1,800 steps'
 
-# A blow-up: an empty tile, a row that says why, a status.
+# Parts that run at the same time, one of them twice and one killed: the same bytes as one process.
+vary="--vary turing_spots.ka=1/40..1/20:5 --vary seed=1,2"
+run 0 sweep spots.cascade $vary -q -o whole
+for part in 1 2 2 3; do
+    "$CASCADE" sweep spots.cascade $vary -q --part $part/3 -o parts &
+done
+"$CASCADE" sweep spots.cascade $vary -q --part 3/3 -o parts &
+kill -9 $!
+wait
+[ ! -e parts/sheet.png ] && [ ! -e parts/features.csv ] || fail "a part draws the sheet"
+run 0 sweep spots.cascade $vary -o parts
+says err '10 runs (10 done before)'
+cmp whole/features.csv parts/features.csv && cmp whole/sheet.png parts/sheet.png || fail "parts make another sheet"
+run 0 sweep spots.cascade $vary --part 2/4 -o second
+says err 'part 2 of 4: 3 runs, 1,800 steps'
+[ "$(ls second/runs/*.json | wc -l)" = 3 ] || fail "a part takes other runs"
+run 0 sweep spots.cascade $vary --part 1/4 --force -q -o first
+run 0 sweep spots.cascade $vary --gather first --gather second -o gathered
+says err '10 runs (6 done before)'
+cmp whole/features.csv gathered/features.csv && cmp whole/sheet.png gathered/sheet.png || fail "gathered results differ"
+run 3 sweep grows.cascade --vary r=0.01,0.05,2 --part 3/3 -o grown
+says err '1 of 1 run failed'
+for wrong in 0/3 4/3 3 a/b 1/0 1/3/2 -1/3; do
+    run 64 sweep spots.cascade $vary --part=$wrong -o wrong
+    says err "'$wrong' is not a part of a sweep"
+done
+run 3 sweep spots.cascade $vary --part 1/11 -o wrong
+says err '11 parts are more than the 10 runs of the sweep'
+run 3 sweep spots.cascade $vary --part 1/2 --film a.gif -o wrong
+says err 'a part of a sweep writes no film'
+run 3 sweep spots.cascade $vary --part 1/2 --curve mean -o wrong
+says err 'a part of a sweep draws no curve'
+run 3 sweep spots.cascade $vary --gather nowhere -o wrong
+says err "'nowhere' holds no results of a sweep"
+run 3 sweep spots.cascade $vary --gather first --fields -o wrong
+says err '--gather copies results, but no fields'
+[ ! -e wrong ] || fail "a wrong part has written"
+
+# The job script of the documentation, with a stand-in for Slurm that runs the jobs of an array.
+submit() {
+    local jobs=$1
+    shift
+    for ((job = 1; job <= jobs; ++job)); do
+        SLURM_ARRAY_TASK_ID=$job SLURM_ARRAY_TASK_COUNT=$jobs SLURM_CPUS_PER_TASK=1 CASCADE=$CASCADE \
+            bash "$SOURCE/examples/large/sweep.slurm" "$@" || fail "a job of Slurm failed"
+    done
+}
+submit 3 spots.cascade $vary -o jobs
+[ ! -e jobs/sheet.png ] || fail "jobs draw the sheet"
+submit 1 spots.cascade $vary -o jobs
+cmp whole/sheet.png jobs/sheet.png || fail "jobs make another sheet"
+
+# Ensembles: a run for each seed, a table with means, and a curve.
+run 0 sweep spots.cascade --vary turing_spots.ka=1/40,1/30 --seeds 1..3 --curve wavelength -o ensemble
+says out 'wrote ensemble/ensembles.csv'
+says out 'wrote ensemble/wavelength.svg'
+says err '6 runs, '
+python3 - ensemble <<'END3' || fail "the means are not those of the runs"
+import csv, statistics, sys
+runs = list(csv.DictReader(open(sys.argv[1] + "/features.csv")))
+for row in csv.DictReader(open(sys.argv[1] + "/ensembles.csv")):
+    values = [float(run[row["number"]]) for run in runs if run["turing_spots.ka"] == row["turing_spots.ka"]]
+    assert int(row["runs"]) == len(values) == 3
+    half = 4.30265 * statistics.stdev(values) / 3 ** 0.5
+    for name, value in ("mean", statistics.mean(values)), ("deviation", statistics.stdev(values)), ("high", statistics.mean(values) + half):
+        assert abs(float(row[name]) - value) <= 1e-6 * max(1, abs(value)), (row, name, value)
+END3
+[ "$(grep -c '<circle' ensemble/wavelength.svg)" = 2 ] || fail "a curve without two means"
+run 0 sweep ensemble/sheet.png -q -o ensemble_again
+cmp ensemble/ensembles.csv ensemble_again/ensembles.csv || fail "a sheet forgets its seeds"
+run 64 sweep spots.cascade --seeds 3..1 -o wrong
+says err 'the first seed is above the last'
+run 3 sweep spots.cascade --seeds 1..2 --vary seed=1,2 -o wrong
+says err "'seed' is varied twice"
+run 3 sweep spots.cascade --seeds 1..2 --curve wavelength -o wrong
+says err 'a curve needs a varied name other than the seed'
+
+# A blow-up: an empty picture in the sheet, a row with the reason, and status 3.
 run 3 sweep grows.cascade --vary r=0.01,0.05,2
 says err '1 of 3 runs failed: stage '
 says grows_sweep/features.csv 'u is not finite any more'
 [ -s grows_sweep/sheet.png ] || fail "a blow-up cost the sheet"
 
-# Wrong use, wrong scripts: nothing is written.
+# Wrong use and scripts with errors: nothing is written.
 run 64 sweep spots.cascade -o wrong
 says err '--vary'
 run 64 sweep spots.cascade --vary ka=0..1 -o wrong
@@ -61,10 +138,10 @@ run 64 sweep --vary ka=1,2
 run 2 sweep spots.cascade --vary kaa=1,2 -o wrong
 says err "no stage has a parameter 'kaa'"
 run 3 sweep spots.cascade --vary ka=1,1 -o wrong
-says err "stands twice"
+says err "occurs twice"
 [ ! -e wrong ] || fail "a wrong sweep has written"
 
-# Ctrl-C and the limit of time keep what is done.
+# Ctrl-C and the limit of time keep the results so far.
 timeout --preserve-status -s INT 2 "$CASCADE" sweep long.cascade --vary ka=1/80,1/40 >out 2>err
 [ $? = 130 ] || fail "Ctrl-C is not 130"
 says err 'interrupted; 0 of 2 runs are done'
@@ -75,12 +152,12 @@ run 124 run long.cascade --limit-time 0.5s --log t -o limited.png
 says err "the limit of 0.5 s is reached at stage 's', step"
 [ -s limited.png ] && [ -s limited.csv ] || fail "the limit of time lost the picture"
 run 0 run spots.cascade --limit-time 1h
-# A sanitizer's own memory knows no limits.
+# Sanitizers need too much memory for limits.
 if [ -z "${SANITIZE:-}" ]; then
     run 3 run spots.cascade --grid 4000x4000 --limit-memory 100MB
     says err 'are the limit (--limit-memory)'
     run 0 run spots.cascade --limit-memory 5MB
-    # What is not counted beforehand is refused by the system: a file of 800 MB.
+    # Memory that is not estimated beforehand is limited by the system: a file of 800 MB.
     header="{'descr': '<f8', 'fortran_order': False, 'shape': (10000, 10000), }"
     printf '\x93NUMPY\x01\x00\x76\x00%-117s\n' "$header" >large.npy
     truncate -s 800000128 large.npy

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# The engine of pages, in node, computes the same bits as the program: as it is, where the page is exact, and
-# else with denormal numbers kept. The systems of the library, all examples and random scripts.
+# The engine of exported pages, in node, computes the same bits as the program, for the systems of the library, all
+# examples and random scripts. Exact pages are compared with the program itself, others with the program without
+# flushing of denormal numbers.
 set -u
 
 fail() { echo "tab: $*"; exit 1; }

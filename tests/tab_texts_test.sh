@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The engine of pages, in node, does not grow with every text.
+# The memory of the engine of exported pages, in node, does not grow with every text.
 set -u
 
 fail() { echo "tab: $*"; exit 1; }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What runs find out about tilings, as a user meets it: a long run tries some and the next one knows, and no state
-# of the folder changes a picture or fails a run. No time is asserted.
+# Stored tilings on the command line: a long run tries some tilings, the next run begins with the fastest, and no state
+# of the folder changes a picture or makes a run fail. No time is asserted.
 set -u
 [ "$CASCADE_JIT" = 1 ] || exit 77
 rm -rf ./*
@@ -9,15 +9,15 @@ about="tilings"
 source "$SOURCE/tests/support/program_runs.bash"
 export CASCADE_KERNEL_CACHE=$PWD/cache
 
-# Planes that are more than a second-level cache holds. The number of threads is given: it is tuned, too, and what is
-# found belongs to it.
+# Planes larger than a second-level cache. The number of threads is given, because it is also tuned, and results are
+# stored for each number.
 write_long() { printf 'domain { grid: 768, 768 }\nstage s: gray_scott { iterations: %d }\n' "$1" >long.cascade; }
 printf 'domain { grid: 768, 768 }\nstage s: gray_scott { iterations: 8 }\n' >short.cascade
 long_run() { run 0 run long.cascade -q --timing --threads 1 -o "$@"; }
 short_run() { run 0 run short.cascade -q --timing --threads 1 -o "$@"; }
 has_tried() { grep -q ': the fastest of [0-9] ways' err; }
-# What was found is known to later runs once it was found twice in a row, which depends on the clock: this writes a
-# file as if it had been (the last digit of its content; bytes 8 to 15 are FNV-1a of what follows them).
+# Later runs use a result if it was found twice in a row, which depends on the clock. This marks a stored result as
+# found twice (in the last digit of the file; bytes 8 to 15 are FNV-1a of the bytes after them).
 make_sure() {
     local byte hash=$((0xcbf29ce484222325)) shift
     truncate -s -1 "$1"
@@ -28,12 +28,12 @@ make_sure() {
 }
 tilings() { find "$1" -name '*.tiling' 2>/dev/null | wc -l; }
 
-# A short run tries nothing and keeps nothing.
+# A short run tries nothing and stores nothing.
 short_run short.png
 [ "$(tilings cache)" = 0 ] || fail "a short run keeps a tiling"
 grep -q 'the fastest' err && fail "a short run says what is the fastest"
 
-# Long ones do; how long that is depends on the machine.
+# Long runs do. How long they must be depends on the machine.
 for steps in 10000 40000 160000; do
     write_long $steps
     rm -rf cache
@@ -47,7 +47,7 @@ cmp first.png again.png || fail "another picture of a later run"
 file=$(find cache -name '*.tiling')
 [ "$(stat -c %a "$file")" = 600 ] || fail "the file is not the user's alone"
 
-# A next run knows from its first step what is sure.
+# The next run uses the stored result from its first step on.
 knows() {
     short_run second.png
     cmp short.png second.png || fail "another picture of what was learnt"
@@ -56,15 +56,15 @@ knows() {
 make_sure "$file"
 knows
 
-# Other threads and other grids are other steps.
+# With other numbers of threads or other grids, the result is not used.
 run 0 run short.cascade -q --timing --threads 2 --grid 769x768 -o other.png
 grep -q 'the fastest' err && fail "what is known of one grid is taken for another"
 
-# Nothing is kept or known without the folder.
+# Without the folder nothing is stored or used.
 long_run without.png --no-kernel-cache
 cmp first.png without.png || fail "another picture without a folder"
 
-# Damaged files, those of others, and what is no candidate.
+# Damaged files, files of other users, and tilings that are no candidates.
 cp "$file" kept
 for damage in 'truncate -s 40' 'truncate -s 0' 'chmod 666' 'sed -i s/CascTil1/CascTil9/' 'cp long.cascade'; do
     rm -f "$file"
@@ -79,12 +79,12 @@ cp kept "$file"
 chmod 600 "$file"
 knows
 
-# A folder that cannot be one.
+# A folder that cannot be created.
 : >file
 CASCADE_KERNEL_CACHE=$PWD/file/folder short_run file.png
 cmp short.png file.png || fail "another picture with a file for a folder"
 
-# Many at once in an empty folder.
+# Many runs at once with an empty folder.
 export CASCADE_KERNEL_CACHE=$PWD/shared
 for n in 1 2; do "$CASCADE" run long.cascade -q --threads 1 -o "at_once_$n.png" & done
 wait

@@ -1,5 +1,5 @@
 #!/bin/bash
-# `cascade run --timing`: every part is there, and the parts add up.
+# `cascade run --timing`: every part is printed, and the parts add up.
 set -u
 rm -rf ./*
 about=timing
@@ -8,7 +8,7 @@ about=timing
 printf 'domain { grid: 48, 32 }\nstage large: turing_spots { iterations: 400 }\nstage small: turing_spots { iterations: 200; a: a; b: b; beta: beta }\n' >spots.cascade
 printf 'system s { u: 1; r: 1; u'"'"' = r * u^3 }\nstage s: s { iterations: 300; speed: 0.01 }\n' >grows.cascade
 
-# adds_up: the lines that are not indented sum to the last one, within their rounding.
+# adds_up: the lines that are not indented add up to the last line, except for rounding.
 adds_up() {
     awk '/ m?s +[0-9.]+ %/ && !/^ / {
              for (k = 2; k < NF; ++k) if ($(k + 2) == "%" && ($k == "ms" || $k == "s")) {
@@ -36,11 +36,11 @@ says err 'cell-steps/s'
 grep -q '^  large ' err || fail "no line of a stage"
 grep -q '▆' err && fail "bars in a pipe"
 
-# What was asked for is said even by those who are quiet; a run that fails and one without it.
+# The table is printed even with -q, and after a failed run; without --timing it is not.
 run 0 run spots.cascade --timing -q --until-stage large
 parts_are_there
 adds_up
-# What was compiled after the last step of the run before was kept all the same.
+# Code that was compiled after the last step of the previous run was also stored.
 [ "$CASCADE_JIT" != 1 ] || says err 'found on disk'
 grep -q '^  large ' err && fail "a stage alone has lines of its own"
 run 3 run grows.cascade --timing

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Cells that crawl, from a script to pictures and files: the same bits by every way, what theory
-# says of a covered sphere, and a message for each thing that cannot be.
+# Cells that crawl, from a script to pictures and files: the same bits in all configurations, theory for a covered
+# sphere, and messages for impossible combinations.
 set -u
 rm -rf ./*
 
@@ -34,7 +34,7 @@ grep -q EXT_mesh_gpu_instancing err && fail "merged copies are said to be instan
 "$CASCADE" run -q cover.cascade --frames frames -o last.png --steps 30 || fail "--frames"
 ls frames/*.png >/dev/null 2>&1 || fail "there are no frames"
 
-# A run that is stopped and resumed has the same bits; a saved run that was changed is refused.
+# A run that is stopped and resumed has the same bits. A saved run that was changed is refused.
 "$CASCADE" run -q cover.cascade --stop-at cover:150 --save kept -o part.npz || fail "--save"
 cmp -s part.npz one.npz && fail "the run was not stopped"
 "$CASCADE" run -q --resume kept -o resumed.npz || fail "--resume"
@@ -49,7 +49,7 @@ cp kept/cover.r.npy kept/cover.p.x.npy
 "$CASCADE" run -q --resume kept -o resumed.npz 2>err && fail "a changed run is resumed"
 grep -q "damaged" err || fail "a changed run: $(cat err)"
 
-# A stage goes on with the cells of the one before it, and a plane may hold cells, too.
+# A stage continues with the cells of the previous one, and cells may also crawl on a plane.
 cat >plane.cascade <<'END'
 cells dots: solid { p' += vector(0.002, 0, 0) }
 cells marked: dots { kind: 0; kind' = more(0.5, x) - kind }
@@ -60,7 +60,7 @@ picture { color: rgb(kind, 0.3, 0.6); skin: rgb(0.9, 0.9, 0.85) }
 END
 "$CASCADE" run -q plane.cascade -o plane.npz -o plane.png || fail "cells on a plane"
 
-# A coat that grew before decides what the cells become.
+# A pattern that grew before determines the values of cells.
 cat >coat.cascade <<'END'
 system bands { u: y > 0.5; u' = 0 }
 cells marked: scales { dark: 0; dark' = coat.u - dark }
@@ -70,7 +70,7 @@ stage skin: marked { founders: 60; r: 0.06; duration: 8 }
 END
 "$CASCADE" run -q coat.cascade -o coat.npz || fail "cells on a coat"
 
-# Aggregates over the domain are over the cells, each of which counts alike.
+# Aggregates over the domain are over the cells, which all have the same weight.
 cat >count.cascade <<'END'
 cells c { m: 0; m' = sum(1 over domain) - m }
 domain { surface: sphere; cells: 400 }
@@ -91,7 +91,7 @@ refused() { # refused WORDS SCRIPT [OPTION …]
 sphere='domain { surface: sphere; cells: 200 }'
 refused "has no cells to start with" "$sphere
 stage a: scales { duration: 1 }"
-refused "wants to divide again" "cells c: on_surface { divide: 1 }
+refused "would divide again" "cells c: on_surface { divide: 1 }
 $sphere
 stage a: c { founders: 2; duration: 1 }"
 refused "not finite" "cells c: on_surface { u: 1; u' = u / (u - 1) }
@@ -123,11 +123,12 @@ assert abs(np.linalg.norm(points, axis=1) - 1).max() < 0.03
 part = n * np.pi * (2 * 0.06) ** 2 / (4 * np.pi)
 densest = np.pi / np.sqrt(12)
 assert 0.92 < part / densest < 1.12, part / densest
-# Frames stand on the surface.
+# The frames of cells are upright on the surface.
 w, x, y, z = cells["frames"].T
 ey = np.stack([2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)], 1)
 assert ((ey * points).sum(1) > 0.99).all()
-# What goes along with a cell stays in a family; what starts again does not.
+# Descendants of a cell have the same value of an inherited parameter, but not of one that starts again after a
+# division.
 assert len(np.unique(cells["tone"])) <= 4 and len(np.unique(cells["mood"])) > n // 2
 
 plane = np.load("plane.npz")

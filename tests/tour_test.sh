@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# The dumps in docs/tour.md are what the program prints of the script on that page.
+# The dumps in docs/tour.md agree with the program's output for the script on that page.
 #
-# A block "```text dump=WHAT" is compared with `cascade check tour.cascade --dump WHAT`: its lines must occur there
-# in this order, each as the beginning of a line; others may stand between them. Widths of vectors, and whether a
-# vector is loaded or carried from one iteration to the next, depend on the processor; they and the numbers of
-# LLVM's values count as equal. In assembly a line is an instruction's name.
+# A block "```text dump=WHAT" is compared with `cascade check tour.cascade --dump WHAT`: its lines must occur there in
+# this order, each as the beginning of a line. Other lines may be in between. Widths of vectors, and whether a vector is
+# loaded or carried from one iteration to the next, depend on the processor; they and the numbers of LLVM's values count
+# as equal. In assembly a line is an instruction's name.
 set -u
 page=$SOURCE/docs/tour.md
 fail() { echo "$*"; exit 1; }

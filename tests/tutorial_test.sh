@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The commands of docs/tutorial.md do what it says, with the script that stands there. tests/page/tutorial.mjs follows
-# its steps on the page.
+# The commands of docs/tutorial.md work with the script in it. tests/page/tutorial.mjs follows the steps of the tutorial
+# on the page.
 set -u
 fail() { echo "$*"; exit 1; }
 
@@ -10,7 +10,7 @@ rm -rf new.png larger.png animal.png new_sweep
 count=0
 while read -r program words; do
     [ "$program" = ./cascade ] || fail "what is '$program'?"
-    # Everything after '#' explains.
+    # Text after '#' is a comment.
     read -ra words <<<"${words%%#*}"
     count=$((count + 1))
     quiet=(--quiet)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# GLB files in a browser: the validator of the format finds nothing wrong, and three.js draws what is
-# in them. Exit code 77 says that it could not be tried.
+# GLB files in a browser: the validator of the format finds no fault, and three.js draws the expected pictures. Exit
+# code 77 means that the test could not be run.
 set -u
 
 fail() { echo "viewer: $*"; exit 1; }
@@ -16,7 +16,7 @@ for name in chromium-headless-shell chromium chromium-browser google-chrome; do
 done
 [ -n "$browser" ] || skip "there is no Chromium"
 
-# What was installed once stays while it is what the lock file asks for.
+# Installed packages are kept while the lock file is the same.
 if ! cmp -s "$SOURCE/tests/viewer/package-lock.json" node_modules/installed; then
     rm -rf node_modules
     cp "$SOURCE/tests/viewer/package.json" "$SOURCE/tests/viewer/package-lock.json" .

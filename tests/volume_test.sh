@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Grids with slices, from the command line to files that others read.
+# Grids with several slices, from the command line to files that other programs read.
 set -u
 rm -rf ./*
 
@@ -24,7 +24,7 @@ for wrong in z y=2 w=0.5 z=x; do
     "$CASCADE" run -q ball.cascade --slice "$wrong" 2>err && fail "--slice $wrong is taken"
     grep -q "is not a slice" err || fail "--slice $wrong: $(cat err)"
 done
-# A reader of our own, from the description of the format.
+# Reads the file with a reader that was written from the description of the format.
 command -v python3 >/dev/null || exit 0
 python3 - <<'END' || fail "the volume file is not what it says"
 import re, struct, xml.etree.ElementTree as tree
@@ -54,7 +54,7 @@ start = sum(1 for k in range(8) for j in range(10) for i in range(12)
 assert abs(total - start) < 1e-3 * start, (total, start)
 END
 
-# By OpenVDB, if this build has it (what is written: tests/openvdb).
+# Writes a .vdb file, if this build has OpenVDB. Its contents are tested in tests/openvdb.
 if [ -e "$BUILD/libcascade_openvdb.so" ]; then
     "$CASCADE" run -q ball.cascade --volume ball.vdb || fail "no .vdb file"
     "$CASCADE" run -q ball.cascade --backend interp --threads 1 --volume other.VDB || fail "interp"
@@ -69,7 +69,7 @@ else
 fi
 [ ! -e none.vdb ] || fail "a refused .vdb file is left"
 
-# A body, as a picture and as models, on which a pattern grows.
+# A body in pictures and in model files, on which a pattern then grows.
 cat >body.cascade <<'END'
 domain { grid: 20, 20, 20; boundary: noflux }
 system ball { u: 0.3 - sqrt((x - 0.5)^2 + (y - 0.5)^2 + (z - 0.5)^2); u' = 0 }
@@ -101,7 +101,7 @@ grep -q "the body of the picture is empty" out || fail "an empty body is not not
 "$CASCADE" run -q empty.cascade -o none.ply 2>err && fail "an empty body is written"
 [ ! -e none.ply ] || fail "an empty model is left"
 
-# Options that mean nothing for a plane.
+# Options that do not apply to a plane are refused.
 echo 'system_name: turing_spots' > plane.cascade
 for option in '--slice z=0.2' --flat '--view 10,20' '--quality fine' '--light studio' '--fov 40' '--ground no' '--background none'; do
     # shellcheck disable=SC2086
@@ -109,7 +109,7 @@ for option in '--slice z=0.2' --flat '--view 10,20' '--quality fine' '--light st
     grep -qE "a plane has no slices|the domain is not a surface" err || fail "$option: $(cat err)"
     [ ! -e plane.png ] || fail "$option left a picture"
 done
-# A plane fits into its size.
+# The picture of a plane fits into the size of `--size`.
 "$CASCADE" run -q plane.cascade --grid 12x8 --size 90 2>err || fail "a smooth picture: $(cat err)"
 [ "$(od -An -j16 -N8 -tu1 plane.png | tr -s ' ')" = " 0 0 0 90 0 0 0 60" ] || fail "a smooth picture has another size"
 exit 0

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Kernels as WebAssembly modules compute the same bits as the interpreter: with denormal numbers as
-# they are, and, where they are made for that, with denormal numbers flushed. Both compilers of node
-# are tried: the one that code begins with, and the one that optimises.
+# Kernels as WebAssembly modules compute the same bits as the interpreter. Modules that keep denormal numbers and
+# modules that flush them to 0 are tested, with both compilers of node: the fast one that code starts with, and the one
+# that optimises.
 set -u
 
 fail() { echo "wasm: $*"; exit 1; }

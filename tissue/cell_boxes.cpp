@@ -1,4 +1,5 @@
-// Boxes in rows of adjacent memory: three boxes along x are one range of cells.
+// Boxes that are adjacent along x are adjacent in memory. So the cells of three boxes along x are
+// one range.
 #include "tissue/cell_boxes.h"
 
 #include <cmath>
@@ -8,7 +9,8 @@
 namespace cascade {
 namespace {
 
-/// Below this count, comparing all pairs beats sorting because it is branch-free.
+/// Below this number of cells, all pairs are compared. This takes less time than sorting because it
+/// has no branches.
 constexpr std::size_t most_compared = 48;
 
 }  // namespace
@@ -41,12 +43,12 @@ CellBoxes::CellBoxes(const std::vector<BoxedCell>& cells, const NeighbourRule& r
         low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
         high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
-    // Slightly more than the widest distance covers the rounding of box numbers.
+    // Slightly larger than the widest distance, because box numbers are rounded.
     lay_out({low.x, low.y, low.z}, {high.x, high.y, high.z}, 2 * widest * (1 + 1e-9), cells.size());
     fill(cells);
 }
 
-/// Without a branch for each candidate, which no processor could predict.
+/// Compares candidates without branches, since no processor could predict them.
 template <bool is_periodic>
 void CellBoxes::look(const BoxedCell& own, std::int64_t first, std::int64_t last,
                      NeighbourKeys& found) const {
@@ -113,7 +115,7 @@ void CellBoxes::lay_out(std::array<double, 3> low, std::array<double, 3> high, d
     }
 }
 
-/// A counting sort by box.
+/// Counting sort by box.
 void CellBoxes::fill(const std::vector<BoxedCell>& cells) {
     std::vector<std::uint32_t> slots;
     slots.reserve(cells.size());

@@ -15,26 +15,28 @@ namespace cascade {
 /// The data of a cell for a search.
 struct BoxedCell {
     Vector3d place;
-    double reach = 0, slack = 0;  ///< Its part of the distance at which cells are neighbours.
+    /// The cell's contributions to the distance at which two cells count as neighbours. The
+    /// contributions of both cells are added.
+    double reach = 0, slack = 0;
     std::uint32_t cell = 0, rank = 0;
 };
 
-/// A cell with the given skin.
+/// The data for a search of a cell whose list has the skin `skin`.
 inline BoxedCell boxed(const CellPlaces& cells, std::uint32_t cell, const NeighbourRule& rule,
                        double skin) {
     const double radius = cells.radii[cell];
     return {cells.places[cell], rule.reach * radius, slack_of(rule, skin, radius), cell,
             cells.ranks[cell]};
 }
-/// Half the distance at which two such cells are neighbours.
+/// Half the distance at which two cells like this one are neighbours.
 inline double width_of(const BoxedCell& cell, const NeighbourRule& rule) {
     return std::max(cell.reach, rule.near / 2) + cell.slack;
 }
-/// The difference to the nearest image of a cell, along an axis.
+/// The difference along an axis between a cell and the nearest periodic image of another cell.
 inline double nearest_image(double difference, double period) {
     return period > 0 ? difference - period * std::nearbyint(difference / period) : difference;
 }
-/// Whether two cells are neighbours. Gives the same for both, to the last bit.
+/// Whether two cells are neighbours. The result has the same bits for both orders of the cells.
 template <bool is_periodic>
 bool are_near(const BoxedCell& own, const BoxedCell& other, const NeighbourRule& rule) {
     Vector3d apart = other.place - own.place;
@@ -51,7 +53,8 @@ inline bool repeats(const NeighbourRule& rule) { return rule.period != std::arra
 /// The neighbours found for a cell.
 class NeighbourKeys {
 public:
-    /// Room for the next cells and their ranks, with some to spare.
+    /// Memory for the cells to be found next and for their ranks, with a little more room than
+    /// needed.
     struct Room {
         std::uint32_t* cells;
         std::int32_t* ranks;
@@ -99,8 +102,9 @@ private:
     std::size_t count_ = 0;
 };
 
-/// A box's number along an axis, which repeats after `count` boxes. Where the tissue itself does
-/// not repeat, boxes that share a number are far apart, and distances tell their cells apart.
+/// The numbers of boxes along an axis, which repeat after `count` boxes. If the tissue is not
+/// periodic, boxes with the same number are far apart, so cells that do not belong together are
+/// excluded by their distance.
 struct BoxAxis {
     double low = 0, inverse_side = 0;
     std::int64_t count = 1;
@@ -111,7 +115,8 @@ struct BoxAxis {
         const auto number = static_cast<std::int64_t>(box) % count;
         return number < 0 ? number + count : number;
     }
-    /// Calls `visit` with the different numbers among box − 1, box and box + 1.
+    /// Calls `visit` with the numbers of the boxes before, at and after `box`. If some of these
+    /// numbers are equal, calls it only once for each.
     void visit_near(std::int64_t box, const auto& visit) const {
         if (count < 3) {
             for (std::int64_t k = 0; k < count; ++k) visit(k);
@@ -123,10 +128,10 @@ struct BoxAxis {
     }
 };
 
-/// Cells of similar radii in boxes as wide as the distance of neighbours.
+/// Cells of similar radii, in boxes as wide as the distance of neighbours.
 class CellBoxes {
 public:
-    /// There must be a cell.
+    /// `cells` must not be empty.
     CellBoxes(const std::vector<BoxedCell>& cells, const NeighbourRule& rule);
 
     /// Adds the keys of all of a cell's neighbours in these boxes.
@@ -147,7 +152,8 @@ private:
 
     NeighbourRule rule_;
     std::array<BoxAxis, 3> axes_;
-    std::vector<std::uint32_t> starts_;  ///< The start of each box in `cells_`, and the end.
+    /// Where each box starts in `cells_`, and the end of the last box.
+    std::vector<std::uint32_t> starts_;
     std::vector<BoxedCell> cells_;
 };
 

@@ -7,19 +7,21 @@
 namespace cascade {
 namespace {
 
-/// Cells are reordered when the part of far links has grown by more than this.
+/// Cells are reordered when the fraction of far links has grown by more than this.
 constexpr double far_part_to_order = 0.1;
-/// The number of steps like the last one for which lists last.
+/// Lists should stay valid for this number of steps in which cells move as in the last step.
 constexpr double steps_of_lists = 6;
 constexpr double most_skin = 1;
-/// The expected movement in a step, relative to the last step, and its largest part of the skin.
+/// The movement expected in a step, as a multiple of the movement in the last step, and the largest
+/// part of the skin that the expected movement may take.
 constexpr double expected_steps = 1.5, part_of_skin = 0.8;
-/// The rest is a margin for rounding.
+/// The part of the available width that a skin may take. The rest is a margin for rounding.
 constexpr double part_of_room = 1 - 1e-6;
-/// Fewer cells are all near in memory.
+/// The smallest number of cells that is worth reordering. Fewer cells are always near each other in
+/// memory.
 constexpr std::size_t least_cells_to_order = 4096;
 
-/// Calls `use(cell, place, radius)` for all cells in some state.
+/// Calls `use(cell, place, radius)` for all cells, with their positions in this state.
 void each_place(const Tissue& tissue, const TissueSpecies& species, const std::vector<Field>& state,
                 const auto& use) {
     with_number(tissue.precision(), [&](auto zero) {
@@ -92,13 +94,15 @@ void CellLists::end_step(Tissue& tissue) {
                });
 }
 
-/// A skin that lasts for a few steps like the last one.
+/// A skin for a cell whose list should stay valid for a few steps. It is derived from the cell's
+/// movement in the last step.
 double CellLists::skin_of(const Tissue& tissue, std::size_t cell, double least) const {
     const double wanted = steps_of_lists * double{tissue.restlessness[cell]};
     return std::max(least, std::min(most_skin, wanted));
 }
 
-/// In the list and in the table, whose padding takes a few entries.
+/// The largest number of links that fit into the memory for the list and the table. Padding takes a
+/// few entries of the table.
 double CellLists::most_links() const {
     return most_bytes_ / (sizeof(std::uint32_t) + 2 * sizeof(std::int16_t));
 }
@@ -126,7 +130,7 @@ Result<void> CellLists::renew(const Tissue& tissue, std::span<const std::uint32_
     std::vector<BoxedCell> marks;
     bool is_small_enough = true;
     for (const std::uint32_t cell : cells) {
-        // As wide as the boxes of the last search allow.
+        // The skin must not be wider than the boxes of the last search allow.
         const double radius = radii_[cell], extent = slack_of(rule_, 1, radius);
         const double room = kept_.widest() - std::max(rule_.reach * radius, rule_.near / 2);
         const double most = extent > 0 ? part_of_room * room / extent : most_skin;
@@ -151,7 +155,8 @@ Result<void> CellLists::renew_restless(const Tissue& tissue) {
     std::vector<std::uint32_t> restless;
     each_place(tissue, species_, tissue.species,
                [&](std::size_t cell, Vector3d place, double radius) {
-                   // A new list at this position would last no longer than its skin.
+                   // The movement for which the present list must still be valid. It is limited to
+                   // a part of the skin, because a new list at this position would not allow more.
                    const double way = std::min(expected_steps * double{tissue.restlessness[cell]},
                                                part_of_skin * double{skins_[cell]});
                    if (watch_->reaches(cell, place, radius, slack_of(rule_, way, radius))) return;
@@ -161,7 +166,7 @@ Result<void> CellLists::renew_restless(const Tissue& tissue) {
     return renew(tissue, restless);
 }
 
-/// Makes the table of links for kernels. `changed`: see Links::assign().
+/// Makes the table of links for kernels. Links::assign() describes `changed`.
 void CellLists::take(const Tissue& tissue, const std::vector<bool>& changed) {
     const NeighbourLists& lists = kept_.lists();
     const double far_part = static_cast<double>(lists.far_links) /

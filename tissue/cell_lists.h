@@ -17,32 +17,35 @@ namespace cascade {
 
 class CellLists {
 public:
-    /// Builds lists with `skin`, wider for fast cells, and refuses lists of more than `most_bytes`.
+    /// Builds lists with `skin`, or with a wider skin for fast cells. Lists that take more than
+    /// `most_bytes` are refused.
     CellLists(const NeighbourRule& rule, double skin, double most_bytes,
               const TissueSpecies& species, Team& team);
 
-    /// Builds the lists for this state, whose positions must be finite. `is_full`: lists that last
-    /// for every step that is not too long. Throws std::bad_alloc.
+    /// Builds the lists for this state, whose positions must be finite. If `is_full` is true, the
+    /// lists stay valid in every step in which no cell moves too far for one step. Throws
+    /// std::bad_alloc.
     Result<void> build(const Tissue& tissue, const std::vector<Field>& state, bool is_full);
-    /// Finds the lists of these cells, which are new or have moved in memory. Since the last
-    /// search, no other cell may have moved in memory or changed from outside. Cells may have been
-    /// removed if no remaining cell has their index. Throws std::bad_alloc.
+    /// Builds the lists of the given cells, which are new or have moved in memory. No other cell
+    /// may have moved in memory or been changed from outside since the last search. Cells may have
+    /// been removed if no remaining cell has their index. Throws std::bad_alloc.
     Result<void> renew(const Tissue& tissue, std::span<const std::uint32_t> cells);
-    /// Renews the lists of cells that will outrun them in the next step if they go on as in the
-    /// last one.
+    /// Builds the lists of those cells again whose slack would not be enough for the next step, if
+    /// they move as in the last step.
     Result<void> renew_restless(const Tissue& tissue);
-    /// Whether the lists are valid within `around` of all cells in this state.
+    /// Whether the lists are valid in this state, and also for cells whose positions differ from it
+    /// by up to `around`.
     bool reach(const Tissue& tissue, const std::vector<Field>& state, double around) const;
-    /// Whether they are valid for these cells now.
+    /// Whether the lists of these cells are valid at their present positions.
     bool reach(const Tissue& tissue, std::span<const std::uint32_t> cells) const;
-    /// Whether enough links lead far away in memory for another order to save time. True before the
-    /// first lists of a large tissue.
+    /// Whether so many links lead far away in memory that reordering cells would save time. True
+    /// before the first lists of a large tissue.
     bool wants_order(const Tissue& tissue) const;
-    /// Reorders the cells, after which lists must be built. Throws std::bad_alloc.
+    /// Reorders the cells. Lists must be built afterwards. Throws std::bad_alloc.
     void put_in_order(Tissue& tissue);
-    /// Begins a step at the present positions.
+    /// Begins a step with the cells at their present positions.
     void begin_step(const Tissue& tissue);
-    /// Ends a step at the present positions and records how restless the cells are.
+    /// Ends a step with the cells at their present positions, and records each cell's restlessness.
     void end_step(Tissue& tissue);
 
     const Links& links() const { return links_; }
@@ -66,9 +69,9 @@ private:
     std::vector<float> skins_;
     KeptLists kept_;
     Links links_;
-    PlaneLayout layout_;  ///< The links' layout.
+    PlaneLayout layout_;  ///< The layout of the links.
     std::shared_ptr<MovementWatch> watch_ = std::make_shared<MovementWatch>();
-    double far_part_ = 0;  ///< The part of far links when cells were last reordered.
+    double far_part_ = 0;  ///< The fraction of far links when cells were last reordered.
     bool is_disordered_ = true, is_just_ordered_ = false;
     std::int64_t builds_ = 0;
 };

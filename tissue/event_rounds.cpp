@@ -7,7 +7,8 @@
 namespace cascade {
 namespace {
 
-/// A cell that divides more often at one moment would never stop.
+/// The largest number of divisions of a cell at one moment. A cell that exceeds it would never stop
+/// dividing.
 constexpr int most_divisions_at_once = 10;
 
 }  // namespace
@@ -39,7 +40,8 @@ std::optional<TissueFailure> EventRounds::happen(std::vector<CellEvent> events, 
     return std::nullopt;
 }
 
-/// The failure if there would be too many divisions or cells.
+/// Returns a failure if a cell divides too often at one moment, or if the events would make too
+/// many cells.
 std::optional<TissueFailure> EventRounds::refuse(std::span<const CellEvent> events) {
     std::size_t cells = tissue_.count();
     for (const CellEvent& event : events) {
@@ -80,7 +82,7 @@ std::optional<TissueFailure> EventRounds::one_round(std::span<const CellEvent> e
     elsewhere.insert(elsewhere.end(), divided.moved.begin(), divided.moved.end());
     auto built = stepper_.cells_changed(divided.has_moved, elsewhere);
     if (built) built = stepper_.reach(tissue_.species);
-    // From here on only these cells change.
+    // From here on only mothers and their new cells change.
     if (built && !dividing.empty()) {
         restart(dividing, divided);
         built = carry(dividing, divided);
@@ -148,9 +150,10 @@ void EventRounds::restart(std::span<const CellEvent> dividing, const Divided& di
     tissue_.pad();
 }
 
-/// Carries both cells of a division from its moment to the end of the step by Heun's method. They
-/// begin with their mother's values at the end, so their rates are counted from hers, except for
-/// restarted values. All other cells have their positions at the end.
+/// Advances both cells of a division from its moment to the end of the step, by Heun's method. They
+/// begin with the values that the undivided mother would have at the end of the step. So only the
+/// difference between their rates and hers is added, except for restarted values. All other cells
+/// are already at their positions at the end of the step.
 Result<void> EventRounds::carry(std::span<const CellEvent> dividing, const Divided& divided) {
     std::vector<std::uint32_t> cells;
     struct Value {

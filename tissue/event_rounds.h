@@ -25,9 +25,10 @@ public:
           schedule_(schedule),
           stepper_(stepper) {}
 
-    /// Applies the events of a step and carries their cells to its end, which is now. Then applies
-    /// all events whose conditions hold now, repeatedly until there are none. `are_all`: none holds
-    /// now for any other cell. Returns the failure that ends the stage, if there is one.
+    /// Applies the events of a step and advances their cells to the end of the step, which is the
+    /// present. Then applies all events whose conditions hold at present, and repeats this until
+    /// there are none. If `are_all` is true, no condition holds at present for any cell without an
+    /// event. Returns the failure that ends the stage, if there is one.
     std::optional<TissueFailure> happen(std::vector<CellEvent> events, bool are_all);
     /// Whether any cell has divided or died.
     bool has_changed() const { return has_changed_; }
@@ -47,9 +48,10 @@ private:
     const TissueSpecies& species_;
     const TissueSchedule& schedule_;
     TissueStepper& stepper_;
-    std::map<std::uint32_t, int> divisions_;  ///< By number, in the history of each cell.
+    /// By cell number: how often the cell or its mothers have divided at this moment.
+    std::map<std::uint32_t, int> divisions_;
     bool has_changed_ = false;
-    /// The cells of the last round's divisions, by number.
+    /// The cells of the last round's divisions, in the order of their numbers.
     std::vector<std::uint32_t> changed_;
 };
 

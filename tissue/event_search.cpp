@@ -1,5 +1,5 @@
-// Searches for roots of margins on the cubic through a step. Evaluates conditions of a cell alone
-// for all its candidates at once, each at its own moment.
+// Searches for roots of margins on the cubic through a step. If conditions depend on their own cell
+// alone, they are evaluated for all candidates at once, each at its own moment.
 #include "tissue/event_search.h"
 
 #include <algorithm>
@@ -31,19 +31,21 @@ struct Weights {
     double of_old, of_new, of_old_rate, of_new_rate;
 };
 
-/// The exponent of 2 for the part of a step to which moments are found. In single precision,
-/// species change by less than their rounding in shorter parts.
+/// The error of moments is 2 to this power of a step. In single precision, species change by less
+/// than their rounding in shorter parts of a step.
 int power_of(Precision precision) { return precision == Precision::single ? -16 : -20; }
-/// Conditions without slopes take a few probes more than bisection, smooth ones a fifth of them.
+/// If margins are not smooth, the search takes at most this many probes more than bisection. If
+/// they are smooth, it takes a fifth of the probes of bisection.
 constexpr int more_than_bisection = 4;
 
-/// The values of the conditions of dying and of dividing, above 0 where they hold.
+/// The values of the conditions of dying and of dividing. A condition holds where its value is
+/// above 0.
 using Margins = std::array<double, 2>;
 constexpr Margins never{-1, -1};
 
 bool holds(const Margins& margins) { return margins[0] > 0 || margins[1] > 0; }
 
-/// The conditions of some cells at a part of the step.
+/// The values of the conditions of some cells at a moment of the step.
 struct Probe {
     double part = 0;
     std::vector<Margins> margins;
@@ -72,8 +74,9 @@ std::vector<Margins> margins_of(const TissueRules::Conditions& conditions,
     return result;
 }
 
-/// The root between 0 and `width` of the parabola with the value `first` <= 0 at 0, `last` > 0 at
-/// `width` and `other` at `elsewhere`, or of the straight line if there is no third point.
+/// The root between 0 and `width` of the parabola with the values `first` <= 0 at 0, `last` > 0 at
+/// `width` and `other` at `elsewhere`. If there is no third point, the root of the straight line
+/// through the first two.
 double root_of(double first, double last, double width, double other, double elsewhere) {
     const double slope = (last - first) / width;
     if (!(std::abs(elsewhere) > 0) || elsewhere == width) return -first / slope;
@@ -83,11 +86,12 @@ double root_of(double first, double last, double width, double other, double els
     return b > 0 ? -2 * first / (b + size) : (size - b) / (2 * bend);
 }
 
-/// A part of the step. At its beginning no condition of some cells holds, and at its end one does.
-/// Estimates narrow it alternately from both sides, so that it becomes short enough soon after they
-/// are good, and bisection where that is slower (as in the ITP method: I. Oliveira, R. Takahashi,
-/// "An Enhancement of the Bisection Method Average Performance Preserving Minmax Optimality", ACM
-/// Trans. Math. Software 47(1), 2020).
+/// A part of the step. For the cells that it concerns, no condition holds at its beginning, and a
+/// condition holds at its end. Estimates of the root narrow it alternately from both sides, so that
+/// it becomes short soon after the estimates are good. Where bisection would be faster, it is used
+/// instead, as in the ITP method (I. Oliveira, R. Takahashi, "An Enhancement of the Bisection
+/// Method Average Performance Preserving Minmax Optimality", ACM Trans. Math. Software 47(1),
+/// 2020).
 class Bracket {
 public:
     Bracket(std::vector<std::uint32_t> cells, std::vector<Margins> at_end, int power)
@@ -100,7 +104,8 @@ public:
     std::span<const std::uint32_t> cells() const { return cells_; }
     bool is_narrow() const { return !first.margins.empty() && width() <= wanted_; }
 
-    /// The next part to probe: the beginning at first.
+    /// The next moment to probe, as a fraction of the step. The first is the beginning of the
+    /// bracket.
     double next() {
         if (first.margins.empty()) return 0;
         --left_;
@@ -113,7 +118,7 @@ public:
         return std::max(last.part - longest, std::min(first.part + longest, part));
     }
 
-    /// Takes the result of a probe.
+    /// Narrows the bracket by the result of a probe.
     void narrow(Probe at) {
         if (first.margins.empty()) {
             first = other_ = std::move(at);
@@ -122,7 +127,7 @@ public:
         const bool holds = at.holds();
         Probe& end = holds ? last : first;
         other_ = std::exchange(end, std::move(at));
-        // Rounding makes margins rough, so that estimates no longer improve.
+        // If estimates no longer improve, margins are rough because of rounding.
         const bool has_settled = std::abs(estimate_ - estimate_before_) < 4 * beyond_;
         if (holds != is_near_begin_ && has_settled) beyond_ *= 4;
         estimate_before_ = estimate_;
@@ -133,7 +138,7 @@ public:
 private:
     double width() const { return last.part - first.part; }
 
-    /// Where the first of the margins that are positive at the end will be 0.
+    /// Estimates the first moment at which a margin that is positive at the end becomes 0.
     double estimate() const {
         double least = width();
         for (std::size_t n = 0; n < cells_.size(); ++n) {
@@ -143,7 +148,7 @@ private:
                 const double root = from > 0 ? 0
                                              : root_of(from, to, width(), other_.margins[n][k],
                                                        other_.part - first.part);
-                // The negation picks the half where a margin is not finite.
+                // Takes the middle if a margin is not finite. The negation makes this true for NaN.
                 least = std::min(least, !(root >= 0 && root <= width()) ? width() / 2 : root);
             }
         }
@@ -151,7 +156,7 @@ private:
     }
 
     std::vector<std::uint32_t> cells_;
-    Probe other_;  ///< A probe outside the bracket, or its first one.
+    Probe other_;  ///< A probe outside the bracket, or the first one.
     double wanted_;
     int left_;
     double beyond_, estimate_ = 0, estimate_before_ = -1;

@@ -15,39 +15,42 @@
 
 namespace cascade {
 
-/// The cubic through the values and the rates at both ends of a step (Hermite), which differs from
-/// the solution by a term in step⁴. At part 1 it is the new state, bit for bit, if all is finite.
+/// The cubic through the values and the rates at both ends of a step (Hermite). It differs from the
+/// solution by a term in step⁴. At the end of the step it equals the new state bit for bit, if all
+/// values and rates are finite.
 struct StepCubic {
     std::vector<Field>&old_state, &new_state;
     const std::vector<Field>&old_rates, &new_rates;
-    StepMoment moment;  ///< The old state's moment. `length` is the step's.
+    StepMoment moment;  ///< The old state's moment. Its `length` is the length of the step.
 
-    /// The moment after a part of the step.
+    /// The moment after this fraction of the step.
     StepMoment moment_after(double part) const;
-    /// The species of one cell after a part of the step.
+    /// The species of one cell after this fraction of the step.
     std::vector<double> values(std::int64_t element, double part) const;
-    /// Sets the species of one cell to these values.
+    /// Sets the species of one cell to values().
     void put(std::vector<Field>& state, std::int64_t element, double part) const;
-    /// Sets the species of all cells. `state` may be the new one itself.
+    /// Sets the species of all cells to values(). `state` may be the new state itself.
     void put_all(std::vector<Field>& state, double part) const;
 };
 
-/// The cells for which conditions hold at a state, in the order of their numbers. A cell that dies
-/// does not divide. `among`: the cells to check, or all if empty.
+/// The cells for which conditions hold in a state, in the order of their numbers. A cell that dies
+/// does not divide. Checks only the cells `among`, or all cells if it is empty.
 std::vector<CellEvent> events_at(const TissueRules::Conditions& conditions,
                                  std::vector<Field>& state, const Tissue& tissue,
                                  const StepMoment& moment, ValueRunner& runner,
                                  std::span<const std::uint32_t> among = {});
 
-/// Makes lists that are valid for a state at which values of links will be evaluated.
+/// Brings the lists of neighbours up to date for `state`. Called before values that read links are
+/// evaluated in this state.
 using Reach = std::function<Result<void>(const std::vector<Field>& state)>;
 
-/// The events within a step, in the order of parts, then of numbers: the cells for which a
-/// condition holds at its end, and the first moments at which it does, to 2^-20 of the step (2^-16
-/// in single precision). Conditions whose values go smoothly through 0 take about five evaluations,
-/// others up to 24. Conditions that read other cells or the time are only followed to the first
-/// moment, and only the events of that moment are returned. Conditions must not hold at the
-/// beginning. Fails if `reach` does.
+/// The events within a step, sorted by moment, then by the cells' numbers. There is an event for
+/// each cell for which a condition holds at the end of the step. Its moment is the first at which
+/// the condition holds, with an error of 2^-20 of the step (2^-16 in single precision). Conditions
+/// whose values pass smoothly through 0 take about five evaluations, others up to 24. If conditions
+/// read other cells or the time, only the events of the first moment are found and returned,
+/// because they may change later conditions. No condition may hold at the beginning. Fails if
+/// `reach` fails.
 Result<std::vector<CellEvent>> events_within(const TissueRules::Conditions& conditions,
                                              const StepCubic& cubic, const Tissue& tissue,
                                              ValueRunner& runner, const Reach& reach);

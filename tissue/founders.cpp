@@ -1,4 +1,5 @@
-// Positions from hashes: four words for each, one of them to accept or reject it.
+// Computes random positions by hashing. Each position takes four random words. One of them decides
+// whether the position is accepted.
 #include "tissue/founders.h"
 
 #include "core/hash.h"
@@ -12,11 +13,11 @@
 namespace cascade {
 namespace {
 
-constexpr std::size_t most_tries = 10'000;  ///< Per founder.
+constexpr std::size_t most_tries = 10'000;  ///< The most positions tried per founder.
 
 double fraction(std::uint32_t word) { return (word + 0.5) * 0x1p-32; }
 
-/// Random positions of the surroundings by their number.
+/// Random positions of the surroundings. Each depends on its index.
 class FounderPlaces {
 public:
     FounderPlaces(const Surroundings& surroundings, std::uint32_t seed, std::uint32_t stage)
@@ -28,7 +29,7 @@ public:
 
     struct Candidate {
         NearPlace place;
-        double threshold = 0;  ///< Accepted if its chance is above this.
+        double threshold = 0;  ///< The position is accepted if its chance is above this.
     };
     Candidate at(std::uint64_t number) const {
         const auto low = static_cast<std::uint32_t>(number);
@@ -55,7 +56,7 @@ private:
     const Surroundings& surroundings_;
     const SurfaceMesh* mesh_;
     std::uint32_t seed_, stage_;
-    std::vector<double> areas_;  ///< Running sums.
+    std::vector<double> areas_;  ///< Running sums of the triangles' areas.
 };
 
 }  // namespace
@@ -68,10 +69,10 @@ Result<std::vector<NearPlace>> random_founders(const Surroundings& surroundings,
     std::uint64_t tried = 0;
     while (founders.size() < count) {
         if (tried / most_tries >= count) {
-            return failure(fmt::format("of {} random places only {} {} accepted as founders of {}",
-                                       tried, founders.size(), founders.size() == 1 ? "is" : "are",
-                                       count),
-                           "the chance, from 0 to 1, must be larger somewhere");
+            return failure(
+                fmt::format("of {} random positions only {} {} accepted as founders of {}", tried,
+                            founders.size(), founders.size() == 1 ? "is" : "are", count),
+                "the chance, from 0 to 1, must be larger somewhere");
         }
         const std::size_t batch = std::max<std::size_t>(count - founders.size(), 1024);
         std::vector<NearPlace> candidates;
@@ -111,7 +112,7 @@ std::array<double, 4> rotation_to(Vector3d ey, Vector3d ez) {
     z = z - y * dot(y, z);
     z = unit(length(z) > 1e-6 ? z : across(y));
     const Vector3d x = cross(y, z);
-    // The largest component first (S. Shepperd, "Quaternion from rotation matrix", Journal of
+    // Divides by the largest component (S. Shepperd, "Quaternion from rotation matrix", Journal of
     // Guidance and Control 1, 1978).
     const std::array<double, 4> squares{x.x + y.y + z.z, x.x - y.y - z.z, y.y - x.x - z.z,
                                         z.z - x.x - y.y};

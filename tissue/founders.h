@@ -23,13 +23,14 @@ Result<std::vector<NearPlace>> random_founders(const Surroundings& surroundings,
                                                std::uint32_t seed, std::uint32_t stage,
                                                const FounderChance& chance = {});
 
-/// The positions of the surroundings nearest to these points, which must be finite.
+/// The position of the surroundings nearest to each of these points, which must be finite.
 std::vector<NearPlace> founders_at(const Surroundings& surroundings,
                                    std::span<const Vector3d> points);
 
 /// The rotation from the axes of space to a right-handed frame with y along `ey` and z as near to
-/// `ez` as possible, as a quaternion of length 1: w, x, y, z. Vectors may have any length. Where
-/// they leave an axis open (0, parallel, or not finite), takes any perpendicular one.
+/// `ez` as possible, as a quaternion of length 1: w, x, y, z. The vectors may have any length. If
+/// they do not determine an axis, because they are 0, parallel or not finite, the axis is any
+/// perpendicular direction.
 std::array<double, 4> rotation_to(Vector3d ey, Vector3d ez);
 
 }  // namespace cascade

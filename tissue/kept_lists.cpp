@@ -1,5 +1,5 @@
-// Searches for neighbours of renewed cells in the boxes of the last search, which may still hold
-// their old marks, and among themselves.
+// Searches for neighbours of renewed cells in the boxes of the last search and among the renewed
+// cells themselves. The boxes may still contain old marks of renewed cells.
 #include "tissue/kept_lists.h"
 
 #include <algorithm>
@@ -8,9 +8,10 @@
 namespace cascade {
 namespace {
 
-/// All lists are found again when more than one of this many cells has been renewed since.
+/// All lists are built again when more than one in this many cells has been renewed since the last
+/// search of all cells.
 constexpr std::size_t cells_of_a_renewed = 8;
-/// Always renews up to this many cells one by one.
+/// Up to this many cells are always renewed one by one.
 constexpr std::size_t few_cells = 32;
 
 std::size_t far_links(std::uint32_t cell, std::span<const std::uint32_t> list) {
@@ -34,7 +35,7 @@ bool KeptLists::renew(std::span<const BoxedCell> cells, std::span<const std::uin
     for (const BoxedCell& cell : cells) {
         if (!(width_of(cell, search_.rule()) <= search_.widest())) return false;
     }
-    // Enough room for all cells to be their neighbours.
+    // There must be enough room for links even if all cells are neighbours of the renewed ones.
     const auto links = static_cast<double>(lists_.neighbours.size());
     if (links + 2.0 * static_cast<double>(cells.size() * ranks.size()) > most_links) return false;
     slots_.resize(std::max(slots_.size(), ranks.size()), no_slot);
@@ -56,7 +57,7 @@ bool KeptLists::renew(std::span<const BoxedCell> cells, std::span<const std::uin
     return true;
 }
 
-/// Forgets an index that no cell has any more.
+/// Forgets an index that no longer belongs to a cell.
 void KeptLists::forget(std::uint32_t cell) {
     const std::uint32_t slot = std::exchange(slots_[cell], gone);
     if (slot >= renewed_.size()) return;
@@ -65,7 +66,7 @@ void KeptLists::forget(std::uint32_t cell) {
     if (slot < renewed_.size()) slots_[renewed_[slot].cell] = slot;
 }
 
-/// Adds the new list of a cell.
+/// Finds the neighbours of a cell and adds its new list.
 void KeptLists::find(const BoxedCell& cell, std::span<const std::uint32_t> ranks) {
     found_.clear();
     search_.find_all(cell, found_);
@@ -81,7 +82,7 @@ void KeptLists::find(const BoxedCell& cell, std::span<const std::uint32_t> ranks
     new_lists_.emplace_back(sorted.begin(), sorted.end());
 }
 
-/// Finds the lists that change, of `count` cells.
+/// Finds the lists of other cells that change. `count` is the number of cells.
 void KeptLists::note_links(std::span<const BoxedCell> cells, std::uint32_t count) {
     kinds_.assign(slots_.size(), Kind::kept);
     list_numbers_.resize(slots_.size());
@@ -111,7 +112,7 @@ void KeptLists::note_links(std::span<const BoxedCell> cells, std::uint32_t count
     std::sort(added_.begin(), added_.end());
 }
 
-/// The old list of a cell. Empty for a new cell.
+/// The old list of a cell; empty for a new cell.
 std::span<const std::uint32_t> KeptLists::list_of(std::uint32_t cell) const {
     if (cell >= lists_.ends.size()) return {};
     const std::size_t begin = cell == 0 ? 0 : lists_.ends[cell - 1];

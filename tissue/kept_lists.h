@@ -1,8 +1,9 @@
-// Neighbour lists that survive while a few cells are found again (internal to tissue/).
+// Neighbour lists that stay valid when the lists of a few cells are built again (internal to
+// tissue/).
 //
-// Each list was found from marks: each cell's position, radius and skin at its last search. Two
-// cells that touch are in each other's lists as long as both are near their marks, whenever these
-// were made.
+// Lists are built from marks. A cell's mark is its position, radius and skin at its last search.
+// Two cells that touch are in each other's lists as long as neither has moved farther from its mark
+// than its slack. It does not matter when the marks were made.
 #pragma once
 
 #include "tissue/neighbour_search.h"
@@ -16,26 +17,27 @@ namespace cascade {
 
 class KeptLists {
 public:
-    /// Takes the lists of all cells and the search that found them.
+    /// Begins with these lists of all cells and the search that found them.
     void start(NeighbourLists lists, NeighbourSearch search);
 
-    /// Gives some cells new marks. `ranks` belong to all present cells. After births, deaths or
-    /// moves in memory, `cells` must include all with a new index. The others must have kept their
-    /// order of ranks. Returns false and changes nothing if all lists should be found again: the
-    /// renewed cells are too many or too large, or would have more than `most_links`.
+    /// Gives some cells new marks and builds their lists. `ranks` belong to all present cells.
+    /// After births, deaths or moves in memory, `cells` must include all cells with a new index.
+    /// All other cells must have kept the order of their ranks. Returns false and changes nothing
+    /// if all lists should be built again, because the renewed cells are too many or too large, or
+    /// would have more than `most_links` links.
     bool renew(std::span<const BoxedCell> cells, std::span<const std::uint32_t> ranks,
                double most_links);
 
     const NeighbourLists& lists() const { return lists_; }
     /// By cell: whether renew() changed its list.
     std::vector<bool> changed() const;
-    /// The largest width_of() of a cell that can be renewed.
+    /// The largest width_of() that a cell may have in renew().
     double widest() const { return search_.widest(); }
 
 private:
     static constexpr std::uint32_t no_slot = 0xffffffff, gone = 0xfffffffe;
 
-    /// Whether the cell has been renewed, replaced or removed since the search.
+    /// Whether the cell has been renewed, replaced or removed since the last search of all cells.
     bool is_renewed(std::uint32_t cell) const { return slots_[cell] != no_slot; }
     void forget(std::uint32_t cell);
     void find(const BoxedCell& cell, std::span<const std::uint32_t> ranks);
@@ -47,17 +49,19 @@ private:
 
     NeighbourSearch search_;
     NeighbourLists lists_, next_;
-    std::vector<BoxedCell> renewed_;  ///< Marks of cells since start().
-    /// By index in memory: the index in renewed_, no_slot, or `gone` if there is no cell any more.
+    std::vector<BoxedCell> renewed_;  ///< The marks of the cells renewed since start().
+    /// By index in memory: the index in renewed_, `no_slot`, or `gone` if this index no longer
+    /// belongs to a cell.
     std::vector<std::uint32_t> slots_;
 
-    // Used within one renewal.
+    // The members from here on are used within one renewal.
     NeighbourKeys found_;
     std::vector<std::vector<std::uint32_t>> new_lists_;
     enum class Kind : std::uint8_t { kept, touched, renewed, gone };
     std::vector<Kind> kinds_;
     std::vector<std::uint32_t> list_numbers_;  ///< By cell: its index in new_lists_.
-    /// A new neighbour for a cell whose list is kept. Sorted by cell, then by neighbour.
+    /// New neighbours of cells whose other neighbours stay, as pairs of the cell and the neighbour.
+    /// Sorted by cell, then by neighbour.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> added_;
 };
 

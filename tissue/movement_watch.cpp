@@ -1,4 +1,4 @@
-// A kernel without results that compares positions with earlier ones.
+// A kernel without results that compares present positions with earlier ones.
 #include "tissue/movement_watch.h"
 
 #include <algorithm>
@@ -48,7 +48,7 @@ using SpeciesPlane = StepProblem::SpeciesPlane;
 
 namespace {
 
-/// The rest of a slack is a margin for rounding.
+/// The part of a slack that may be used. The rest is a margin for rounding.
 constexpr double part_for_rounding = 0.98;
 
 double limit_of(const NeighbourRule& rule, double part, double radius) {

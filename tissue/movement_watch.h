@@ -14,39 +14,45 @@
 
 namespace cascade {
 
-/// A cell moves by the distance between its positions. Growth counts as approaching others.
+/// Measures how far cells move. A cell's movement is the distance between its two positions, plus
+/// its growth, because a growing cell approaches other cells, too.
 class MovementWatch {
 public:
     /// The limit of a cell's movement in a step, as a multiple of its radius, or of half the
     /// distance of neighbours if that is larger.
     static constexpr double most_of_radius = 0.5;
-    /// With this skin, lists last for every step that is not too long, with a margin for rounding.
+    /// The skin of lists that stay valid in every step in which no cell moves farther than
+    /// `most_of_radius` allows. Includes a margin for rounding.
     static constexpr double full_skin = 0.52;
 
-    /// Begins lists built with these skins for cells at these positions.
+    /// Must be called when lists have been built with these skins, for cells at these positions.
     void begin_lists(std::span<const Vector3d> places, std::span<const double> radii,
                      const NeighbourRule& rule, std::span<const float> skins);
-    /// Renews the list of one cell, which may be new, at this position.
+    /// Must be called when the list of one cell, which may be new, has been built again at this
+    /// position.
     void renew(std::size_t cell, Vector3d place, double radius, const NeighbourRule& rule,
                double skin);
     void resize(std::size_t cells) { listed_.resize(cells); }
     /// Begins a step at these positions.
     void begin_step(std::span<const Vector3d> places, std::span<const double> radii,
                     const NeighbourRule& rule);
-    /// Shifts a cell that was put elsewhere without moving, through a periodic side.
+    /// Tells the watch that a periodic side has moved a cell by this vector to the opposite side.
+    /// This does not count as a movement.
     void shift(std::size_t cell, Vector3d by) { listed_[cell].place = listed_[cell].place + by; }
 
-    /// Whether a cell has gone so far since begin_step() that the lists may miss a neighbour.
+    /// Whether a cell has moved so far since begin_step() that the lists may miss a neighbour.
     bool left_lists() const { return left_lists_.load(std::memory_order_relaxed); }
-    /// Whether a cell has gone too far for one step, or its position is not finite.
+    /// Whether a cell has moved too far for one step, or its position is not finite.
     bool went_too_far() const { return went_too_far_.load(std::memory_order_relaxed); }
     /// Called by kernels with a cell's position when rates are evaluated.
     void look(std::size_t cell, Vector3d place, double radius);
-    /// Whether the lists are valid for a cell at this position, and for some distance around it.
+    /// Whether the lists are valid for a cell at this position, and at positions up to `around`
+    /// from it.
     bool reaches(std::size_t cell, Vector3d place, double radius, double around) const {
         return is_within(listed_[cell], place, radius, around);
     }
-    /// A cell's distance from the beginning of the step, as the skin that it would take.
+    /// How far a cell has moved since the beginning of the step, expressed as the skin of a list
+    /// that would just stay valid.
     double way_of(std::size_t cell, Vector3d place) const;
     std::size_t count() const { return listed_.size(); }
 
@@ -54,7 +60,8 @@ private:
     struct Mark {
         Vector3d place;
         double radius = 0;
-        double limit = 0;  ///< Infinite if no cell has any extent, so that none has neighbours.
+        /// The limit of movement. Infinite if no cell has any extent, so that none has neighbours.
+        double limit = 0;
     };
     bool is_within(const Mark& mark, Vector3d place, double radius, double around = 0) const;
 
@@ -63,7 +70,8 @@ private:
     std::atomic<bool> left_lists_{false}, went_too_far_{false};
 };
 
-/// Inserts a pass that watches positions before each evaluation of rates in the step.
+/// A step with an additional pass before each evaluation of rates. This pass calls the watch with
+/// the positions of all cells.
 StepProblem watched(const TissueStep& step, const TissueSpecies& species,
                     std::shared_ptr<MovementWatch> watch);
 

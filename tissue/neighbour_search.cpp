@@ -1,4 +1,4 @@
-// One set of boxes for each octave.
+// Sorts cells by octaves of their radii. Each octave has its own boxes.
 #include "tissue/neighbour_search.h"
 
 #include "core/check.h"

@@ -1,5 +1,5 @@
-// Each cell searches for neighbours of its own size and larger. A pair of different sizes is then
-// added to the list of the larger cell.
+// Each cell searches for neighbours in its octave and in larger ones. Then the pairs of different
+// octaves are added to the lists of the larger cells.
 #include "tissue/neighbours.h"
 
 #include "core/morton.h"
@@ -15,22 +15,24 @@
 namespace cascade {
 namespace {
 
-/// Neighbours of different octaves.
+/// Two neighbours of different octaves.
 struct Pair {
     std::uint32_t larger = 0, smaller = 0;
 };
 
-/// The lists of a thread's cells.
+/// The lists of one thread's cells.
 struct Part {
     std::vector<std::size_t> counts;
     std::vector<std::uint32_t> neighbours;
-    std::vector<Pair> pairs;  ///< With larger cells, which do not know of them yet.
+    /// Pairs with larger cells, whose lists do not contain the smaller cell yet.
+    std::vector<Pair> pairs;
     std::size_t far_links = 0;
 };
 
 void search_part(const NeighbourSearch& search, RowRange cells, std::atomic<std::int64_t>& left,
                  Part& part) {
-    constexpr std::int64_t cells_at_once = 256;  // Cells between two checks of the remaining work.
+    // The number of cells between two checks of the remaining work.
+    constexpr std::int64_t cells_at_once = 256;
     part.neighbours.reserve(static_cast<std::size_t>(16 * (cells.end - cells.begin)));
     part.counts.reserve(static_cast<std::size_t>(cells.end - cells.begin));
     NeighbourKeys found;
@@ -56,7 +58,7 @@ void search_part(const NeighbourSearch& search, RowRange cells, std::atomic<std:
     left.fetch_sub(links, std::memory_order_relaxed);
 }
 
-/// Adds small cells to the lists of the large cells they have found.
+/// Adds small cells to the lists of the large cells that have them as neighbours.
 void add_pairs(std::span<const Pair> pairs, std::span<const std::uint32_t> ranks,
                NeighbourLists& lists) {
     std::vector<std::size_t> ends(lists.ends.size(), 0);
@@ -146,7 +148,7 @@ std::vector<std::uint32_t> order_along_curve(const CellPlaces& cells) {
         high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
     const double size = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
-    // Cells on a surface fill n² of n³ boxes.
+    // The number of boxes along the longest side. Cells on a surface fill about n² of n³ boxes.
     const double boxes = std::min(2097151.0, 2 * std::sqrt(static_cast<double>(order.size())));
     const double scale = size > 0 ? boxes / size : 0;
     std::vector<std::uint64_t> places;

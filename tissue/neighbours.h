@@ -1,7 +1,7 @@
-// The neighbours of each cell: all cells that it may touch or sense until the next rebuild.
+// The neighbours of each cell: all cells that it may touch or sense before lists are built again.
 //
-// A list may hold pairs that do not touch. They contribute exactly +0 to every sum, so no result
-// depends on when lists are rebuilt.
+// A list may contain cells that do not touch. They contribute exactly +0 to every sum, so no result
+// depends on when lists are built.
 #pragma once
 
 #include "core/links.h"
@@ -17,47 +17,52 @@
 
 namespace cascade {
 
-/// The distance of neighbours.
+/// Determines which cells are neighbours.
 struct NeighbourRule {
-    double reach = 1.2;  ///< Cells touch at less than this multiple of the sum of their radii.
-    double near = 0;     ///< Cells nearer than this are neighbours, too.
-    /// By axis: the period of the tissue, or 0 if it does not repeat. The nearest image counts.
+    /// Cells are neighbours if their distance is less than this multiple of the sum of their radii.
+    double reach = 1.2;
+    double near = 0;  ///< Cells at a smaller distance than this are also neighbours.
+    /// By axis: the period of the tissue, or 0 if it is not periodic. Distances are measured to the
+    /// nearest periodic image.
     std::array<double, 3> period{};
-    double mean_radius = 0;  ///< Over all cells. Sets the scale for very small ones.
+    double mean_radius = 0;  ///< The mean over all cells. Sets the scale for very small cells.
 };
 
-/// How far each cell may go, in script lengths, before a list built with this `skin` can miss a
-/// pair: `skin` times its radius, or times half the distance `near` or a quarter of the mean radius
-/// if that is larger.
+/// How far each cell may move, in script lengths, before a list built with this `skin` can miss a
+/// pair. This is `skin` times the largest of its radius, half the distance `near` and a quarter of
+/// the mean radius.
 inline double slack_of(const NeighbourRule& rule, double skin, double radius) {
     return skin * std::max({radius, rule.near / 2, rule.mean_radius / 4});
 }
 
-/// The cells for a search, in the order of memory.
+/// The cells to search, in the order of memory.
 struct CellPlaces {
     std::span<const Vector3d> places;
-    std::span<const double> radii;         ///< At least 0.
-    std::span<const std::uint32_t> ranks;  ///< Their order by number: 0, 1, …
-    std::span<const float> skins = {};     ///< By cell. Empty: the search's.
+    std::span<const double> radii;  ///< At least 0.
+    /// The rank of each cell: its index, from 0, if cells are sorted by their numbers.
+    std::span<const std::uint32_t> ranks;
+    /// The skin of each cell. If empty, all cells have the skin given to the search.
+    std::span<const float> skins = {};
 };
 
 /// The lists of all cells.
 struct NeighbourLists {
     std::vector<std::size_t> ends;          ///< Cell k's neighbours end before ends[k].
     std::vector<std::uint32_t> neighbours;  ///< Cells, in ascending order of their numbers.
-    /// The number of links between cells too far apart in memory for caches.
+    /// The number of links between cells that are too far apart in memory for caches.
     std::size_t far_links = 0;
 };
 
-/// Finds all pairs nearer than the rule's distance plus the slack of both, with a grid for each
-/// octave of radii, so that few big cells among many small ones cost little. Positions and radii
-/// must be finite. Takes O(cells + links). The same on any number of threads. Fails if there would
-/// be more than `most_links`, usually before allocating them. Throws std::bad_alloc.
+/// Finds all pairs nearer than the rule's distance plus the slack of both cells. Uses a grid of
+/// boxes for each octave of radii, so that a few large cells among many small ones cost little
+/// time. Positions and radii must be finite. Takes O(cells + links). The result is the same with
+/// any number of threads. Fails if there would be more than `most_links` links, usually before
+/// allocating memory for them. Throws std::bad_alloc.
 Result<NeighbourLists> find_neighbours(const CellPlaces& cells, const NeighbourRule& rule,
                                        double skin, double most_links, Team& team);
 
 /// The cells in the order of a Morton curve through boxes with a few cells each, so that neighbours
-/// are near each other in memory. Cells of one box are sorted by rank.
+/// are near each other in memory. Cells of the same box are sorted by rank.
 std::vector<std::uint32_t> order_along_curve(const CellPlaces& cells);
 
 }  // namespace cascade

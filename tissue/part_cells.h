@@ -1,4 +1,4 @@
-// Separation of cells at one position. They would never part by themselves.
+// Separates cells at the same position, which would never separate by themselves.
 #pragma once
 
 #include "tissue/surroundings.h"
@@ -10,10 +10,11 @@
 
 namespace cascade {
 
-/// Where several of `cells` share one position, on periodic planes also across sides, moves all but
-/// the one with the least number by a hundredth of its radius, in a random direction that depends
-/// only on `seed`, `stage` and its number and lies in the surface if there is one. Frozen cells and
-/// those without a radius stay. Returns whether any has moved. The caller must then call
+/// Moves cells apart that share a position, on periodic planes also across sides. Only the cells in
+/// the list `cells` are considered. The cell with the lowest number stays. Each other cell moves by
+/// a hundredth of its radius in a random direction. The direction is tangential to the surface, if
+/// there is one, and depends only on `seed`, `stage` and the cell's number. Frozen cells and cells
+/// without a radius stay. Returns whether any cell has moved. The caller must then call
 /// Tissue::pad(). Throws std::bad_alloc.
 bool part_cells(Tissue& tissue, const TissueSpecies& species, const Surroundings& surroundings,
                 std::uint32_t seed, std::uint32_t stage, std::span<const std::uint32_t> cells);

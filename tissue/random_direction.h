@@ -1,4 +1,4 @@
-// Random directions in space and in tangent planes, from hashes.
+// Random directions in space and in tangent planes, made from hashes.
 #pragma once
 
 #include "core/vector3.h"
@@ -7,14 +7,14 @@
 
 namespace cascade {
 
-/// All that a direction depends on.
+/// Determines a random direction.
 struct DirectionKey {
     std::uint32_t seed = 0, stage = 0;
-    std::uint32_t mother = 0, child = 0;  ///< Numbers of cells. Equal for a founder.
+    std::uint32_t mother = 0, child = 0;  ///< Numbers of cells. Both are the same for a founder.
 };
 
 /// A direction of length 1, uniformly distributed over all directions perpendicular to `normal`, or
-/// over all if that is 0.
+/// over all directions if `normal` is 0.
 Vector3d random_direction(const DirectionKey& key, Vector3d normal);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Writes the senses of cells, cell by cell.
+// Writes what cells sense, cell by cell.
 #include "tissue/sense_kernel.h"
 
 #include "core/links.h"
@@ -34,7 +34,8 @@ public:
     }
 
 private:
-    /// Cells whose positions are searched together: in one row, so in one thread.
+    /// The number of cells whose positions are searched together. These cells are in one row, so
+    /// one thread computes them.
     static constexpr std::int64_t cells_at_once = 16;
 
     template <typename Number>
@@ -100,10 +101,10 @@ private:
         }
     }
 
-    /// Stored for a cell: its position, these triangles, and its senses.
+    /// The stored numbers of a cell are its position, these triangles, and what it senses.
     struct Triangles {
-        std::uint32_t from = 0;   ///< The beginning of the search.
-        std::uint32_t found = 0;  ///< The end of the search.
+        std::uint32_t from = 0;   ///< The triangle at which the search began.
+        std::uint32_t found = 0;  ///< The triangle at which the search ended.
     };
     static constexpr std::size_t key_size = 4;
     static Triangles triangles_of(const double* kept) { return std::bit_cast<Triangles>(kept[3]); }
@@ -133,11 +134,11 @@ private:
     std::vector<Sense> senses_;
     std::shared_ptr<NearTriangles> triangles_;
     std::int64_t kept_count_;
-    std::size_t kept_size_;  ///< Numbers per cell in `kept_`.
+    std::size_t kept_size_;  ///< The number of stored numbers per cell, in `kept_`.
     mutable AlignedArray<double> kept_;
 };
 
-/// Two adjacent cells along an axis and the part of the second.
+/// Two adjacent cells along an axis, and the weight of the second.
 struct Between {
     std::int64_t first = 0, second = 0;
     double part = 0;

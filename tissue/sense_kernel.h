@@ -1,4 +1,5 @@
-// The kernel of senses: what cells read from their surroundings, wherever rates are evaluated.
+// The kernel of senses. Whenever rates are evaluated, it computes the values that cells sense in
+// their surroundings.
 #pragma once
 
 #include "core/plane.h"
@@ -22,37 +23,41 @@ using PlaceValue = std::function<double(const NearPlace& near)>;
 struct Sense {
     enum class Kind : std::uint8_t { off, normal_x, normal_y, normal_z, value };
     Kind kind = Kind::off;
-    PlaceValue value = {};  ///< Used by kind `value`.
+    PlaceValue value = {};  ///< Used for senses of the kind `value`.
 };
 
-// On a surface. The arguments must outlive the values.
-/// The size of the nearest triangle: the square root of its area.
+// The next three functions are for surfaces. The mesh or filter that they are given must outlive
+// their results.
+/// A PlaceValue that gives the size of the nearest triangle: the square root of its area.
 PlaceValue feature_of(const SurfaceMesh& mesh);
-/// Values at the points of the mesh, such as curvatures and attributes, linear between them.
+/// A PlaceValue that interpolates linearly between values given at the points of the mesh, such as
+/// curvatures and attributes.
 PlaceValue of_points(const SurfaceMesh& mesh, std::vector<float> values);
-/// Values in the cells of a model, smooth between them.
+/// A PlaceValue that interpolates smoothly between values given in the cells of a model.
 PlaceValue of_cells(const CellFilter& filter, std::vector<float> values);
-/// On a plane: values in the cells of a grid over it, whose longest side has length 1, linear
-/// between the centres of cells.
+/// A PlaceValue for planes: interpolates linearly between the centres of the cells of a grid. The
+/// grid covers a plane whose longest side has length 1.
 PlaceValue of_grid(const Field& values, Boundaries boundary);
 
-/// The triangles nearest to the cells of a tissue, in the order of memory. Every evaluation in a
-/// step begins from the triangles of the last complete step, so that it depends only on positions.
+/// The triangles nearest to the cells of a tissue, in the order of memory. In every evaluation
+/// within a step, the search begins at the triangles of the last complete step, so that results
+/// depend only on positions.
 struct NearTriangles {
     std::vector<std::uint32_t> before;  ///< At the last complete step, by cell.
-    std::vector<std::uint32_t> now;     ///< By cell, at the last evaluation.
+    std::vector<std::uint32_t> now;     ///< At the last evaluation, by cell.
 
-    /// Begins at the triangles of a complete step.
+    /// Begins a step at the triangles of a complete step.
     void begin(std::span<const std::uint32_t> triangles) {
         before.assign(triangles.begin(), triangles.end());
         now = before;
     }
 };
 
-/// Fields: the three components of the position. Results: one for each sense. `triangles` must have
-/// an entry for each cell whenever the kernel runs. Positions after the last cell repeat it. The
-/// kernel caches the last senses of the first `kept` cells, since several steps and rates read the
-/// same positions. Throws std::bad_alloc.
+/// Makes a kernel whose fields are the three components of the position, and which has one result
+/// for each sense. `triangles` must have an entry for each cell whenever the kernel runs. Fields
+/// have further elements after the last cell, which repeat its position. The kernel caches the last
+/// results of the first `kept` cells, because rates are often evaluated several times at the same
+/// positions. Throws std::bad_alloc.
 KernelPointer make_sense_kernel(std::shared_ptr<const Surroundings> surroundings,
                                 std::vector<Sense> senses, std::shared_ptr<NearTriangles> triangles,
                                 std::int64_t kept = 0);

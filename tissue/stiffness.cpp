@@ -11,15 +11,15 @@ namespace cascade {
 namespace {
 
 constexpr int most_iterations = 30;
-/// The estimate is accepted when an iteration changes it by less than this part.
+/// The estimate is accepted when an iteration changes it by less than this fraction.
 constexpr double enough = 0.03;
 constexpr double margin = 1.1;
 
-/// The largest change of a value in a difference, in sizes of its species: near the square root of
-/// the rounding error.
+/// The largest change of a value in a difference, as a multiple of its species' size: near the
+/// square root of the rounding error.
 double difference_step(Precision precision) { return precision == Precision::single ? 1e-3 : 1e-6; }
 
-/// Vectors by species, then by rank.
+/// A vector is stored by species, then by rank.
 using Vector = std::vector<std::vector<double>>;
 
 double length(const Vector& v) {
@@ -47,7 +47,7 @@ public:
         at_state_ = rates_at(tissue.species);
     }
 
-    /// The last direction found. Cells and species that it lacks get noise.
+    /// The direction found by the last estimate. Cells and species without a direction get noise.
     Vector start() const {
         Vector v = read(tissue_.stiffest);
         v.resize(tissue_.species.size());
@@ -89,7 +89,7 @@ public:
     }
 
 private:
-    /// Calls `use(k)` for each of the species, on all threads.
+    /// Calls `use(k)` for each species k, divided among all threads.
     void each_species(std::size_t count, const auto& use) const {
         Team& team = runner_.team();
         team.run([&](int thread) {
@@ -160,7 +160,7 @@ double estimate_stiffness(Tissue& tissue, const CellValues& rates, std::span<con
         const double before = found, size = length(next);
         found = size / length(v);
         if (!std::isfinite(found)) return 0;
-        // Nothing changes the rates.
+        // The rates depend on no value.
         if (size < 1e-30 || largest(next) == 0) return 0;
         v = std::move(next);
         if (std::abs(found - before) < enough * found) break;

@@ -1,4 +1,4 @@
-// Surfaces and boxes.
+// The surroundings of surfaces and boxes.
 #include "tissue/surroundings.h"
 
 #include "core/links.h"
@@ -68,7 +68,8 @@ public:
     }
 
 private:
-    /// The nearest position for a cell not above the inside of its triangle or one beside it.
+    /// The nearest position, for a cell that is not above or below the inside of `triangle` or one
+    /// next to it.
     NearPlace search(Vector3d point, std::uint32_t triangle) const {
         NearPlace near = near_nothing(point);
         near.place.triangle = triangle;
@@ -82,7 +83,7 @@ private:
         near.off = near.is_beyond ? height : std::copysign(found->distance, height);
         return near;
     }
-    /// Finds the positions nearest to at most as many cells as PlaceFollower::AllOver holds.
+    /// Finds the nearest positions for at most as many cells as PlaceFollower::AllOver holds.
     void near_few(std::span<const Vector3d> points, std::span<const std::uint32_t> triangles,
                   std::span<NearPlace> result) const {
         using AllOver = PlaceFollower::AllOver;
@@ -126,7 +127,8 @@ private:
             near.is_beyond = false;
         }
     }
-    /// Does the same as normal_at(), which reads the corners' normals from several arrays.
+    /// Does the same as normal_at(), but reads the corners' normals from one array instead of
+    /// several.
     Vector3d normal_of(std::uint32_t triangle, const std::array<double, 3>& weights) const {
         const auto& [a, b, c] = corner_normals_.data()[triangle];
         const Vector3d sum = a * weights[0] + b * weights[1] + c * weights[2];

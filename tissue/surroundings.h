@@ -15,28 +15,29 @@
 
 namespace cascade {
 
-/// The position of the surroundings nearest to a cell.
+/// The position of the surroundings that is nearest to a cell.
 struct NearPlace {
     static constexpr std::uint32_t no_triangle = 0xffffffff;
 
-    SurfacePlace place{no_triangle, {1, 0, 0}};  ///< No triangle without a surface.
+    /// The position on the surface. Has no triangle if there is no surface.
+    SurfacePlace place{no_triangle, {1, 0, 0}};
     Vector3d position;
-    Vector3d normal{0, 0, 1};  ///< Of length 1, smooth in the position.
-    /// The cell's distance from the position, negative on the inner side. Beyond the boundary of an
-    /// open surface, the height above the plane that continues it.
+    Vector3d normal{0, 0, 1};  ///< Of length 1. Varies smoothly with the position.
+    /// The cell's distance from `position`, negative on the inner side. If the cell is beyond the
+    /// boundary of an open surface, the cell's height above the plane that continues the surface.
     double off = 0;
-    bool is_beyond = false;  ///< The position is on such a boundary.
+    bool is_beyond = false;  ///< Whether the cell is beyond the boundary of an open surface.
 };
 
-/// Thread-safe.
+/// The space around the cells of a tissue. Thread-safe.
 class Surroundings {
 public:
     virtual ~Surroundings() = default;
 
-    /// The position nearest to a cell, searched from the triangle that was nearest before, or
-    /// no_triangle. `off` is NaN if the point is not finite.
+    /// The position nearest to a cell at `point`. The search begins at `triangle`, which was
+    /// nearest before, or is no_triangle. `off` is NaN if the point is not finite.
     virtual NearPlace near(Vector3d point, std::uint32_t triangle) const = 0;
-    /// Does the same for several cells. All arrays have one length.
+    /// Does the work of near() for several cells. All arrays have the same length.
     virtual void near_all(std::span<const Vector3d> points,
                           std::span<const std::uint32_t> triangles,
                           std::span<NearPlace> result) const {
@@ -44,27 +45,28 @@ public:
     }
     /// Prefetches the data of this triangle for a call of near().
     virtual void prepare(std::uint32_t) const {}
-    /// The position of a cell if walls stop it at the sides of a plane or at the boundary of an
-    /// open surface, and periodic sides bring it back from the opposite one.
+    /// The position of a cell after walls have stopped it at the sides of a plane or at the
+    /// boundary of an open surface, and periodic sides have moved it to the opposite side.
     virtual Vector3d held_inside(Vector3d point, const NearPlace& near) const = 0;
-    /// Whether held_inside() may move cells.
+    /// Whether held_inside() may change positions.
     virtual bool holds() const = 0;
-    /// Whether cells can be off a surface or a plane.
+    /// Whether there is a surface or a plane, from which cells have a distance.
     virtual bool has_normal() const = 0;
-    /// The periods of the tissue, or 0.
+    /// The period of the tissue along each axis; 0 along an axis that is not periodic.
     virtual std::array<double, 3> period() const { return {}; }
-    /// The surface. Null without one.
+    /// The surface; null if there is none.
     virtual const SurfaceMesh* mesh() const { return nullptr; }
-    /// The box in which founders are scattered without a surface.
+    /// The box in which founders are scattered if there is no surface.
     virtual Vector3d extent() const = 0;
 };
 
-/// Around a surface with triangles, in script units. The mesh must outlive it.
+/// The surroundings given by a surface in script units, which must have triangles. The mesh must
+/// outlive the result.
 std::unique_ptr<Surroundings> around_surface(const SurfaceMesh& mesh);
 
-/// On a plane from (0, 0) to `extent`, along whose axes the tissue repeats or walls hold it. The
-/// normal is (0, 0, 1), and `off` is z. In space, with a depth above 0, cells cannot be off: `off`
-/// is 0.
+/// The surroundings given by a plane from (0, 0) to `extent`. Along each axis, the tissue is
+/// periodic or walls stop it. The normal is (0, 0, 1), and `off` is z. If `extent` has a depth
+/// above 0, the surroundings are a box in space instead, and `off` is 0.
 std::unique_ptr<Surroundings> in_box(Vector3d extent, std::array<bool, 3> is_periodic);
 
 }  // namespace cascade

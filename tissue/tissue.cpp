@@ -27,7 +27,7 @@ std::size_t capacity_of(const PlaneLayout& layout) {
     return static_cast<std::size_t>(layout.width * layout.height);
 }
 
-/// Copies the last of `count` cells into all elements after it.
+/// Copies the last of `count` cells to all elements after it.
 template <typename Number>
 void fill_after(Plane<Number>& plane, std::size_t count) {
     const auto width = static_cast<std::size_t>(plane.layout().width);
@@ -38,7 +38,7 @@ void fill_after(Plane<Number>& plane, std::size_t count) {
                  [&](Number* row, auto, auto places) { std::fill_n(row, places, value); });
 }
 
-/// Writes the values of the cells from `first` on, and the last cell's value into all elements
+/// Writes the values of the cells from `first` on, and copies the last cell's value to all elements
 /// after it.
 template <typename Number>
 void write(Plane<Number>& plane, std::span<const Number> values, std::size_t first = 0) {
@@ -83,8 +83,8 @@ std::vector<std::vector<double>> numbers_in(const std::vector<Field>& fields,
     return result;
 }
 
-/// Puts cell sources[k] at places[k], for `count` cells in the layout. Other elements stay, and
-/// there must be none if the layout differs.
+/// Copies cell sources[k] to index places[k]. There are `count` cells in the new layout. Other
+/// cells stay, but if the layout differs there must be no others.
 void rearrange_field(Field& field, const PlaneLayout& layout, std::size_t count,
                      std::span<const std::uint32_t> places,
                      std::span<const std::uint32_t> sources) {
@@ -99,7 +99,7 @@ void rearrange_field(Field& field, const PlaneLayout& layout, std::size_t count,
     });
 }
 
-/// Does the same for values by cell.
+/// Does the same as rearrange_field() for values stored by cell.
 template <typename Value>
 void rearrange_values(std::vector<Value>& values, std::size_t count,
                       std::span<const std::uint32_t> places,
@@ -168,7 +168,7 @@ TissueRecord Tissue::record() const {
     return result;
 }
 
-/// Short rows for few cells, so that few elements repeat the last one.
+/// If there are few cells, rows are short, so that few elements repeat the last cell.
 void Tissue::choose_layout(std::size_t cells) {
     const std::size_t wanted = cells + cells / 8 + 1;
     const std::size_t width = wanted <= 256 ? 16 : 64;
@@ -179,7 +179,8 @@ void Tissue::choose_layout(std::size_t cells) {
     layout_ = PlaneLayout(grid_);
 }
 
-/// Fills all arrays of the cells' numbers. Numbers before `first` are known.
+/// Fills all arrays that depend on the cells' numbers. Cells before `first` are in these arrays
+/// already.
 void Tissue::number_cells(std::size_t first) {
     ranks_.resize(count());
     elements_by_number_.clear();
@@ -213,7 +214,8 @@ bool Tissue::rearrange(std::span<const std::uint32_t> sources,
     const PlaneLayout before = layout_;
     const std::size_t room = capacity_of(layout_), cells = sources.size();
     if (cells > room || cells < room / 4) choose_layout(cells);
-    std::vector<std::uint32_t> places, from;  // Cells that change.
+    // The indices at which cells change, and their sources.
+    std::vector<std::uint32_t> places, from;
     for (std::uint32_t k = 0; k < cells; ++k) {
         if (layout_ == before && k < count() && sources[k] == k) continue;
         places.push_back(k);
@@ -234,7 +236,7 @@ bool Tissue::rearrange(std::span<const std::uint32_t> sources,
     return layout_ != before;
 }
 
-/// Leaves cells in their order by number and appends new ones.
+/// Keeps the cells ordered by number, with new cells at the end.
 void Tissue::keep_order(std::span<const std::uint32_t> sources,
                         std::span<const std::uint32_t> born) {
     constexpr std::uint32_t nowhere = 0xffffffff;

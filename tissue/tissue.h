@@ -1,7 +1,8 @@
 // A tissue: cells that crawl, divide and die, and the planes that hold their values.
 //
-// Each cell has a number of birth, which never changes. Cells lie in memory in any order. Every sum
-// over cells and every list of neighbours follows the numbers, so that no result depends on memory.
+// Each cell has a birth number, which never changes. Cells may have any order in memory. Every sum
+// over cells and every list of neighbours is in the order of numbers, so that no result depends on
+// the order in memory.
 #pragma once
 
 #include "core/grid.h"
@@ -17,44 +18,47 @@
 
 namespace cascade {
 
-/// The progress of a tissue's stage: everything besides the cells that steps continue from.
+/// How far a tissue's stage has run: everything, besides the cells, that must be known to continue.
 struct TissueTime {
     double t = 0;
     std::int64_t steps = 0;
     StepControl::State control;
-    /// The bound of the eigenvalues of the rates' Jacobian, in 1 / time, and the steps after which
-    /// it was estimated (−1: not yet).
+    /// An upper bound of the eigenvalues of the rates' Jacobian, in 1 / time, and the number of
+    /// steps after which it was estimated (−1: not yet).
     double stiffness = 0;
     std::int64_t estimated_at = -1;
     double last_event = 0;  ///< The time of the last division or death.
-    double progress = 0;    ///< The greatest progress since then (tissue/tissue_loop.h).
-    // The last comparison of births and deaths with the number of cells:
+    double progress = 0;    ///< The greatest progress since the last event (tissue/tissue_loop.h).
+    // The time and the counts at the last comparison of births and deaths with the number of cells;
+    // see compare_turnover().
     double compared_at = 0;
     std::int64_t compared_births = 0, compared_deaths = 0, compared_cells = 0;
 };
 
 /// A tissue as plain data, cell after cell in ascending order of their numbers. A run that
-/// continues from it gets the same bits as an uninterrupted one.
+/// continues from a record gets the same bits as an uninterrupted run.
 struct TissueRecord {
     std::vector<std::uint32_t> numbers;
-    std::vector<std::vector<double>> species;   ///< By species, then by cell.
-    std::vector<std::vector<double>> stiffest;  ///< Likewise: the direction of fastest change.
-    std::vector<std::vector<double>> kept;      ///< Tissue::kept. Empty where that is empty.
-    std::optional<std::size_t> frozen;          ///< The plane of `kept` that marks frozen cells.
-    std::vector<std::uint32_t> triangles;       ///< The surface's triangle nearest to each cell.
+    std::vector<std::vector<double>> species;  ///< By species, then by cell.
+    /// By species, then by cell: the direction in which the rates change fastest.
+    std::vector<std::vector<double>> stiffest;
+    /// By plane of Tissue::kept, then by cell: its values. Empty for a plane that is empty.
+    std::vector<std::vector<double>> kept;
+    std::optional<std::size_t> frozen;     ///< The plane of `kept` that marks frozen cells.
+    std::vector<std::uint32_t> triangles;  ///< The surface's triangle nearest to each cell.
     std::uint32_t next_number = 0;
     std::int64_t births = 0, deaths = 0;
     TissueTime time;
 };
 
 /// The cells in memory. Cell k is in column k mod width of row k / width. The elements after the
-/// last cell repeat it. There is room for an eighth more cells than there were when the planes were
-/// made, so that births seldom move planes.
+/// last cell repeat its values. Planes are made with room for an eighth more cells than exist at
+/// that time, so that births seldom require new planes.
 class Tissue {
 public:
     static constexpr std::uint32_t no_triangle = 0xffffffff;
 
-    /// Throws std::bad_alloc.
+    /// Makes a tissue from a record. Throws std::bad_alloc.
     Tissue(const TissueRecord& record, Precision precision);
     TissueRecord record() const;
 
@@ -62,7 +66,7 @@ public:
     Precision precision() const { return precision_; }
     const Grid& grid() const { return grid_; }
     const PlaneLayout& layout() const { return layout_; }
-    /// The number of elements from cell 0 to this one.
+    /// The number of elements from cell 0 to this cell.
     std::int64_t element(std::size_t cell) const {
         const auto k = static_cast<std::int64_t>(cell);
         return layout_.row_start(k / layout_.width) + k % layout_.width;
@@ -78,34 +82,37 @@ public:
         }
     }
 
-    /// By species. Lent to the steps while they run.
+    /// The values of all species: one plane for each. While a step runs, these planes belong to the
+    /// step.
     std::vector<Field> species;
-    /// Values without rates, which go along with their cells. Some may be empty.
+    /// Planes of values that have no rates. They are moved and copied together with their cells.
+    /// Some may be empty.
     std::vector<Field> kept;
     /// The direction in which the rates change fastest. Empty until it is known.
     std::vector<Field> stiffest;
-    /// By cell: the triangle nearest to it at the last complete step, or no_triangle.
+    /// By cell: the triangle that was nearest at the last complete step, or no_triangle.
     std::vector<std::uint32_t> triangles;
-    /// By cell: its expected movement in a step, as a skin of lists. No result depends on it.
+    /// By cell: the movement expected in a step, expressed as the skin of a list that would allow
+    /// it. No result depends on it.
     std::vector<float> restlessness;
     std::uint32_t next_number = 0;
     std::int64_t births = 0, deaths = 0;
     TissueTime time;
 
-    /// By cell in memory.
+    /// The number of each cell in memory.
     std::span<const std::uint32_t> numbers() const { return numbers_; }
     /// The cells in ascending order of their numbers.
     std::span<const std::uint32_t> by_number() const { return by_number_; }
-    /// The elements of the cells in that order, counted from cell 0.
+    /// The elements of the cells in ascending order of numbers, counted from cell 0.
     std::span<const std::uint32_t> elements_by_number() const { return elements_by_number_; }
     /// By cell in memory: its index in by_number().
     std::span<const std::uint32_t> ranks() const { return ranks_; }
-    /// The numbers as words in a plane, for kernels that draw random numbers.
+    /// The cells' numbers as a plane, for kernels that draw random numbers.
     const Field& number_plane() const { return number_plane_; }
-    /// 1 for cells, 0 for the elements that repeat the last one.
+    /// 1 for cells, 0 for the elements that repeat the last cell.
     const Mask& inside() const { return inside_; }
 
-    /// The same as numbers.
+    /// The mask inside() as a plane of numbers 1 and 0.
     const Field& ones() const { return ones_; }
     /// 1 for frozen cells. Empty if none can be frozen.
     const Mask& frozen() const { return frozen_; }
@@ -114,16 +121,16 @@ public:
     }
     /// Whether all cells are frozen.
     bool is_frozen() const;
-    /// From now on, freezes cells where this kept plane is not 0.
+    /// From now on, freezes cells where this plane of `kept` is not 0.
     void freeze_by(std::size_t kept_plane);
 
     /// Puts a copy of cell sources[k] at index k, for all k. Cells that are not among the sources
-    /// disappear. The cells at the indices `born` get the next numbers, in this order. No two
-    /// others have the same source. Returns whether the layout has changed. Otherwise all planes
-    /// stay in memory. Throws std::bad_alloc.
+    /// disappear. The cells at the indices `born` get the next numbers, in this order. No two other
+    /// cells have the same source. Returns whether the layout has changed. If not, all planes stay
+    /// in memory. Throws std::bad_alloc.
     bool rearrange(std::span<const std::uint32_t> sources,
                    std::span<const std::uint32_t> born = {});
-    /// Copies the values of the last cell into the elements after it.
+    /// Copies the values of the last cell to the elements after it.
     void pad();
 
     double value(std::size_t species_index, std::size_t cell) const;
@@ -142,7 +149,7 @@ private:
     std::vector<std::uint32_t> numbers_, by_number_, elements_by_number_, ranks_;
     Field number_plane_, ones_;
     Mask inside_, frozen_;
-    std::optional<std::size_t> frozen_by_;  ///< A plane of `kept`.
+    std::optional<std::size_t> frozen_by_;  ///< The plane of `kept` that freezes cells.
 };
 
 /// The value of a cell in a plane of the tissue's layout.

@@ -2,6 +2,8 @@
 #include "tissue/tissue_loop.h"
 
 #include "solvers/pace.h"
+#include "solvers/schedule.h"
+#include "solvers/step_control.h"
 #include "tissue/event_rounds.h"
 #include "tissue/part_cells.h"
 #include "tissue/stiffness.h"
@@ -22,7 +24,7 @@ constexpr double rise_of_motion = 3;
 constexpr double times_of_fastest_rate = 100;
 constexpr std::int64_t generations = 4;
 
-/// Steps between two estimates of the stiffness.
+/// Number of steps between two estimates of the stiffness.
 constexpr std::int64_t steps_of_an_estimate = 16;
 
 }  // namespace
@@ -81,14 +83,11 @@ public:
         outcome_ = {};
         progress_.steps = last_step;
         pace_.go_on(std::chrono::steady_clock::now(), time().steps);
+        stepper_.leave_on(control.cancel);
         report(control, false);
         bool going_on = is_started_ || start();
         while (going_on && !is_over() && time().steps < last_step) {
-            if (control.cancel) {
-                outcome_.cancelled = true;
-                break;
-            }
-            if (!take_step() || !happen()) break;
+            if (is_cancelled(control) || !take_step(control) || !happen()) break;
             if (pace_.report_due(std::chrono::steady_clock::now())) report(control, false);
             if (interval > 0 && time().steps % interval == 0 && observe && !observe(tissue_)) break;
             if (schedule_.check > 0 && time().steps % schedule_.check == 0 &&
@@ -112,6 +111,11 @@ private:
         return outcome_.ended || outcome_.failure;
     }
 
+    bool is_cancelled(const RunControl& control) {
+        outcome_.cancelled = control.cancel;
+        return outcome_.cancelled;
+    }
+
     bool fail(Failure refusal) {
         outcome_.failure = failure_of(TissueFailure::Kind::too_many_neighbours, tissue_);
         outcome_.failure->refusal = std::move(refusal);
@@ -123,7 +127,8 @@ private:
         if (tissue_.count() == 0) return true;
         outcome_.failure = find_not_finite(tissue_);
         if (outcome_.failure) return false;
-        // A resumed run has had these events, and its cells have parted.
+        // If a run is resumed, these events have already happened, and these cells have already
+        // been separated.
         if (time().steps == 0 && part_cells(tissue_, species_, surroundings_, schedule_.seed,
                                             schedule_.stage, tissue_.by_number())) {
             tissue_.pad();
@@ -135,12 +140,12 @@ private:
 
     bool estimate() {
         stepper_.lists().begin_step(tissue_);
-        // Differences move cells by a thousandth of the mean radius.
+        // Differences move cells by a thousandth of the mean radius, so this reach is enough.
         const auto reached = stepper_.reach(tissue_.species, 0.01 * stepper_.lists().mean_radius());
         if (!reached) return fail(reached.error());
         const double found = estimate_stiffness(tissue_, rules_.rates(), stepper_.sizes(),
                                                 stepper_.moment(1), stepper_.values());
-        // Cells that have just come apart may touch again.
+        // The bound is at most halved, because cells that have just separated may touch again.
         time().stiffness = std::max(found, time().stiffness / 2);
         time().estimated_at = time().steps;
         return true;
@@ -151,22 +156,26 @@ private:
         return std::isfinite(schedule_.end_time) ? schedule_.end_time / 100 : 0.01;
     }
 
-    /// Shorter steps would never reach the end.
+    /// The length of the shortest step. With shorter steps the stage would practically never end.
     double least_step() {
         const bool ends = std::isfinite(schedule_.end_time);
         return 1e-10 * (ends ? schedule_.end_time : std::max(time().t, 1.0));
     }
 
+    double next_end() { return std::min(schedule_.end_time, next_mark(time().t, schedule_.every)); }
+
     double next_length() {
         const double wanted =
             is_adaptive() ? std::min(time().control.step, schedule_.largest_step) : schedule_.step;
         const double whole = std::min(wanted, stepper_.longest_step());
-        // If the last step would leave almost nothing, it is made slightly longer.
-        const double left = schedule_.end_time - time().t;
+        // If almost no time would be left after the last step, this step is made slightly longer.
+        const double left = next_end() - time().t;
         return left < 1.01 * whole ? left : whole;
     }
 
-    bool take_step() {
+    /// Returns false, with the state of the last complete step, if there is none: after a failure
+    /// or a cancel. A run that is resumed takes the step.
+    bool take_step(const RunControl& control) {
         const auto ordered = stepper_.order_cells();
         if (!ordered) return fail(ordered.error());
         const bool uses_stiffness = is_stabilised(schedule_.solver) || time().estimated_at < 0;
@@ -175,10 +184,11 @@ private:
             if (!estimate()) return false;
         }
         if (time().control.step <= 0) time().control.step = first_step();
-        for (;;) {
+        while (!is_cancelled(control)) {
             const double length = next_length();
             const auto tried = stepper_.attempt(length);
             if (!tried) return fail(tried.error());
+            if (tried->is_abandoned) continue;
             if (is_accepted(*tried, length)) return finish_step(*tried, length);
             const bool is_finite = !std::isnan(tried->error);
             if (!is_adaptive() || time().control.step < least_step()) {
@@ -189,6 +199,7 @@ private:
                 if (!estimate()) return false;
             }
         }
+        return false;
     }
 
     bool is_accepted(const TriedStep& tried, double length) {
@@ -196,14 +207,18 @@ private:
         const int order = order_of_estimate(schedule_.solver);
         StepControl control(time().control, order);
         double error = tried.error;
-        // Too long a movement counts as an error that halves the step.
+        // A movement that is too long counts as an error that halves the step.
         if (tried.went_too_far) error = std::max(error, std::pow(2.0, order));
         const bool is_accepted = control.judge(length, error);
+        const double end = next_end();
+        const bool ends_at_mark = end < schedule_.end_time && length == end - time().t;
+        if (is_accepted && ends_at_mark && length < time().control.step)
+            control.forget_cut(time().control);
         time().control = control.state();
         return is_accepted;
     }
 
-    /// Finds the cell to blame, and restores the last good values.
+    /// Finds the cell that failed, and restores the last good values.
     bool fail_after(const TriedStep& tried, bool is_finite) {
         using Kind = TissueFailure::Kind;
         if (!is_finite) outcome_.failure = find_not_finite(tissue_);
@@ -224,7 +239,7 @@ private:
                 const double error = stepper_.errors()[k].visit([&](const auto& plane) {
                     return std::abs(double{plane.origin()[tissue_.element(cell)]}) / sizes[k];
                 });
-                // NaN counts as the largest.
+                // NaN counts as the largest error.
                 if (error <= most) continue;
                 most = error;
                 failure.number = tissue_.numbers()[cell];
@@ -233,7 +248,8 @@ private:
         }
     }
 
-    /// Finds the events of a step. If they are many, the step ends before the others.
+    /// Finds the events of a step. If there are too many events for one step, the step ends early,
+    /// and the remaining events happen later.
     bool finish_step(TriedStep tried, double length) {
         events_.clear();
         is_quiet_ = has_all_events_ = false;
@@ -292,7 +308,8 @@ private:
         stepper_.forget_rates();
     }
 
-    /// Divides and removes cells as due now, and returns whether the stage goes on.
+    /// Divides and removes the cells whose conditions hold now. Returns whether the stage
+    /// continues.
     bool happen() {
         EventRounds rounds(rules_, surroundings_, tissue_, species_, schedule_, stepper_);
         double last_event = time().t;
@@ -335,12 +352,13 @@ private:
     Progress progress_;
     Pace pace_;
     TissueOutcome outcome_;
-    std::vector<CellEvent> events_;  ///< Found in the last step, not yet applied.
-    /// No condition holds at the end of the last step.
+    std::vector<CellEvent> events_;  ///< Events of the last step that have not been applied yet.
+    /// Whether no condition holds at the end of the last step.
     bool is_quiet_ = false;
-    /// No condition holds there except for the cells of `events_`.
+    /// Whether no condition holds at the end of the last step for cells without an event in
+    /// `events_`.
     bool has_all_events_ = false;
-    double now_ = 0;  ///< The present progress towards rest.
+    double now_ = 0;  ///< The present progress_of() the tissue.
     bool is_started_ = false;
 };
 

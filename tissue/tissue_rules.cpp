@@ -1,4 +1,4 @@
-// Finds the registers of states.
+// Finds the registers that hold states.
 #include "tissue/tissue_rules.h"
 
 #include <algorithm>

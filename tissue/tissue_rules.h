@@ -15,12 +15,12 @@
 
 namespace cascade {
 
-/// The species that the loop itself knows, by their number.
+/// The species that the time loop uses, by their number.
 struct TissueSpecies {
-    std::size_t place = 0;  ///< The first of three components.
+    std::size_t place = 0;  ///< The first of the three components of the position.
     std::size_t radius = 3;
-    bool crawls = true;  ///< Positions have rates.
-    /// Species that never come to rest, such as the age. They do not count for steadiness.
+    bool crawls = true;  ///< Whether positions have rates, so that cells move.
+    /// Species that never come to rest, such as the age. Tests for rest ignore them.
     std::vector<std::size_t> restless;
 };
 
@@ -36,54 +36,56 @@ inline Vector3d place_of(const Tissue& tissue, const TissueSpecies& species, std
     return place_in(tissue.species, tissue, species, cell);
 }
 
-/// Passes that compute values of cells: they read the species in register 0 and write plane k of
-/// register 1.
+/// Passes that compute values of cells. They read the species in register 0 and write value k to
+/// plane k of register 1.
 struct CellValues {
-    const StepProblem* problem = nullptr;  ///< Null: there are no such values.
-    std::size_t count = 0;                 ///< Planes in register 1.
-    /// A cell's values depend only on its own species and what it senses: neither on other cells
-    /// nor on the time.
+    const StepProblem* problem = nullptr;  ///< Null if there are no such values.
+    std::size_t count = 0;                 ///< The number of planes in register 1.
+    /// Whether a cell's values depend only on its own species and on what it senses, and not on
+    /// other cells or the time.
     bool is_of_cell_alone = false;
 };
 
 /// The passes of a step.
 struct TissueStep {
     const StepProblem* problem = nullptr;
-    std::vector<RegisterId> states;  ///< The scheme's state_registers().
+    std::vector<RegisterId> states;  ///< The result of state_registers() for the scheme.
 };
 
 /// The registers at which the sweeps of a scheme evaluate rates, including the old step.
 std::vector<RegisterId> state_registers(const Scheme& scheme);
 
-/// The equations of a tissue as passes over its planes. Problems need not be told the number of
-/// cells, which changes without bind(). They stay in memory until the next bind().
+/// The equations of a tissue as passes over its planes. The problems returned below stay valid
+/// until the next bind(). They do not contain the number of cells, which may change without bind().
 class TissueRules {
 public:
     virtual ~TissueRules() = default;
 
-    /// Called first, and again when tissue.grid() has changed. Binds passes to it, to the addresses
-    /// of `links`, of the plane of numbers and of the mask of the cells.
+    /// Called first, and again when tissue.grid() has changed. Binds passes to the new grid and to
+    /// the addresses of `links`, of the plane of numbers and of the mask of the cells.
     virtual void bind(const Tissue& tissue, const Links& links) = 0;
 
-    /// A step, with this number of stages if the solver is stabilised. It has an error register if
-    /// the error chooses the steps.
+    /// The passes of a step. `stages` is its number of stages if the solver is stabilised. The step
+    /// has an error register if the length of steps is chosen by the error.
     virtual TissueStep step(std::uint32_t stages) = 0;
     /// The rates of all species.
     virtual CellValues rates() = 0;
 
-    /// Conditions, which hold where the value is above 0.
+    /// The conditions of division and death. A condition holds where its value is above 0.
     struct Conditions {
         CellValues values;
-        std::optional<std::size_t> divide, die;  ///< Their planes.
+        std::optional<std::size_t> divide, die;  ///< The planes of the two conditions.
     };
     virtual Conditions conditions() = 0;
 
-    /// The first of three planes with the direction of division, of any length, for a dividing
-    /// cell. Without it, or where the direction is 0, cells divide at random in the tangent plane.
+    /// The direction of division of each dividing cell, of any length, in three planes. If there
+    /// are no such values, or where the direction is 0, cells divide in a random direction of the
+    /// tangent plane.
     virtual CellValues along() = 0;
 
-    /// Values after a division, by the same formulas for both cells. Evaluated when the new cells
-    /// have their positions and still all values of their mothers.
+    /// The values that both cells get after a division. The formulas are the same for both. They
+    /// are evaluated when the new cells are already at their positions but still have all values of
+    /// their mothers.
     struct Restarts {
         CellValues values;
         /// Plane k is the new value of species[k]. Indices beyond the species refer to

@@ -1,7 +1,9 @@
-// A step that leads cells beyond their lists is repeated with better ones, which changes no bit.
+// If cells leave the reach of their lists during a step, the step is repeated with better lists.
+// The result is the same bit for bit.
 #include "tissue/tissue_stepper.h"
 
 #include "core/check.h"
+#include "core/parallel.h"
 
 #include <algorithm>
 #include <array>
@@ -13,15 +15,16 @@ namespace cascade {
 
 namespace {
 
-/// Every number of stages has its own passes and planes, so only a few are used.
+/// The numbers of stages that are used. Each number needs separate passes and planes, so there
+/// are only a few.
 constexpr std::array<std::uint32_t, 14> numbers_of_stages{3,  5,  7,  9,  11, 13, 17,
                                                           21, 27, 35, 45, 57, 75, 99};
 
-/// A step ends before more than one in this many of its cells have events: new cells and their
-/// neighbours see each other only after its end.
+/// A step ends early if more than one in this many cells has an event. The reason is that new cells
+/// and their neighbours interact only after the end of the step.
 constexpr std::size_t cells_of_an_event = 20;
 
-/// The longest step after an event, in shortest time scales of rates.
+/// The longest step after an event, as a multiple of the shortest time scale of the rates.
 constexpr double most_of_stiffness = 4;
 
 bool all_finite(const Tissue& tissue) {
@@ -77,7 +80,7 @@ std::vector<double> sizes_of(const std::vector<Field>& species, const Tissue& ti
     for (std::size_t k = 0; k < 3 && mean_radius > 0; ++k) {
         if (std::isfinite(sizes[roles.place + k])) sizes[roles.place + k] = mean_radius;
     }
-    // The negation preserves NaN.
+    // The comparison preserves NaN.
     for (double& size : sizes) size = size < 1e-30 ? 1e-30 : size;
     return sizes;
 }
@@ -215,13 +218,17 @@ Result<TriedStep> TissueStepper::attempt(double length) {
         stepper_->use(problem(stages(length)));
         stepper_->set_clock(clock(length));
         TriedStep tried{stepper_->roles()};
-        if (schedule_.tolerance > 0) {
-            stepper_->attempt(tissue_.time.steps, schedule_.tolerance);
-        } else if (!stepper_->advance(tissue_.time.steps, 1, true)) {
-            tried.error = NAN;
-        }
+        stepper_->leave_on(*cancel_);
+        tried.is_abandoned = !complete([&] {
+            if (schedule_.tolerance > 0) {
+                stepper_->attempt(tissue_.time.steps, schedule_.tolerance);
+            } else if (!stepper_->advance(tissue_.time.steps, 1, true)) {
+                tried.error = NAN;
+            }
+        });
         stepper_->lend(tissue_.species);
         lists_.end_step(tissue_);
+        if (tried.is_abandoned) return tried;
         if (!lists_.watch()->left_lists() || is_full) {
             if (schedule_.tolerance > 0) tried.error = error();
             tried.went_too_far = lists_.watch()->went_too_far();
@@ -233,7 +240,8 @@ Result<TriedStep> TissueStepper::attempt(double length) {
     }
 }
 
-/// Independent of memory order, unlike Stepper::attempt()'s error.
+/// The error of the step just tried. Unlike the error that Stepper::attempt() returns, it does not
+/// depend on the order of cells in memory.
 double TissueStepper::error() {
     const std::vector<double> errors = root_mean_squares(stepper_->error_planes(), tissue_, team_);
     const std::vector<double> of_values = sizes();
@@ -280,7 +288,8 @@ Result<TissueStepper::StepEvents> TissueStepper::events(const TriedStep& tried, 
     return result;
 }
 
-/// Keeps the events before the step must end, and moves to that end.
+/// Decides where the step must end, discards later events, and sets the values to those at that
+/// moment.
 void TissueStepper::end_at(std::vector<CellEvent>& found, const StepCubic& cubic,
                            StepEvents& result) {
     if (found.empty()) return;

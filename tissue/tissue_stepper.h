@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/parallel.h"
+#include "core/run_control.h"
 #include "solvers/stepper.h"
 #include "tissue/cell_lists.h"
 #include "tissue/event_search.h"
@@ -11,6 +12,7 @@
 #include "tissue/tissue_rules.h"
 #include "tissue/value_runner.h"
 
+#include <atomic>
 #include <cstddef>
 #include <map>
 #include <memory>
@@ -20,63 +22,74 @@
 
 namespace cascade {
 
-/// The root mean square over the cells of each of these planes, or of their differences to
-/// `others`. NaN if one is NaN. Threads share the planes.
+/// The root mean square over the cells of each of `fields`. If `others` is not null, of the
+/// difference between each field and the corresponding one of `others`. NaN if a value is NaN. The
+/// threads of the team share the planes.
 std::vector<double> root_mean_squares(const std::vector<Field>& fields, const Tissue& tissue,
                                       Team& team, const std::vector<Field>* others = nullptr);
 
-/// The size of each species, for comparison with errors and speeds: the mean radius for positions,
-/// the root mean square for others, and at least 1e-30.
+/// The size of each species, in proportion to which errors and speeds are judged: the mean radius
+/// for positions, the root mean square for all other species, and at least 1e-30.
 std::vector<double> sizes_of(const std::vector<Field>& species, const Tissue& tissue,
                              const TissueSpecies& roles, double mean_radius, Team& team);
 
-/// A failure of the tissue as it is.
+/// Describes a failure of the tissue in its present state.
 TissueFailure failure_of(TissueFailure::Kind kind, const Tissue& tissue);
-/// Blames the first cell by number with a value that is not finite.
+/// Finds the first cell, by number, that has a value that is not finite.
 std::optional<TissueFailure> find_not_finite(const Tissue& tissue);
 
-/// A tried step. The values at its end are current.
+/// The result of a tried step. The current values are the values at its end.
 struct TriedStep {
-    CopyRoles before;  ///< At the step's beginning.
-    double error =
-        0;  ///< In units of the tolerance. NaN if a value is not finite. 0 if not judged.
+    CopyRoles before;  ///< The roles at the beginning of the step.
+    /// The error of the step in units of the tolerance. NaN if a value is not finite. 0 if errors
+    /// are not estimated.
+    double error = 0;
     bool went_too_far = false;
+    /// Whether the step was abandoned. The current values are then the values at its beginning, and
+    /// no function of this class may be called any more.
+    bool is_abandoned = false;
 };
 
-/// Owns everything that must be remade when planes move. Between calls tissue.species holds the
-/// current values.
+/// Owns everything that must be made again when planes move. Between calls, tissue.species holds
+/// the current values.
 class TissueStepper {
 public:
     TissueStepper(TissueRules& rules, const Surroundings& surroundings, Tissue& tissue,
                   std::shared_ptr<NearTriangles> triangles, const TissueSpecies& species,
                   const TissueSchedule& schedule);
 
-    /// Must be called first and after every change of cells, with whether the planes have moved.
-    /// Finds the lists, and rebinds everything if planes moved. `only`: the cells that are new or
-    /// have moved, if no others have changed. Empty: all.
+    /// Builds the lists. Must be called first and after every change of cells. If `has_moved` is
+    /// true, the planes have moved, and everything is bound again. If only some cells are new or
+    /// have moved and no others have changed, they are listed in `only`. If `only` is empty, the
+    /// lists of all cells are built.
     Result<void> cells_changed(bool has_moved, std::span<const std::uint32_t> only = {});
     /// Reorders the cells if that saves more time than it takes.
     Result<void> order_cells();
 
-    /// Makes lists that are valid for this state and for some distance around its positions, unless
-    /// they are. Values may then be evaluated there.
+    /// Builds lists, if necessary, so that values may be evaluated in this state and at positions
+    /// that differ from it by up to `around`.
     Result<void> reach(const std::vector<Field>& state, double around = 0);
-    /// Does the same for the present, if only these cells have changed since lists were valid.
+    /// Builds lists, if necessary, so that values may be evaluated in the present state. Only the
+    /// given cells may have changed since lists were valid.
     Result<void> reach(std::span<const std::uint32_t> cells);
 
-    /// Tries a step of this length, with lists that reach far enough. Call accept() or undo() next.
+    /// From now on attempt() abandons its step when `cancel` becomes true.
+    void leave_on(const std::atomic<bool>& cancel) { cancel_ = &cancel; }
+    /// Tries a step of this length, with lists that are valid during the step. The caller must then
+    /// call accept() or undo().
     Result<TriedStep> attempt(double length);
-    /// The events of the tried step, of this length. If they are too many for one step, it ends
-    /// earlier, and the current values are those at that moment.
+    /// The events of the tried step. If there are too many for one step, the step ends early, and
+    /// the current values are the values at that end.
     struct StepEvents {
-        double part = 1;  ///< The part of the step at which it ends.
+        double part = 1;  ///< The fraction of the tried step after which the step ends.
         std::vector<CellEvent> events;
-        bool has_all = false;  ///< No condition holds at the end for any other cell.
+        bool has_all = false;  ///< Whether no condition holds at the end of the step for any cell
+                               ///< without an event.
     };
     Result<StepEvents> events(const TriedStep& tried, double length);
     void accept();
     void undo(const TriedStep& tried);
-    /// The values at the beginning of a tried step. They must be given back.
+    /// Gives the values at the beginning of a tried step to the caller, who must give them back.
     std::vector<Field> lend_beginning(const TriedStep& tried);
     void take_beginning(const TriedStep& tried, std::vector<Field> values);
     const std::vector<Field>& errors() const { return stepper_->error_planes(); }
@@ -85,7 +98,7 @@ public:
     StepMoment moment(double length) const;
     /// Called when values have been changed from outside.
     void forget_rates() { stepper_->forget_rates(); }
-    /// The longest step that the solver can take, by the stiffness.
+    /// The longest step that the solver can take at the present stiffness.
     double longest_step() const;
     std::vector<double> sizes();
 
@@ -110,8 +123,9 @@ private:
     Team team_;
     CellLists lists_;
     ValueRunner values_;
-    std::map<std::uint32_t, StepProblem> problems_;  ///< By number of stages.
+    std::map<std::uint32_t, StepProblem> problems_;  ///< The problem for each number of stages.
     std::optional<Stepper> stepper_;
+    const std::atomic<bool>* cancel_ = &never_cancelled;
 };
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Sets the present number of cells in a copy of each problem.
+// Runs a copy of each problem in which the present number of cells is set.
 #include "tissue/value_runner.h"
 
 #include "core/check.h"
@@ -16,7 +16,7 @@ void keep_each_once(std::vector<std::uint32_t>& cells) {
     cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
 }
 
-/// These cells and their neighbours.
+/// The given cells and their neighbours, in ascending order.
 template <typename Number>
 std::vector<std::uint32_t> with_neighbours(std::vector<std::uint32_t> cells,
                                            const LinkTable<Number>& links,
@@ -40,11 +40,12 @@ std::vector<std::uint32_t> with_neighbours(std::vector<std::uint32_t> cells,
 
 using Patches = std::vector<Patch>;
 
-/// Fewer patches are not worth the other threads.
+/// The smallest number of patches for which several threads are used. With fewer patches they save
+/// no time.
 constexpr std::size_t patches_of_threads = 32;
 
-/// The slices of links that contain these cells, as patches of one row, adjacent ones joined. The
-/// cells are in ascending order.
+/// The slices of links that contain these cells, as patches of one row. Adjacent patches are
+/// joined. `cells` is in ascending order.
 Patches slices_of(std::span<const std::uint32_t> cells, std::int64_t width) {
     constexpr std::int64_t lanes = PlaneLayout::row_pad;
     Patches slices;
@@ -72,8 +73,8 @@ std::size_t writer_of(const StepProblem& problem, std::size_t reader, TemporaryI
     return 0;
 }
 
-/// The cells that each pass must compute for the values of some of them. Empty if all cells are
-/// needed.
+/// The cells that each pass must compute, if only the values of `among` are needed. Empty if all
+/// cells are needed.
 std::vector<Patches> patches_of_passes(const StepProblem& problem,
                                        std::span<const std::uint32_t> among) {
     const auto reduces = [](const StepProblem::Pass& pass) { return !pass.reductions.empty(); };
@@ -86,7 +87,7 @@ std::vector<Patches> patches_of_passes(const StepProblem& problem,
         const StepProblem::Pass& reader = problem.passes[pass];
         keep_each_once(cells[pass]);
         patches[pass] = slices_of(cells[pass], layout.width);
-        std::vector<std::uint32_t> others;  // Neighbours by links.
+        std::vector<std::uint32_t> others;  // Neighbours that are read by links.
         for (std::size_t k = 0; k < reader.fields.size(); ++k) {
             const auto* const temporary = std::get_if<TemporaryId>(&reader.fields[k]);
             if (temporary == nullptr) continue;

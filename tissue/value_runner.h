@@ -1,4 +1,4 @@
-// Evaluates values of cells, such as rates and conditions, at any state of a tissue.
+// Evaluates values of cells, such as rates and conditions, in any state of a tissue.
 #pragma once
 
 #include "core/parallel.h"
@@ -13,20 +13,20 @@
 
 namespace cascade {
 
-/// Keeps the planes of each problem's values until clear().
+/// Evaluates the values. Owns the planes of each problem's results until clear().
 class ValueRunner {
 public:
     explicit ValueRunner(Team& team) : team_(team) {}
 
-    /// The values at this state, in planes that the next call for the same values overwrites.
-    /// `among`: the only cells needed. Empty: all.
+    /// The values in this state. The next call for the same values overwrites the returned planes.
+    /// If `among` is not empty, only the values of these cells are needed.
     std::vector<Field>& run(const CellValues& values, std::vector<Field>& state,
                             const Tissue& tissue, const StepMoment& moment,
                             std::span<const std::uint32_t> among = {});
     Team& team() const { return team_; }
-    /// Call when problems are gone.
+    /// Must be called when problems are destroyed.
     void clear() { known_.clear(); }
-    /// Call when links have changed or cells have moved in memory.
+    /// Must be called when links have changed or cells have moved in memory.
     void links_changed() {
         for (auto& [problem, known] : known_) known.among.clear();
     }
@@ -36,8 +36,9 @@ private:
         StepProblem problem;
         std::unique_ptr<PassRunner> runner;
         std::vector<Field> results;
-        std::vector<std::uint32_t> among;         ///< The last cells requested.
-        std::vector<std::vector<Patch>> patches;  ///< The patches of each pass for them.
+        std::vector<std::uint32_t> among;  ///< The cells of the last call.
+        std::vector<std::vector<Patch>>
+            patches;  ///< By pass: the patches that the pass must compute for the cells `among`.
     };
     Team& team_;
     std::map<const StepProblem*, Known> known_;

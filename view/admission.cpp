@@ -1,4 +1,4 @@
-// The rules of admission, in the order in which they are tried.
+// Checks the rules of admission one after the other.
 #include "view/admission.h"
 
 #include <fmt/format.h>
@@ -7,7 +7,8 @@ namespace cascade {
 
 bool same_secret(std::string_view a, std::string_view b) {
     if (a.size() != b.size()) return false;
-    volatile unsigned char difference = 0;  // Volatile, so that the loop never ends early.
+    // Volatile, so that compilers cannot end the loop early.
+    volatile unsigned char difference = 0;
     for (std::size_t k = 0; k < a.size(); ++k) {
         difference = static_cast<unsigned char>(difference | (a[k] ^ b[k]));
     }

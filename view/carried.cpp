@@ -1,4 +1,4 @@
-// Reads the files that a simulation of the script has read.
+// Reads again the files that a simulation of the script has read.
 #include "view/carried.h"
 
 #include "core/granted_files.h"

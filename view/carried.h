@@ -1,4 +1,4 @@
-// The contents of a page that includes its engine: a script, and the files that it needs.
+// The contents of a page that includes its engine: a script and the files that it needs.
 #pragma once
 
 #include "core/result.h"
@@ -11,19 +11,22 @@
 
 namespace cascade {
 
-/// The model's name among the carried files, which no script can use for a file.
+/// The name of the model among the carried files. No file of a script can have this name.
 inline constexpr const char* carried_model_name = "//model";
 
 struct Carried {
     std::string name, text;
-    bool is_exact = false;  ///< Steps flush denormal numbers wherever the program does.
-    std::string overrides;  ///< As in pictures (run/script/embedded_script.h).
-    /// By their names in the script: NumPy arrays as they are, pictures as their pixels
-    /// (picture/pixel_file.h), and the model with its cells (run/domain/carried_model.h).
+    /// Whether steps set denormal numbers to 0 in exactly the same operations as the native
+    /// program.
+    bool is_exact = false;
+    std::string overrides;  ///< In the same format as in pictures (run/script/embedded_script.h).
+    /// The contents of files, each with its name in the script: NumPy arrays unchanged, pictures as
+    /// pixels (picture/pixel_file.h), and the model with its cells (run/domain/carried_model.h).
     std::vector<std::pair<std::string, std::string>> files;
 };
 
-/// Fails if a file cannot be read any more, and if a stage has a body, which pages cannot make.
+/// Collects the contents of a page. Fails if a file can no longer be read, or if a stage has a
+/// body, because pages cannot make bodies.
 Result<Carried> carried_by(const Script& script, const Simulation& simulation);
 
 }  // namespace cascade

@@ -1,4 +1,5 @@
-// Files are read by the same readers, with the same grants, as models that scripts name.
+// Loaded files are checked by the same functions, with the same limits, as models that scripts
+// name.
 #include "view/loaded_models.h"
 
 #include "core/file.h"
@@ -20,9 +21,9 @@ namespace fs = std::filesystem;
 constexpr std::size_t longest_name = 80;
 constexpr int most_of_a_name = 1000;
 
-/// The last part of a name, with '_' for what could mean something in a script or a path.
+/// The last part of a path. Characters that have a meaning in scripts or paths are replaced by '_'.
 fs::path plain_name(std::string_view name) {
-    name.remove_prefix(name.find_last_of("/\\") + 1);  // npos + 1 is 0.
+    name.remove_prefix(name.find_last_of("/\\") + 1);  // If there is no slash, npos + 1 is 0.
     if (name.size() > longest_name) name.remove_prefix(name.size() - longest_name);
     std::string plain;
     for (const char sign : name) {
@@ -103,7 +104,8 @@ Result<std::string> LoadedModels::keep(const std::string& name, const std::strin
     return found;
 }
 
-/// The wanted name, or one with a number, that no other file has. The same bytes keep their name.
+/// The wanted name, or that name with a number if another file has it. If a file with the same
+/// bytes exists, its name.
 Result<std::string> LoadedModels::free_name(const std::string& wanted,
                                             const std::string& bytes) const {
     const fs::path path(wanted);

@@ -1,4 +1,5 @@
-// Models that users load on a page. They arrive in parts and are kept in a folder of the session.
+// Models that users load into a page. They arrive in parts and are stored in a folder of the
+// session.
 #pragma once
 
 #include "core/result.h"
@@ -9,33 +10,34 @@
 
 namespace cascade {
 
-/// A part of a file: its bytes from `at` on, of `size` in all.
+/// A part of a file that is being sent: the bytes from position `at` on. The whole file has `size`
+/// bytes.
 struct LoadPart {
-    std::string name;  ///< As the user's machine calls the file.
+    std::string name;  ///< The name of the file on the user's machine.
     std::uint64_t at = 0;
     std::uint64_t size = 0;
     std::string bytes;
 };
 
-/// In bytes: of one model, and of all models of a session.
+/// The largest number of bytes of one model, and of all models of a session together.
 struct LoadLimits {
     std::uint64_t model = std::uint64_t{64} << 20;
     std::uint64_t session = std::uint64_t{256} << 20;
 };
 
-/// Not thread-safe.
+/// Only one thread may use this object.
 class LoadedModels {
 public:
-    /// Keeps models in `folder`, to which scripts must have access. Their names differ from those
-    /// of other files there and in `script_folder`, where scripts search first. An empty `folder`
-    /// takes none.
+    /// Stores models in `folder`, which scripts must be permitted to read. Each model gets a file
+    /// name that is neither used there nor in `script_folder`, which scripts search first. If
+    /// `folder` is empty, no model is accepted.
     LoadedModels(std::filesystem::path folder, std::filesystem::path script_folder,
                  const LoadLimits& limits = {});
 
-    /// Takes the next part of a file; parts that it has are ignored. After the last one it returns
-    /// the name by which scripts find the model, before that an empty one. Fails, and keeps nothing
-    /// of the file, if it is too large or no readable model. Files are taken one after the other: a
-    /// first part ends the file before.
+    /// Adds the next part of a file. A part that has already arrived is ignored. If this was the
+    /// last part, returns the name by which scripts find the model, and otherwise an empty name. If
+    /// the file is too large or is not a readable model, fails and discards it. Only one file can
+    /// arrive at a time: the first part of a file discards an incomplete earlier file.
     Result<std::string> add(const LoadPart& part);
 
 private:
@@ -44,11 +46,11 @@ private:
 
     std::filesystem::path folder_, script_folder_;
     LoadLimits limits_;
-    std::string name_;  ///< Of the file that arrives, and its size and bytes so far.
+    std::string name_;  ///< The name, the size and the bytes so far of the file that is arriving.
     std::uint64_t size_ = 0;
     std::string bytes_;
-    std::string kept_as_;     ///< The script's name for it, when all of it has arrived.
-    std::uint64_t kept_ = 0;  ///< Bytes of all models.
+    std::string kept_as_;     ///< The model's name for scripts, once the file is complete.
+    std::uint64_t kept_ = 0;  ///< The number of bytes of all stored models.
 };
 
 }  // namespace cascade

@@ -1,8 +1,8 @@
-// The server on Boost.Beast, which no other file includes, because its headers take long to
+// The server, built on Boost.Beast. No other file includes Beast, because its headers take long to
 // compile.
 //
 // One thread handles all network events, so connections need no locks. Other threads only put
-// messages into outboxes and ask that thread to check them.
+// messages into outboxes and tell that thread to check them.
 #include "view/local_server.h"
 
 #include "core/temporary_file.h"
@@ -38,20 +38,20 @@ namespace {
 
 class Connection;
 
-/// The time for pages to answer the server's goodbye, and for strangers to read why they are
-/// refused.
+/// How long the server waits for pages to answer its close, and for clients to read a refusal.
 constexpr std::chrono::milliseconds farewell_time{500};
 
-/// The server that runs in this thread.
+/// The server whose thread this is. Null in all other threads.
 thread_local const void* server_of_this_thread = nullptr;
 
-/// A program that is started to show the page must not inherit the port.
+/// Prevents programs that are started to show the page from inheriting the port.
 template <typename Socket>
 void close_on_exec(Socket& socket) {
     ::fcntl(socket.native_handle(), F_SETFD, FD_CLOEXEC);
 }
 
-/// How other threads reach a page. Only the server's thread locks `connection`.
+/// The part of a connection to a page that other threads use. Only the server's thread locks
+/// `connection`.
 struct PageLine {
     std::shared_ptr<Outbox> outbox;
     std::weak_ptr<Connection> connection;
@@ -65,7 +65,8 @@ public:
 
     Result<void> start();
     void stop();
-    /// `add` puts a message into the outbox of the page.
+    /// Calls `add` with the page's outbox, so that it can put a message there. Then makes the
+    /// server's thread send it.
     template <typename Add>
     void send(PageId page, const Add& add);
 
@@ -80,8 +81,8 @@ public:
     std::string token;
     std::string policy;
     std::optional<Admission> admission;
-    std::set<Connection*> connections;  ///< Only for the server's thread.
-    std::uint64_t last_connection = 0;  ///< Likewise.
+    std::set<Connection*> connections;  ///< Only the server's thread uses this member.
+    std::uint64_t last_connection = 0;  ///< Only the server's thread uses this member.
 
 private:
     Result<void> open_doors();
@@ -93,15 +94,15 @@ private:
     std::mutex pages_mutex_;
     std::map<PageId, PageLine> pages_;
     PageId last_page_ = 0;
-    std::mutex stop_mutex_;  ///< Held while waiting for the thread.
+    std::mutex stop_mutex_;  ///< Held while waiting for the thread to end.
     bool is_closing_ = false;
-    // Declared after `connections`, which connections leave when `io_` destroys them.
+    // Declared after `connections`, because destroying `io_` removes connections from it.
     asio::io_context io_{1};
     std::vector<tcp::acceptor> doors_;
     std::thread thread_;
 };
 
-/// One connection: HTTP requests, one after another, until one turns it into a page's WebSocket.
+/// A connection. Answers HTTP requests until a request opens the WebSocket of a page.
 class Connection : public std::enable_shared_from_this<Connection> {
 public:
     Connection(Server& server, tcp::socket socket)
@@ -116,12 +117,13 @@ public:
     Connection& operator=(const Connection&) = delete;
 
     void read_request();
-    /// Sends what waits for the page, unless a message is being sent.
+    /// Sends the waiting messages, unless a message is being sent already.
     void send_waiting();
     void say_goodbye();
-    /// May it be closed to make room? Pages stay, and closed connections leave soon.
+    /// Whether this connection may be closed to make room for another. Pages and closed connections
+    /// may not.
     bool is_stranger() const { return page_ == 0 && !is_closed_; }
-    const std::uint64_t number;  ///< In order of arrival.
+    const std::uint64_t number;  ///< Counted in order of arrival.
     void close() {
         is_closed_ = true;
         patience_.cancel();
@@ -139,11 +141,12 @@ private:
 
     Server& server_;
     websocket::stream<beast::tcp_stream> stream_;
-    asio::steady_timer patience_;  ///< With a page that has said goodbye.
+    /// Limits how long the server waits for a page's answer to its close.
+    asio::steady_timer patience_;
     beast::flat_buffer buffer_;
     std::optional<http::request_parser<http::empty_body>> parser_;
     http::response<http::span_body<const char>> response_;
-    PageId page_ = 0;  ///< 0 until it is a page.
+    PageId page_ = 0;  ///< The number of the page. 0 if the connection is not a page.
     bool is_closed_ = false;
     std::shared_ptr<Outbox> outbox_;
     std::optional<Outgoing> sending_;
@@ -221,7 +224,8 @@ void Connection::answer(unsigned status, std::string_view type, std::string_view
     http::async_write(stream_.next_layer(), response_, then);
 }
 
-/// Reads what a stranger still sends, because closing a socket with unread bytes loses the answer.
+/// Reads the rest of a refused request. If the socket were closed with unread bytes, the client
+/// would lose the answer.
 void Connection::wait_for_end() {
     buffer_.clear();
     const auto then = [self = shared_from_this()](error_code error, std::size_t) {
@@ -235,7 +239,7 @@ void Connection::open_page() {
     if (server_.count_pages() >= server_.limits.pages) {
         return refuse({503, "Too many pages are open."});
     }
-    stream_.next_layer().expires_never();  // The WebSocket has a timer of its own.
+    stream_.next_layer().expires_never();  // The WebSocket has another timer.
     stream_.set_option(websocket::stream_base::timeout{server_.limits.request_time,
                                                        server_.limits.idle_time, true});
     stream_.read_message_max(server_.limits.message_bytes);
@@ -268,7 +272,8 @@ void Connection::read_text() {
     stream_.async_read(buffer_, then);
 }
 
-/// Its goodbye is answered at once, but a page may leave its end of the connection open.
+/// Limits how long the server waits after a close. If the page closes first, it gets its answer at
+/// once, but it may leave its end of the connection open.
 void Connection::expect_end() {
     patience_.expires_after(farewell_time);
     patience_.async_wait([self = shared_from_this()](error_code error) {
@@ -307,14 +312,15 @@ Result<void> Server::start() {
     try {
         if (auto opened = open_doors(); !opened) return opened;
         admission.emplace(port, token);
-        // Scripts, styles and connections only from this server, and no embedding elsewhere.
+        // Only this server may supply scripts and styles and be connected to. No other site may
+        // embed the page.
         policy = fmt::format(
             "default-src 'self'; img-src 'self' blob: data:; worker-src 'self' blob:; "
             "connect-src 'self' ws://127.0.0.1:{0} ws://localhost:{0}; base-uri 'none'; "
             "form-action 'none'; frame-ancestors 'none'; object-src 'none'",
             port);
         for (tcp::acceptor& door : doors_) accept(door);
-        // Signals are for the threads that expect them.
+        // Signals are blocked in the new thread, so that they reach the threads that expect them.
         sigset_t all, before;
         sigfillset(&all);
         pthread_sigmask(SIG_SETMASK, &all, &before);
@@ -326,7 +332,7 @@ Result<void> Server::start() {
     return {};
 }
 
-/// Opens a free port of 127.0.0.1, and the same one of ::1 if there is IPv6.
+/// Opens a free port of 127.0.0.1, and the same port of ::1 if the machine has IPv6.
 Result<void> Server::open_doors() {
     constexpr int most_tries = 16;
     for (int k = 0; k < most_tries; ++k) {
@@ -344,7 +350,8 @@ Result<void> Server::open_doors() {
         six.open(tcp::v6(), error);
         if (!error) six.set_option(asio::ip::v6_only(true), error);
         if (!error) six.bind({asio::ip::address_v6::loopback(), port}, error);
-        // A browser that tries ::1 first would reach whoever has this port there.
+        // If another program had this port of ::1, a browser that tries ::1 first would connect to
+        // that program.
         if (error == asio::error::address_in_use) continue;
         if (!error) six.listen(asio::socket_base::max_listen_connections, error);
         if (error) return {};
@@ -358,7 +365,8 @@ Result<void> Server::open_doors() {
 void Server::accept(tcp::acceptor& door) {
     door.async_accept([this, &door](error_code error, tcp::socket socket) {
         if (is_closing_) return;
-        // If descriptors have run out, the thread would spin until one is free.
+        // If file descriptors have run out, accepting fails at once. Without this pause, the thread
+        // would try again without end.
         if (error) std::this_thread::sleep_for(std::chrono::milliseconds(10));
         if (!error && make_room()) {
             close_on_exec(socket);
@@ -369,8 +377,8 @@ void Server::accept(tcp::acceptor& door) {
     });
 }
 
-/// Closes the oldest connection that has not become a page, so that idle strangers do not lock
-/// pages out. Returns false if there is none.
+/// If there are too many connections, closes the oldest one that is not a page, so that idle
+/// clients cannot keep pages out. Returns false if every connection is a page.
 bool Server::make_room() {
     if (connections.size() < limits.connections) return true;
     Connection* oldest = nullptr;

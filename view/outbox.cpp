@@ -1,4 +1,4 @@
-// The queue of texts and the slots of frames.
+// Stores texts in a queue, and frames in one slot for each kind.
 #include "view/outbox.h"
 
 #include <algorithm>

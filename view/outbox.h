@@ -1,4 +1,5 @@
-// The messages that wait for one page: every text in order, and the newest frame of each kind.
+// The messages that wait to be sent to one page: all texts in order, and the newest frame of each
+// kind.
 #pragma once
 
 #include <cstddef>
@@ -15,30 +16,30 @@ namespace cascade {
 /// Bytes to send, shared by the pages that receive them.
 using SharedBytes = std::shared_ptr<const std::string>;
 
-/// A message on its way out.
+/// A message to be sent.
 struct Outgoing {
     SharedBytes bytes;
     bool is_text = false;
 };
 
-/// Any thread fills it, and one empties it. A slow reader costs at most one frame of each kind and
-/// a bounded amount of text.
+/// Any thread may add messages, and a single thread sends them. If the page reads slowly, at most
+/// one frame of each kind and a limited amount of text wait.
 class Outbox {
 public:
     explicit Outbox(std::size_t most_text) : most_text_(most_text) {}
 
     enum class Added {
-        sleeping,  ///< The sender must be woken.
-        awake,     ///< The sender will check the outbox.
-        overflow,  ///< Too much text waits. This one was dropped.
+        sleeping,  ///< The sender sleeps and must be woken.
+        awake,     ///< The sender is awake and will find the message.
+        overflow,  ///< Too much text is waiting, so this message was dropped.
     };
 
     Added add_text(std::string text);
     /// Replaces a waiting frame of the same kind.
     Added add_frame(int kind, SharedBytes bytes);
 
-    /// The next message: texts first, then the kind of frame that has waited longest. nullopt if
-    /// the outbox is empty. Then the sender sleeps until it is woken.
+    /// Removes and returns the next message: texts first, then the frame that has waited longest.
+    /// Empty if there is no message. The sender then counts as sleeping until somebody wakes it.
     std::optional<Outgoing> next();
 
 private:

@@ -1,10 +1,11 @@
-// Texts by nlohmann-json, planes as their bytes.
+// Prints texts with nlohmann-json, and appends planes as raw bytes.
 #include "view/page_answer.h"
 
 #include "core/palette.h"
 #include "core/utf8.h"
 #include "lang/print/library_note.h"
 #include "picture/image.h"
+#include "run/pictures/picture_size.h"
 
 #include <nlohmann/json.hpp>
 
@@ -21,20 +22,12 @@ namespace {
 using Json = nlohmann::json;
 static_assert(std::endian::native == std::endian::little, "planes are sent as they lie in memory");
 
-/// Users' texts may hold bytes that are not UTF-8.
+/// Prints JSON. Replaces bytes that are not UTF-8, which texts of users may contain.
 std::string print(const Json& json) {
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// A position in a text: a line, from 1, and a column as in JavaScript, from 0.
-Json place_of(std::string_view text, std::size_t byte) {
-    const std::string_view before = text.substr(0, byte);
-    const std::size_t start = before.rfind('\n') + 1;  // npos + 1 is 0.
-    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
-    return {line, count_utf16_units(before.substr(start))};
-}
-
-/// Leaves out source locations in other texts, such as an option.
+/// Prints diagnostics. Positions outside of `text`, such as in an option, are left out.
 Json print_diagnostics(const Diagnostics& diagnostics, const Sources& sources,
                        std::string_view text) {
     Json list = Json::array();
@@ -44,8 +37,8 @@ Json print_diagnostics(const Diagnostics& diagnostics, const Sources& sources,
                     {"hint", diagnostic.hint}};
         const Span span = diagnostic.span;
         if (sources[span.source].text() == text) {
-            one["from"] = place_of(text, span.begin);
-            one["to"] = place_of(text, span.end);
+            one["from"] = place_in_text(text, span.begin);
+            one["to"] = place_in_text(text, span.end);
         }
         for (const Note& note : diagnostic.notes) one["notes"].push_back(note.message);
         list.push_back(std::move(one));
@@ -57,8 +50,8 @@ Json print_failure(const Failure& failure) {
     return {{"is_error", true}, {"message", failure.message}, {"hint", failure.hint}};
 }
 
-/// Sliders: the parameters with a range that are one number for all cells, of stages that have
-/// begun. A parameter of several stages has its stage in its name.
+/// Prints the sliders for uniform parameters with a range, in stages that have begun. If several
+/// stages have a parameter of the same name, the name of the stage is added.
 Json print_controls(const LiveRun& run) {
     Json controls = Json::array();
     const Program& program = *run.script().program;
@@ -81,7 +74,7 @@ Json print_controls(const LiveRun& run) {
     return controls;
 }
 
-/// The species of the current stage, led by the one that its pictures show.
+/// Prints the species of the current stage, first the one that its pictures show.
 Json print_species(const LiveRun& run) {
     Json names = Json::array();
     const Program& program = *run.script().program;
@@ -96,14 +89,14 @@ Json print_species(const LiveRun& run) {
     return names;
 }
 
-/// The targets of strokes: species, and whether there are crawling cells at all.
+/// Prints what brush strokes can do: change a species, or "remove" crawling cells.
 Json print_brushes(const LiveRun& run) {
     Json names = print_species(run);
     if (run.script().program->system_of(run.place().stage).cells) names.push_back("remove");
     return names;
 }
 
-/// The contents of the arrays of cells.
+/// Prints the sizes of the arrays that describe cells.
 Json print_cells(const ShownCells& cells) {
     std::size_t vertices = 0, triangles = 0;
     for (const TriangleMesh& mesh : cells.meshes) {
@@ -120,7 +113,7 @@ Json print_cells(const ShownCells& cells) {
     return json;
 }
 
-/// Infinity and NaN are null.
+/// Prints the header of a snapshot. Infinity and NaN become null.
 Json print_header(const Snapshot& snapshot) {
     Json stages = Json::array();
     for (const StageProgress& stage : snapshot.stages) {
@@ -155,6 +148,7 @@ Json print_header(const Snapshot& snapshot) {
                    {"remarks", snapshot.remarks},
                    {"columns", layout.width},
                    {"rows", layout.row_count()},
+                   {"repeats", sides_that_repeat(snapshot.grid, snapshot.slice)},
                    {"fields", snapshot.fields.size()},
                    {"low", range.low},
                    {"high", range.high}};
@@ -168,7 +162,7 @@ Json print_header(const Snapshot& snapshot) {
     return header;
 }
 
-/// A frame that begins with its header, with room for more bytes.
+/// Begins a frame with its header, and reserves room for `more` bytes.
 std::string begin_frame(const Json& json, std::size_t more) {
     std::string header = print(json);
     header.resize((header.size() + 3) / 4 * 4, ' ');
@@ -186,7 +180,7 @@ void append(const std::vector<Element>& elements, std::string& bytes) {
     bytes.append(reinterpret_cast<const char*>(elements.data()), elements.size() * sizeof(Element));
 }
 
-/// The meshes one after the other, and the copies of each.
+/// Appends the meshes one after the other, and then the copies of each mesh.
 void append_cells(const ShownCells& cells, std::string& bytes) {
     for (const TriangleMesh& mesh : cells.meshes) append(mesh.positions, bytes);
     for (const TriangleMesh& mesh : cells.meshes) append(mesh.normals, bytes);
@@ -308,6 +302,25 @@ std::string print_snapshot(const Snapshot& snapshot) {
     }
     if (snapshot.cells) append_cells(*snapshot.cells, bytes);
     return bytes;
+}
+
+std::string print_saved(std::uint64_t id, const SavedModel& saved) {
+    const Json header = {{"kind", "file"},
+                         {"id", id},
+                         {"ending", saved.ending},
+                         {"size", saved.bytes.size()},
+                         {"notes", saved.notes}};
+    std::string bytes = begin_frame(header, saved.bytes.size() + 3);
+    bytes += saved.bytes;
+    bytes.resize((bytes.size() + 3) / 4 * 4);
+    return bytes;
+}
+
+std::array<std::size_t, 2> place_in_text(std::string_view text, std::size_t byte) {
+    const std::string_view before = text.substr(0, byte);
+    const std::size_t start = before.rfind('\n') + 1;  // If there is no line break, npos + 1 is 0.
+    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+    return {static_cast<std::size_t>(line), count_utf16_units(before.substr(start))};
 }
 
 std::string print_surface(const ShownSurface& surface, std::uint64_t number) {

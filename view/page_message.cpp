@@ -1,4 +1,4 @@
-// The table of requests, and the readers of their fields.
+// The table of requests, and functions that read their fields.
 #include "view/page_message.h"
 
 #include "core/base64.h"
@@ -17,11 +17,12 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::int64_t most_steps = std::int64_t{1} << 53;  ///< Exact in the numbers of a page.
+/// A page's numbers are binary64, so larger integers may be inexact.
+constexpr std::int64_t most_steps = std::int64_t{1} << 53;
 constexpr std::int64_t largest_scale = 64;
 constexpr std::int64_t most_stages = 1'000'000;
 
-/// Reads the fields of a message. fault() describes the first wrong one.
+/// Reads the fields of a message. fault() describes the first field that is wrong.
 class FieldReader {
 public:
     explicit FieldReader(const Json& object) : object_(object) {}
@@ -33,7 +34,7 @@ public:
         return {};
     }
 
-    /// Bytes in base64.
+    /// Reads a text in base64 and returns its bytes.
     std::string bytes(const char* name) {
         auto bytes = from_base64(text(name));
         if (!bytes) complain(name, "bytes in base64");
@@ -43,7 +44,7 @@ public:
     std::int64_t whole(const char* name, std::int64_t low, std::int64_t high) {
         const Json* const field = find(name);
         if (field != nullptr && field->is_number_integer()) {
-            // Numbers above the largest signed one are stored as unsigned ones.
+            // JSON numbers above the largest signed integer are stored as unsigned.
             const bool is_large = field->is_number_unsigned() &&
                                   field->get<std::uint64_t>() > static_cast<std::uint64_t>(high);
             const auto number = is_large ? high + 1 : field->get<std::int64_t>();
@@ -53,7 +54,7 @@ public:
         return low;
     }
 
-    /// A number from 0 to 1.
+    /// Reads a number from 0 to 1.
     double part(const char* name) {
         const Json* const field = find(name);
         if (field != nullptr && field->is_number()) {
@@ -78,7 +79,7 @@ public:
         return 0;
     }
 
-    /// A pair of numbers, of which the second may be smaller.
+    /// Reads a pair of different numbers. The second may be smaller than the first.
     ValueRange range(const char* from, const char* to) {
         const ValueRange range{number(from), number(to)};
         if (range.low == range.high) complain(to, fmt::format("another number than '{}'", from));
@@ -91,7 +92,7 @@ public:
         return axis.value_or(Axis::z);
     }
 
-    /// False if absent.
+    /// Reads a flag. A missing flag is false.
     bool flag(const char* name) {
         const Json* const field = find(name);
         if (field == nullptr) return false;
@@ -119,11 +120,30 @@ struct Verb {
     PageRequest (*read)(FieldReader&);
 };
 
+PictureRequest picture(FieldReader& fields) {
+    PictureRequest request;
+    request.show = fields.text("show");
+    request.palette = fields.text("palette");
+    request.scale = static_cast<int>(fields.whole("scale", 1, largest_scale));
+    if (fields.has("low")) request.range = fields.range("low", "high");
+    if (fields.has("axis")) request.slice = {fields.axis("axis"), fields.part("place")};
+    if (fields.has("around")) {
+        request.view.azimuth = static_cast<float>(fields.whole("around", -180, 180));
+        request.view.elevation = static_cast<float>(fields.whole("above", -89, 89));
+    }
+    request.flat = fields.flag("flat");
+    return request;
+}
+
+std::size_t byte_of(FieldReader& fields) {
+    return static_cast<std::size_t>(fields.whole("byte", 0, largest_page_message));
+}
+
 PageRequest change(Change made, FieldReader& fields) {
     return SessionCommand(MakeChange{std::move(made), fields.flag("joins_last")});
 }
 
-constexpr std::array<Verb, 24> verbs{{
+constexpr std::array<Verb, 29> verbs{{
     {"text", [](FieldReader& fields) { return change(SetText{fields.text("text")}, fields); }},
     {"set",
      [](FieldReader& fields) {
@@ -180,23 +200,35 @@ constexpr std::array<Verb, 24> verbs{{
      }},
     {"picture",
      [](FieldReader& fields) -> PageRequest {
-         PictureRequest request;
-         request.show = fields.text("show");
-         request.palette = fields.text("palette");
-         request.scale = static_cast<int>(fields.whole("scale", 1, largest_scale));
-         if (fields.has("low")) request.range = fields.range("low", "high");
-         if (fields.has("axis")) request.slice = {fields.axis("axis"), fields.part("place")};
-         if (fields.has("around")) {
-             request.view.azimuth = static_cast<float>(fields.whole("around", -180, 180));
-             request.view.elevation = static_cast<float>(fields.whole("above", -89, 89));
-         }
-         request.flat = fields.flag("flat");
-         return PageQuestion(AskForPicture{std::move(request)});
+         return PageQuestion(AskForPicture{picture(fields)});
+     }},
+    {"model",
+     [](FieldReader& fields) -> PageRequest {
+         return SaveModel{picture(fields), ModelForm::model};
+     }},
+    {"maps",
+     [](FieldReader& fields) -> PageRequest {
+         return SaveModel{picture(fields), ModelForm::maps};
+     }},
+    {"uses",
+     [](FieldReader& fields) -> PageRequest {
+         auto text = fields.text("text");
+         return PageQuestion(AskForUses{std::move(text), byte_of(fields)});
+     }},
+    {"rename",
+     [](FieldReader& fields) -> PageRequest {
+         auto text = fields.text("text");
+         const std::size_t byte = byte_of(fields);
+         return PageQuestion(AskToRename{std::move(text), byte, fields.text("name")});
      }},
     {"measure",
      [](FieldReader& fields) -> PageRequest {
          auto x = fields.text("x");
          return PageQuestion(AskForMeasures{std::move(x), fields.text("y")});
+     }},
+    {"features",
+     [](FieldReader& fields) -> PageRequest {
+         return PageQuestion(AskForFeatures{fields.text("show")});
      }},
     {"load",
      [](FieldReader& fields) -> PageRequest {
@@ -225,7 +257,7 @@ Result<PageMessage> parse_page_message(std::string_view text) {
         return failure("the message must be a flat JSON object of at most 16 values");
     }
     const Json object = Json::parse(text, nullptr, false);
-    if (!object.is_object()) return failure("the message is no JSON object");
+    if (!object.is_object()) return failure("the message is not a JSON object");
     FieldReader fields(object);
     PageMessage message;
     if (object.contains("id")) {

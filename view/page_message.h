@@ -1,11 +1,14 @@
-// Messages from a page: one JSON object each, read into typed values. spec/page.md lists them.
+// Messages from a page. Each is a JSON object, from which typed values are read. spec/page.md lists
+// all messages.
 #pragma once
 
 #include "core/result.h"
 #include "run/script/picture_request.h"
+#include "run/session/session_model.h"
 #include "run/session/turns.h"
 #include "view/loaded_models.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -13,47 +16,64 @@
 
 namespace cascade {
 
-/// The name that identifies the page over several connections.
+/// Gives the page a name that stays the same over several connections.
 struct NamePage {
     std::string name;
 };
-/// The page has drawn its snapshot and takes the next one.
+/// The page has drawn its snapshot and is ready for the next.
 struct NextSnapshot {};
 // clang-format off
-// Questions of a page, which change nothing.
+// The following messages are questions, which change nothing.
 struct AskForLog {};
-struct AskForNames { std::string text; };  ///< Candidates for its last word.
-struct AskAboutName { std::string text; };  ///< About its last word.
-struct AskForFixes { std::string text; };  ///< Of the errors in it.
-/// The spread of each species, and its value in a cell: column + width · row, with rows numbered
-/// through all slices. −1 for no cell.
+struct AskForNames { std::string text; };  ///< Candidates for the last word of `text`.
+struct AskAboutName { std::string text; };  ///< The meaning of the last word of `text`.
+struct AskForFixes { std::string text; };  ///< Fixes for the errors in `text`.
+/// Asks for the spread of each species, and for its value in one cell. `cell` is column + width ·
+/// row, with rows counted through all slices, or −1 for no cell.
 struct AskForValues { std::int64_t cell = -1; };
-/// Distribution and spectrum of a species, and its joint distribution with another one.
+/// Asks for the distribution and spectrum of species `x`, and for the joint distribution of `x` and
+/// `y`.
 struct AskForMeasures { std::string x, y; };
-/// A PNG that carries the session.
+/// Asks for the features of what the present stage shows, or of an expression.
+struct AskForFeatures { std::string show; };
+/// Asks for a PNG file that contains the session.
 struct AskForPicture { PictureRequest request; };
+/// Asks for the declaration and the uses of the name at a byte of `text`.
+struct AskForUses { std::string text; std::size_t byte = 0; };
+/// Asks for `text` with another name at a byte.
+struct AskToRename { std::string text; std::size_t byte = 0; std::string name; };
 // clang-format on
 
-/// The page asks for the mesh of the newest snapshot's surface.
+/// Asks for a file with the present pattern as a model. The answer is a frame.
+struct SaveModel {
+    PictureRequest request;
+    ModelForm form = ModelForm::model;
+};
+
+/// Asks for the mesh of the surface in the newest snapshot.
 struct AskForSurface {};
 
-using PageQuestion = std::variant<AskForLog, AskForNames, AskAboutName, AskForFixes, AskForValues,
-                                  AskForMeasures, AskForPicture>;
-using PageRequest =
-    std::variant<SessionCommand, NextSnapshot, NamePage, AskForSurface, PageQuestion, LoadPart>;
+using PageQuestion =
+    std::variant<AskForLog, AskForNames, AskAboutName, AskForFixes, AskForValues, AskForMeasures,
+                 AskForFeatures, AskForPicture, AskForUses, AskToRename>;
+using PageRequest = std::variant<SessionCommand, NextSnapshot, NamePage, AskForSurface,
+                                 PageQuestion, LoadPart, SaveModel>;
 
 struct PageMessage {
-    std::uint64_t id = 0;  ///< Chosen by the page for the answer. 0 if there was none.
+    std::uint64_t id = 0;  ///< The number that the page has given to the message, to recognise the
+                           ///< answer. 0 if there is none.
     PageRequest request;
 };
 
-/// The text that messages about a command refer to; empty if there is none.
+/// The script text in a command. Positions in diagnostics refer to it. Empty if the command has no
+/// script.
 std::string text_of(const SessionCommand& command);
 
-/// The most bytes of a message.
+/// The largest message, in bytes.
 inline constexpr std::size_t largest_page_message = std::size_t{1} << 20;
 
-/// Fails, with a sentence that says what is wrong, on text that is no message of a page.
+/// Parses a message. If the text is not a valid message, fails with a sentence about the first
+/// error.
 Result<PageMessage> parse_page_message(std::string_view text);
 
 }  // namespace cascade

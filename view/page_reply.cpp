@@ -1,10 +1,11 @@
-// One function for each kind of question.
+// Replies to the questions of pages. Each kind of question has a function.
 #include "view/page_reply.h"
 
 #include "core/base64.h"
 #include "lang/equations/equations.h"
 #include "lang/service/advice.h"
 #include "lang/service/known_names.h"
+#include "lang/service/name_index.h"
 #include "measure/spectrum.h"
 #include "picture/image.h"
 #include "run/pictures/body_picture.h"
@@ -23,7 +24,6 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -34,7 +34,8 @@ using Json = nlohmann::json;
 
 constexpr std::size_t bins_of_histogram = 64, bins_of_density = 48;
 constexpr std::int64_t most_cells_of_spectrum = std::int64_t{1} << 20;
-constexpr std::size_t most_fixes = 5;  ///< Each costs a check of the whole text.
+/// Limited because each fix requires a check of the whole text.
+constexpr std::size_t most_fixes = 5;
 constexpr std::size_t largest_fixed_text = std::size_t{1} << 16;
 
 Json reply_to(const AskForLog&, LiveRun& run) {
@@ -57,21 +58,22 @@ Formula formula_of_item(ItemId item) {
     return formula;
 }
 
-/// The present values of an item, NaN outside a mask. Values of crawling cells form one row.
+/// The present values of an item, with NaN outside the mask. The values of crawling cells form one
+/// row.
 Field values_of(const LiveRun& run, StageItem at) {
     Field values = std::move(run.simulation().evaluate(formula_of_item(at.item), at.stage)[0]);
-    const Tissue* const cells = run.simulation().state(at.stage).tissue.get();
+    const Tissue* const cells = run.simulation().state(at.stage).tissue();
     return cells != nullptr ? row_of_cells(values, *cells) : std::move(values);
 }
 
-/// The cells in which an item has values.
+/// The grid on which a stage has its values. Crawling cells form one row.
 Grid grid_of(const LiveRun& run, std::uint32_t stage) {
     const auto cells = counts_of_cells(run.simulation().state(stage));
     if (!cells) return run.simulation().domain().grid;
     return Grid{std::max<std::int64_t>(cells->count, 1), 1};
 }
 
-/// The present value of an item, or the range of its values.
+/// Adds the present value of an item if it is uniform, and otherwise the range of its values.
 void add_values(Json& reply, const LiveRun& run, StageItem at) {
     const StageState& state = run.simulation().state(at.stage);
     if (!state.started) return;
@@ -110,7 +112,7 @@ Json reply_to(const AskAboutName& question, LiveRun& run) {
     return reply;
 }
 
-/// Since the first stage began.
+/// The time since the first stage began.
 double time_of_run(const LiveRun& run) {
     double time = time_of(run.simulation(), run.place().stage);
     for (std::uint32_t k = 0; k < run.place().stage; ++k) time += run.simulation().state(k).t;
@@ -143,14 +145,14 @@ Json reply_to(const AskForValues& question, LiveRun& run) {
             {"species", std::move(species)}};
 }
 
-/// Numbers in as many bins of equal width as there are counts.
+/// Sorts numbers into `count` bins of equal width.
 class Bins {
 public:
     Bins(const Spread& spread, std::size_t count)
         : low_(spread.smallest),
           width_((spread.largest - spread.smallest) / static_cast<double>(count)),
           count_(count) {}
-    /// The bin of a finite number of the spread.
+    /// The bin of a finite number, which must be within the spread of all numbers.
     std::size_t operator()(double value) const {
         const double place = width_ > 0 ? (value - low_) / width_ : 0;
         return std::min(static_cast<std::size_t>(std::max(place, 0.0)), count_ - 1);
@@ -168,7 +170,7 @@ void add_spectrum(Json& reply, const measure::Samples& samples) {
     reply["wavelength"] = measure::peak_wavelength(spectrum);
 }
 
-/// Fails on names that are no species of the present stage.
+/// Replies with distribution and spectrum. Fails if a name is not a species of the present stage.
 Json reply_to(const AskForMeasures& question, LiveRun& run) {
     Json reply = {{"kind", "measures"}};
     const Simulation& simulation = run.simulation();
@@ -196,33 +198,25 @@ Json reply_to(const AskForMeasures& question, LiveRun& run) {
     for (const std::size_t k : {0, 1}) {
         reply[k == 0 ? "x" : "y"] = {spreads[k].smallest, spreads[k].largest};
     }
-    // Neither a model nor crawling cells have waves along axes, and large fields would stop the run
-    // for too long.
+    // Models and crawling cells have no rows and columns from which a spectrum could be computed.
+    // The spectrum of a large field would stop the run for too long.
     const bool is_small = grid.cell_count() <= most_cells_of_spectrum;
     if (is_small && !simulation.domain().model && !system.cells) add_spectrum(reply, samples[0]);
     return reply;
 }
 
-std::multiset<std::string> errors_of(const Script& script) {
-    std::multiset<std::string> messages;
-    for (const Diagnostic& each : script.diagnostics.sorted()) {
-        if (each.severity == Severity::error) messages.insert(each.message);
+Json reply_to(const AskForFeatures& question, LiveRun& run) {
+    PictureRequest request;
+    request.show = question.show;
+    auto painter = make_painter(run, request);
+    if (!painter) return Json::parse(print_answer(0, tl::unexpected(painter.error()), ""));
+    Json features = Json::object();
+    const auto values = measure::to_array(measure_shown(*painter, run.simulation()));
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        if (std::isfinite(values[k]))
+            features[std::string(measure::feature_names()[k])] = values[k];
     }
-    return messages;
-}
-
-/// What the hint of an error tells to write; nothing unless that leaves fewer errors and no other
-/// ones.
-std::optional<std::string> fix_of(const Diagnostic& error, const Script& faulty,
-                                  const Script& now) {
-    const std::string fix(text_to_write(error.hint));
-    const Span span = error.span;
-    if (fix.empty() || faulty.sources[span.source].text() != faulty.text) return std::nullopt;
-    std::string text = faulty.text;
-    text.replace(span.begin, span.end - span.begin, fix);
-    const auto before = errors_of(faulty), after = errors_of(with_text(now, text));
-    const bool is_better = after.size() < before.size() && std::ranges::includes(before, after);
-    return is_better ? std::optional(fix) : std::nullopt;
+    return {{"kind", "features"}, {"features", std::move(features)}};
 }
 
 Json reply_to(const AskForFixes& question, LiveRun& run) {
@@ -231,7 +225,12 @@ Json reply_to(const AskForFixes& question, LiveRun& run) {
     const Script faulty = with_text(run.script(), question.text);
     for (const Diagnostic& diagnostic : faulty.diagnostics.sorted()) {
         if (diagnostic.severity != Severity::error) continue;
-        const auto fix = fix_of(diagnostic, faulty, run.script());
+        const bool is_own = faulty.sources[diagnostic.span.source].text() == faulty.text;
+        const auto check = [&](const std::string& text) {
+            return with_text(run.script(), text).diagnostics;
+        };
+        const auto fix =
+            is_own ? fix_of(diagnostic, faulty.text, faulty.diagnostics, check) : std::nullopt;
         fixes.push_back(fix ? Json(*fix) : Json());
         if (fixes.size() == most_fixes) break;
     }
@@ -240,11 +239,71 @@ Json reply_to(const AskForFixes& question, LiveRun& run) {
 
 Json reply_to(const AskForPicture& question, LiveRun& run) {
     PictureRequest request = question.request;
-    // The page shows volumes as slices.
+    // The page shows a volume as slices, so its picture does, too.
     request.flat = request.flat || draws_body(run.script(), request);
     auto png = session_picture(run, request);
     if (png) return {{"kind", "picture"}, {"png", base64(*png)}};
     return Json::parse(print_answer(0, tl::unexpected(std::move(png.error())), ""));
+}
+
+/// A text of the page, read as the script of the run.
+class ReadText {
+public:
+    ReadText(const LiveRun& run, const std::string& text, std::size_t byte)
+        : script_(with_text(run.script(), text)),
+          index_(script_.tree, script_.diagnostics, script_.sources, own_source),
+          byte_(static_cast<std::uint32_t>(std::min(byte, text.size()))) {}
+
+    Json uses() const {
+        Json list = Json::array();
+        for (const Span use : index_.uses_at(byte_)) {
+            if (use.source == own_source) list.push_back(place_of(use));
+        }
+        return list;
+    }
+
+    /// Its place in the text, or the name of the other source.
+    Json declaration() const {
+        const auto span = index_.declaration_at(byte_);
+        if (!span) return nullptr;
+        if (span->source == own_source) return place_of(*span);
+        return {{"source", script_.sources[span->source].name()}};
+    }
+
+    std::string name() const {
+        const auto span = index_.name_at(byte_);
+        return span ? std::string(script_.sources.text(*span)) : std::string();
+    }
+
+    Result<std::string> renamed(const std::string& name) const {
+        return index_.renamed(byte_, name);
+    }
+
+private:
+    static constexpr SourceId own_source = 0;
+
+    Json place_of(Span span) const {
+        return {{"from", place_in_text(script_.text, span.begin)},
+                {"to", place_in_text(script_.text, span.end)}};
+    }
+
+    Script script_;
+    NameIndex index_;
+    std::uint32_t byte_;
+};
+
+Json reply_to(const AskForUses& question, LiveRun& run) {
+    const ReadText read(run, question.text, question.byte);
+    return {{"kind", "uses"},
+            {"name", read.name()},
+            {"declaration", read.declaration()},
+            {"uses", read.uses()}};
+}
+
+Json reply_to(const AskToRename& question, LiveRun& run) {
+    const auto text = ReadText(run, question.text, question.byte).renamed(question.name);
+    if (!text) return Json::parse(print_failure(0, text.error()));
+    return {{"kind", "renamed"}, {"text", *text}};
 }
 
 }  // namespace
@@ -255,7 +314,7 @@ std::string print_reply(std::uint64_t id, const PageQuestion& question, LiveRun&
     reply["id"] = id;
     reply["seconds"] =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-    // Users' texts may hold bytes that are not UTF-8.
+    // Texts of users may contain bytes that are not UTF-8.
     return reply.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

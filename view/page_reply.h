@@ -1,4 +1,4 @@
-// Replies to pages' questions about a run: JSON texts, which spec/page.md lists.
+// Replies to the questions of pages about a run. They are JSON texts, which spec/page.md lists.
 #pragma once
 
 #include "run/session/live_run.h"
@@ -9,7 +9,7 @@
 
 namespace cascade {
 
-/// The reply to the question `id`. Does not change the run.
+/// The reply to the question with the number `id`. Does not change the run.
 std::string print_reply(std::uint64_t id, const PageQuestion& question, LiveRun& run);
 
 }  // namespace cascade

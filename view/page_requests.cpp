@@ -1,4 +1,5 @@
-// Ids grow, so the last one tells which requests were obeyed.
+// The numbers of a page's requests increase. So the number of the last request that was carried out
+// tells which requests were.
 #include "view/page_requests.h"
 
 #include <algorithm>
@@ -12,8 +13,8 @@ constexpr std::size_t most_names = 64, most_answers = 256;
 
 struct PageRequests::Page {
     PageId connection = 0;
-    std::uint64_t last = 0;                        ///< Id of the last obeyed request.
-    std::map<std::uint64_t, std::string> answers;  ///< The newest ones.
+    std::uint64_t last = 0;  ///< The number of the last request that was carried out.
+    std::map<std::uint64_t, std::string> answers;  ///< The answers to the newest requests.
 };
 
 void PageRequests::name(PageId connection, const std::string& name) {

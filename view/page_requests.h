@@ -1,5 +1,5 @@
-// Records which requests of each page were obeyed. A page that has lost its connection sends
-// unanswered requests again over another one. No request is obeyed twice.
+// Records which requests of each page were carried out. A page that loses its connection repeats
+// its unanswered requests over a new connection. No request is carried out twice.
 #pragma once
 
 #include "view/local_server.h"
@@ -14,31 +14,35 @@
 
 namespace cascade {
 
-/// Any thread may call every function.
+/// Any thread may call the functions of this class.
 class PageRequests {
 public:
     struct Page;
 
-    /// Identifies a page by its chosen name, over this connection from now on. Without a call, a
-    /// page is its connection.
+    /// Gives the page on a connection the name that the page has chosen for itself. A page without
+    /// a name is identified by its connection.
     void name(PageId connection, const std::string& name);
     void close(PageId connection);
 
     struct Begun {
         std::shared_ptr<Page> page;
-        bool is_new = true;                 ///< Obey it, and call finish().
-        std::optional<std::string> answer;  ///< If the request was obeyed before.
+        /// Whether the request is to be carried out, followed by a call of finish().
+        bool is_new = true;
+        /// The stored answer, if the request was carried out before.
+        std::optional<std::string> answer;
     };
-    /// Begins a request. A page's ids grow. 0 is always new.
+    /// Begins a request. The numbers `id` of a page's requests must increase. A request with the
+    /// number 0 always counts as new.
     Begun begin(PageId connection, std::uint64_t id);
-    /// Stores an answer, and returns the page's present connection, which must receive it.
+    /// Stores the answer to a request, and returns the page's present connection, to which the
+    /// answer must be sent.
     PageId finish(Page& page, std::uint64_t id, const std::string& answer);
 
 private:
     std::mutex mutex_;
     std::map<PageId, std::shared_ptr<Page>> connected_;
     std::map<std::string, std::shared_ptr<Page>> named_;
-    std::deque<std::string> names_;  ///< Oldest first.
+    std::deque<std::string> names_;  ///< The names that pages have chosen, the oldest first.
 };
 
 }  // namespace cascade

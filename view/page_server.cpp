@@ -1,8 +1,9 @@
-// Obeys pages, and sends them snapshots from a thread of its own.
+// Carries out requests of pages, and sends them snapshots from a separate thread.
 #include "view/page_server.h"
 
 #include "run/pictures/shown_surface.h"
 #include "run/session/session.h"
+#include "run/session/session_model.h"
 #include "view/loaded_models.h"
 #include "view/outbox.h"
 #include "view/page_answer.h"
@@ -14,6 +15,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -27,20 +29,21 @@ namespace cascade {
 
 namespace {
 
-// Makes surface meshes for pages, in a thread of its own, because a large model takes seconds.
+// Makes surface meshes for pages in a separate thread, because a large model takes seconds.
 
 class SurfaceSender {
 public:
-    /// `send` gets a page and its frame; null if memory runs out.
+    /// Called with a page and its frame. The frame is null if memory was exhausted.
     using Send = std::function<void(std::uint64_t page, SharedBytes frame)>;
 
     explicit SurfaceSender(Send send);
-    /// Waits for the mesh being made.
+    /// Waits for the mesh that is being made.
     ~SurfaceSender();
     SurfaceSender(const SurfaceSender&) = delete;
     SurfaceSender& operator=(const SurfaceSender&) = delete;
 
-    /// Sends a surface, numbered as in its snapshots. Stores the last one for other pages.
+    /// Makes a surface in the other thread and sends it to a page. `number` identifies the surface
+    /// in snapshots. The last frame is stored, because other pages may need it.
     void ask(std::uint64_t page, std::shared_ptr<const SurfaceSource> surface,
              std::uint64_t number);
 
@@ -49,7 +52,7 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// Uses one thread, and leaves the others to the session's steps.
+/// Uses only one thread. The others remain free for the steps of the session.
 SharedBytes frame_of(const SurfaceSource& surface, std::uint64_t number) {
     try {
         Team team(1);
@@ -68,7 +71,7 @@ struct SurfaceSender::State {
     };
 
     Send send;
-    std::mutex mutex;  ///< Protects the wishes.
+    std::mutex mutex;  ///< Protects the waiting requests.
     std::condition_variable has_wish;
     std::deque<Wish> wishes;
     bool is_ending = false;
@@ -120,29 +123,33 @@ void SurfaceSender::ask(std::uint64_t page, std::shared_ptr<const SurfaceSource>
     state_->has_wish.notify_all();
 }
 
-/// A page asks for one snapshot after the other, so a page that draws slowly gets fewer.
+/// A page requests its next snapshot after it has drawn the last. So a slow page receives fewer
+/// snapshots.
 struct OpenPage {
     bool wants_snapshot = false;
-    std::uint64_t seen = 0;  ///< The number of its last snapshot.
+    std::uint64_t seen = 0;  ///< The number of the last snapshot that was sent.
 };
 
-constexpr int snapshot_frame = 0, surface_frame = 1;
+/// Models that are loaded on a page may come from strangers.
+constexpr double most_model_seconds = 120;
+constexpr int snapshot_frame = 0, surface_frame = 1, file_frame = 2;
 
 }  // namespace
 
 struct PageServer::State {
-    std::mutex mutex;  ///< Protects all below, except what locks for itself.
+    std::mutex mutex;  ///< Protects all members below, except those with their own locks.
     std::condition_variable is_wanted;
     std::map<PageId, OpenPage> pages;
     PageRequests requests;
     bool is_ending = false;
     bool offers_library = false;
-    std::uint64_t told_script = 0;  ///< Only for the sending thread.
-    // The session ends before the server, which receives its answers.
+    std::uint64_t told_script = 0;  ///< Only the sending thread uses this member.
+    // The session is destroyed before the server, which receives its answers.
     std::optional<LocalServer> server;
     std::unique_ptr<Session> session;
     std::optional<SurfaceSender> surfaces;
-    std::optional<LoadedModels> models;  ///< Only for the session's thread.
+    std::optional<LoadedModels> models;  ///< Only the session's thread uses this member.
+    std::filesystem::path saved_in;      ///< The folder in which files to save are made.
     std::thread sender;
 
     ~State();
@@ -239,6 +246,17 @@ void PageServer::State::obey(PageId page, std::string_view text) {
             server->send_text(page, print_loaded(id, models->add(loaded)));
         });
     }
+    if (auto* asked = std::get_if<SaveModel>(&message->request)) {
+        return session->ask([this, page, id, save = std::move(*asked)](LiveRun& run) {
+            auto saved = session_model(run, save.request, save.form, saved_in);
+            if (!saved) {
+                auto why = tl::unexpected(std::move(saved.error()));
+                return server->send_text(page, print_answer(id, std::move(why), ""));
+            }
+            server->send_frame(page, file_frame,
+                               std::make_shared<const std::string>(print_saved(id, *saved)));
+        });
+    }
     if (std::holds_alternative<AskForSurface>(message->request)) {
         const auto snapshot = session->newest();
         if (snapshot->surface) surfaces->ask(page, snapshot->surface, snapshot->surface_number);
@@ -295,7 +313,9 @@ Result<std::unique_ptr<PageServer>> PageServer::start(std::unique_ptr<LiveRun> r
                                                       bool offers_library,
                                                       std::filesystem::path models) {
     auto state = std::make_unique<State>();
+    state->saved_in = models;
     state->models.emplace(std::move(models), run->script().folder);
+    run->limit_models(most_model_seconds);
     state->session = std::make_unique<Session>(std::move(run));
     state->offers_library = offers_library;
     if (auto started = state->start(std::move(files)); !started) {

@@ -1,4 +1,5 @@
-// A session in a browser: pages' requests go to the session, and its snapshots go to the pages.
+// Shows a session in a browser. Passes requests of pages to the session, and its snapshots to the
+// pages.
 #pragma once
 
 #include "run/session/live_run.h"
@@ -10,12 +11,13 @@
 
 namespace cascade {
 
-/// Serves one session to the open pages, which all see and steer the same one.
+/// Serves one session to all open pages. Every page shows and controls this session.
 class PageServer {
 public:
-    /// Begins a session of a run and opens its page. With `offers_library`, pages receive the
-    /// systems of the library, so that a user can pick one. Models that pages load are kept in
-    /// `models`, to which the script has access; without this folder there are none.
+    /// Starts a session of a run and a server for its page. If `offers_library` is true, pages also
+    /// receive the systems of the library, so that users can choose one. Models that users load are
+    /// stored in the folder `models`, which the script must be permitted to read. If `models` is
+    /// empty, no models can be loaded.
     static Result<std::unique_ptr<PageServer>> start(std::unique_ptr<LiveRun> run, PageFiles files,
                                                      bool offers_library = false,
                                                      std::filesystem::path models = {});
@@ -23,7 +25,7 @@ public:
     ~PageServer();
 
     std::uint16_t port() const;
-    std::string address() const;  ///< Same as LocalServer::address().
+    std::string address() const;  ///< See LocalServer::address().
 
 private:
     struct State;

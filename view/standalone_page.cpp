@@ -1,13 +1,16 @@
-// Everything is written into the page's own HTML: styles and scripts as they are, the engine and
-// files compressed (zlib) and in base64. spec/page.md describes the result.
+// Puts everything into the HTML of the page: styles and scripts unchanged, and the engine and files
+// compressed (zlib) and in base64. spec/page.md describes the result.
 #include "view/standalone_page.h"
 
 #include "core/base64.h"
 #include "core/check.h"
 #include "core/file.h"
+#include "core/shared_files.h"
+#include "core/version.h"
 #include "picture/deflate.h"
 #include "view/page_files.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace cascade {
@@ -15,7 +18,7 @@ namespace {
 
 constexpr int smallest = 12;
 
-/// Allows scripts of the page and the code of kernels, and no other sources.
+/// Permits only the scripts of the page itself and the code of kernels.
 constexpr std::string_view policy =
     "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
     "script-src 'unsafe-inline' 'wasm-unsafe-eval' blob:; worker-src blob:; "
@@ -37,7 +40,8 @@ std::string script(std::string_view attributes, std::string_view content) {
 
 std::string packed(std::string_view bytes) { return base64(deflated(bytes, smallest)); }
 
-/// A script's content ends at "</script", which JSON may hold in a text.
+/// Prints the contents as JSON. Every "<" is escaped, because "</script" in a text would end the
+/// script element of the page.
 std::string print(const Carried& carried) {
     nlohmann::json files = nlohmann::json::array();
     for (const auto& [name, bytes] : carried.files) files.push_back({name, packed(bytes)});
@@ -56,13 +60,9 @@ std::string print(const Carried& carried) {
 }  // namespace
 
 Result<std::string> read_engine() {
-    std::error_code unknown;
-    const auto program = std::filesystem::read_symlink("/proc/self/exe", unknown);
-    const auto folder = program.parent_path();
-    for (const auto& path : {folder / "engine.wasm", folder / "../lib/engine.wasm"}) {
-        if (size_of_file(path)) return read_file(path, largest_engine);
-    }
-    return failure("this program has no engine.wasm beside it, which pages carry",
+    const auto path = shared_file("engine.wasm");
+    if (!path.empty()) return read_file(path, largest_engine);
+    return failure("this program comes without engine.wasm, which pages carry",
                    "in the source tree './cascade export' builds it; elsewhere 'cmake --build "
                    "FOLDER --target cascade_engine' does");
 }
@@ -74,7 +74,9 @@ std::string standalone_page(const Carried& carried, std::string_view engine) {
             "<style>" + files.at("/page.css").content + "</style>");
     replace(page, "<script type=\"module\" src=\"page.js\"></script>\n", "");
     replace(page, "<meta charset=\"utf-8\">\n",
-            std::string("<meta charset=\"utf-8\">\n").append(policy));
+            fmt::format("<meta charset=\"utf-8\">\n"
+                        "<meta name=\"generator\" content=\"Cascade {}\">\n{}",
+                        version(), policy));
     replace(page, "</body>",
             script("type=\"application/json\" id=\"carried\"", print(carried)) +
                 script("type=\"text/plain\" id=\"engine\"", packed(engine)) +

@@ -1,4 +1,4 @@
-// The page and its engine in one file, which needs neither a server nor a network.
+// Writes a page and its engine to one file, which works without a server and without a network.
 #pragma once
 
 #include "core/result.h"
@@ -11,14 +11,14 @@
 
 namespace cascade {
 
-/// The largest engine, in bytes, that is read.
+/// The largest engine that is read, in bytes.
 inline constexpr std::uint64_t largest_engine = std::uint64_t{1} << 28;
 
-/// The engine next to this program, or in the folder of its libraries: engine.wasm, which
-/// tab/engine.cmake builds. Fails if it is missing.
+/// Reads engine.wasm, which tab/engine.cmake builds (core/shared_files.h). Fails if the file is
+/// missing.
 Result<std::string> read_engine();
 
-/// The page as HTML, with all that it carries.
+/// The page as HTML, with the engine and everything in `carried`.
 std::string standalone_page(const Carried& carried, std::string_view engine);
 
 }  // namespace cascade

@@ -1,9 +1,10 @@
-// Products and quotients may be denormal and inexact. A result just below the least normal number
-// would be rounded up to it, although x86 flushes it. Hence such an operation is also done with
-// larger operands. Their result is normal and rounded to all digits, and shows what to flush.
+// Products and quotients may be denormal and inexact at once. A result just below the least normal
+// number would then be rounded up to this number, although x86 flushes the result. Hence exact
+// kernels repeat the operation with operands enlarged by powers of two. This result is normal and
+// rounded to all digits, so it shows whether to flush.
 //
-// The larger operands overflow only if the result is far from being denormal, since no operand is
-// denormal, or if it is zero. The larger result is then infinite or NaN, and no number is flushed.
+// No operand is denormal, so enlarged operands overflow only if the true result is zero or far from
+// being denormal. The enlarged result is then infinite or NaN, and nothing is flushed.
 #include "wasm/arithmetic.h"
 
 #include <cmath>
@@ -11,12 +12,12 @@
 namespace cascade::wasm {
 namespace {
 
-/// A power of two by which two factors are enlarged.
+/// The exponent of the power of two by which each of two factors is enlarged.
 int enlarging_power(Precision precision) { return precision == Precision::single ? 32 : 256; }
 
 }  // namespace
 
-// Denormal sums are exact.
+// A denormal sum is exact, so it is enough to flush the result to zero.
 void Arithmetic::add() {
     code_.write(Lanes::add);
     flush();
@@ -47,7 +48,8 @@ void Arithmetic::flush() {
     flush_below(0);
 }
 
-/// Scaling the operands by powers of two scales the result by their product.
+/// Repeats the operation with both operands scaled by powers of two, whose product scales the
+/// result.
 void Arithmetic::with_larger_operands(Lanes operation, int first_power, int second_power) {
     const Local second = function_.keep(level_), first = function_.keep(level_);
     code_.get(first);
@@ -67,8 +69,9 @@ void Arithmetic::with_larger_operands(Lanes operation, int first_power, int seco
     flush_below(first_power + second_power);
 }
 
-/// On top of the stack are a number and its value if it were larger by a power of two. Leaves the
-/// number, or a zero of its sign if the larger one shows that it is below the least normal number.
+/// On top of the stack are a number and, above it, the same number enlarged by a power of two.
+/// Leaves the number, or a zero of the same sign if the enlarged number shows that it is below the
+/// least normal number.
 void Arithmetic::flush_below(int power) {
     const WordFormat format = function_.format();
     code_.write(Lanes::absolute);

@@ -1,8 +1,8 @@
-// Arithmetic on vectors on top of the stack, with or without denormal numbers.
+// Arithmetic on the vectors on top of WebAssembly's stack, with or without denormal numbers.
 //
-// Internal to wasm/. WebAssembly has denormal numbers. Exact kernels flush them as x86 does: the
-// operands (by flush()), and results that are below the least normal number when rounded to as many
-// digits as normal numbers have.
+// Internal to wasm/. WebAssembly computes with denormal numbers. Exact kernels flush them as x86
+// does. They flush operands (by flush()), and they flush a result if it is below the least normal
+// number after rounding to as many digits as normal numbers have.
 #pragma once
 
 #include "wasm/function.h"
@@ -16,13 +16,15 @@ public:
 
     bool is_exact() const { return is_exact_; }
 
-    // The second operand is on top of the stack. If the kernel is exact, no operand is denormal.
+    // These functions operate on the two vectors on top of the stack. The second operand is the
+    // topmost. If the kernel is exact, no operand may be denormal.
     void add();
     void subtract();
     void multiply();
     void divide();
 
-    /// Turns denormal numbers into zeros of the same sign, if the kernel is exact.
+    /// In an exact kernel, turns denormal numbers into zeros of the same sign. Otherwise does
+    /// nothing.
     void flush();
 
 private:

@@ -10,7 +10,8 @@
 namespace cascade::wasm {
 namespace {
 
-/// Whether the result may be a denormal number although exact arithmetic flushes.
+/// Whether the operation copies words unchanged, so that its result may be denormal although exact
+/// arithmetic flushes.
 bool passes_words(Op op) {
     return op == Op::field || op == Op::neighbour || op == Op::theirs || op == Op::uniform ||
            (op >= Op::cell_column && op <= Op::cell_slice) || op == Op::negate ||
@@ -30,7 +31,8 @@ Body::Body(const KernelPart& part, Function& function, Cells& cells, bool is_exa
       schedule_(cell_schedule_of(kernel_, levels_)),
       readers_(kernel_.code.size()),
       values_(kernel_.code.size()) {
-    IdVector<ValueId, int> times(kernel_.code.size(), 1);  // Number of copies of the value's code.
+    IdVector<ValueId, int> times(kernel_.code.size(), 1);  // How many times each value's code is
+                                                           // written.
     for (const ValueId id : times.ids()) times[id] = levels_[id] < LoopLevel::link;
     for (const LinkLoop& loop : schedule_.loops) {
         for (const ValueId id : loop.values) ++times[id];
@@ -42,8 +44,8 @@ Body::Body(const KernelPart& part, Function& function, Cells& cells, bool is_exa
     }
 }
 
-/// Whether it chooses the lesser or the greater of the two numbers that its condition compares.
-/// There are instructions for that, which do not flush.
+/// Whether a select chooses the lesser or the greater of the two numbers that its condition
+/// compares. WebAssembly has instructions for that, which do not flush.
 bool Body::is_bound(const Instruction& instruction) const {
     if (is_exact_ || instruction.op != Op::select) return false;
     const auto [a, b, c] = instruction.operands;
@@ -88,8 +90,8 @@ void Body::define(ValueId id) {
     for (const ValueId operand : operands_of(instruction)) release(operand);
 }
 
-// The code of links is separate from the code of cells, so that conversions of cells' values that
-// it needs still come before the loop.
+// Code of links is written separately from code of cells. So if the code of links needs another
+// form of a cell's value, the code for that form still comes before the loop.
 void Body::write_loop(const LinkLoop& loop) {
     for (const ValueId id : loop.reductions) {
         code().get(beginning_of(kernel_.code[id].op));
@@ -107,26 +109,26 @@ void Body::write_loop(const LinkLoop& loop) {
         if (kernel_.code[id].op != Op::link_sum) continue;
         code().get(*values_[id].number);
         code().get(function_.constant(0));
-        code().write(Lanes::add);  // Avoids -0.
+        code().write(Lanes::add);  // Turns −0 into 0.
         code().set(*values_[id].number);
     }
     for (const ValueId id : std::exchange(read_in_loop_, {})) release(id);
 }
 
-/// The result of a reduction without links.
+/// The result of a reduction for a cell without links, with which every reduction begins.
 Local Body::beginning_of(Op op) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     return function_.number(op == Op::link_sum ? 0 : op == Op::link_least ? infinity : -infinity);
 }
 
-/// Adds a link's value to a total, or compares the two.
+/// Adds a link's value to a total, or keeps the lesser or greater of the two.
 void Body::reduce(ValueId id) {
     if (readers_[id] == 0) return;
     const auto [op, operands, payload] = kernel_.code[id];
     const Local total = *values_[id].number;
     if (op == Op::link_sum) code().get(total);
     code().get(operand(operands[0]));
-    code().get(beginning_of(op));  // Leaves the total as it is where there is no link.
+    code().get(beginning_of(op));  // In a lane without a link, this value changes no total.
     code().get(cells_.is_link());
     code().write(Whole::choose);
     if (op == Op::link_sum) {
@@ -150,8 +152,9 @@ void Body::store(std::size_t result) {
     if (is_exact_) {
         cells_.store(part_.results[result], number(id));
     } else {
-        // Otherwise processors would compute with denormal numbers while a field decays, which
-        // takes many times as long. Within a step they are rare.
+        // Without this flush, processors would compute with denormal numbers in every step while a
+        // field decays, which takes many times as long. Inside a step denormal numbers are rare, so
+        // other values are not flushed.
         code().get(number(id));
         Arithmetic(function_, LoopLevel::cell, true).flush();
         const Local flushed = keep();
@@ -170,7 +173,7 @@ void Body::release(ValueId id) {
     }
 }
 
-/// Releases the locals of a value.
+/// Releases the locals of all forms of a value.
 void Body::give_back(ValueId id) {
     Value& value = values_[id];
     const auto give_back = [&](std::optional<Local> local) {
@@ -205,7 +208,7 @@ Local Body::operand(ValueId id) {
     return *value.operand;
 }
 
-// Denormal numbers are not true, as in is_true() of ir/word_operations.h.
+// Denormal numbers are false, as in is_true() of ir/word_operations.h.
 Local Body::truth(ValueId id) {
     Value& value = values_[id];
     if (!value.truth) {
@@ -258,7 +261,7 @@ std::optional<Local> Body::source(const Instruction& instruction) {
     }
 }
 
-/// Leaves the result on the stack, or for comparisons and logic its truth.
+/// Leaves the result on the stack. For comparisons and logic the result is in the form `truth`.
 void Body::push(const Instruction& instruction) {
     const auto [a, b, unused] = instruction.operands;
     switch (instruction.op) {
@@ -304,7 +307,7 @@ void Body::push_choice(const Instruction& instruction) {
     code().write(Whole::choose);
 }
 
-// As scale_by_power() of ir/word_operations.h.
+// The algorithm is that of scale_by_power() in ir/word_operations.h.
 void Body::push_scaled(ValueId a, ValueId b) {
     const WordFormat format = function_.format();
     code().get(operand(b));
@@ -332,7 +335,8 @@ void Body::push_shift(Lanes shift, int amount) {
     code().write(shift);
 }
 
-// A vector has one amount for all lanes. Different amounts are taken lane by lane.
+// WebAssembly shifts all lanes by the same amount. If the amounts may differ, lanes are shifted one
+// by one.
 void Body::push_shifted(const Instruction& instruction) {
     const auto [a, b, unused] = instruction.operands;
     const bool is_left = instruction.op == Op::bits_shift_left;
@@ -356,7 +360,7 @@ void Body::push_shifted(const Instruction& instruction) {
     }
 }
 
-// Vectors of 64-bit words have no such instruction.
+// There is no such instruction for vectors of 64-bit words, so lanes are converted one by one.
 void Body::push_converted(ValueId a) {
     code().get(number(a));
     if (function_.precision() == Precision::single) return code().write(Whole::numbers_of_words);

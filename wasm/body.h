@@ -1,7 +1,7 @@
-// The meaning of every operation of ir/operations.def in WebAssembly's instructions.
+// Translates every operation of ir/operations.def to WebAssembly's instructions.
 //
-// Internal to wasm/. Operations on words and numbers match the interpreter's
-// (ir/word_operations.h), one by one, so that both have the same bits with denormal numbers, too.
+// Internal to wasm/. Each operation on words and numbers does what the interpreter's does
+// (ir/word_operations.h), so both have the same bits, with denormal numbers, too.
 #pragma once
 
 #include "ir/kernel_parts.h"
@@ -18,18 +18,19 @@ class Body {
 public:
     Body(const KernelPart& part, Function& function, Cells& cells, bool is_exact);
 
-    /// Writes the values of a loop level, outer levels first. Cells' values are written once for
-    /// each vector, with the stores of results.
+    /// Writes the code of the values of a loop level. To be called once for each level, outer
+    /// levels first. Only for the level of cells, to be called once for each vector of the group.
+    /// These calls also write the stores of results.
     void write(LoopLevel level);
 
 private:
-    /// A value in up to three forms, made when needed.
+    /// A value in up to three forms. Each form is made when it is first needed.
     struct Value {
-        std::optional<Local> number;   ///< The word as it is.
-        std::optional<Local> operand;  ///< The same, flushed. Only in exact kernels.
-        std::optional<Local> truth;    ///< All bits of a lane are set or clear.
-        bool is_boolean = false;       ///< It was computed as truth.
-        bool is_of_source = false;     ///< The local of the first form belongs to the source.
+        std::optional<Local> number;   ///< The word, unchanged.
+        std::optional<Local> operand;  ///< The word, flushed. Only in exact kernels.
+        std::optional<Local> truth;    ///< For each lane, all bits set or all clear.
+        bool is_boolean = false;       ///< The value was computed as `truth`.
+        bool is_of_source = false;     ///< `number` is a local that Cells owns.
         bool may_be_denormal = false;
     };
 
@@ -43,7 +44,7 @@ private:
     void release(ValueId id);
     void give_back(ValueId id);
 
-    // The forms of a value, made at the value's own loop level.
+    // Return a local with one form of the value. Its code is written at the value's own loop level.
     Local number(ValueId id);
     Local operand(ValueId id);
     Local truth(ValueId id);
@@ -55,7 +56,7 @@ private:
         code().get(operand(a));
         code().get(operand(b));
     }
-    /// Pushes an instruction on operands as numbers, as words or as truths.
+    /// Pushes an instruction. The operands are taken as numbers, as words or as truths.
     void push_numbers(Lanes instruction, std::initializer_list<ValueId> operands) {
         for (const ValueId id : operands) code().get(operand(id));
         code().write(instruction);
@@ -86,11 +87,13 @@ private:
     bool is_exact_;
     IdVector<ValueId, LoopLevel> levels_;
     CellSchedule schedule_;
-    IdVector<ValueId, int> readers_;          ///< In the kernel.
-    IdVector<ValueId, int> readers_to_come_;  ///< In the vector that is being written.
-    std::vector<ValueId> read_in_loop_;       ///< Values of cells.
+    IdVector<ValueId, int> readers_;          ///< The number of instructions that read each value.
+    IdVector<ValueId, int> readers_to_come_;  ///< For each value, how many reads have yet to be
+                                              ///< written in the present vector.
+    std::vector<ValueId> read_in_loop_;  ///< The values of cells that the present loop over links
+                                         ///< reads.
     IdVector<ValueId, Value> values_;
-    LoopLevel level_ = LoopLevel::call;  ///< The level being written.
+    LoopLevel level_ = LoopLevel::call;  ///< The level that is being written.
 };
 
 }  // namespace cascade::wasm

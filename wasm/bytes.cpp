@@ -1,4 +1,5 @@
-// Appends to lists of bytes. Not inline, because g++ 12 would warn of overflows that cannot happen.
+// Appends to lists of bytes. These functions are not inline, because g++ 12 would warn of overflows
+// that cannot happen.
 #include "wasm/bytes.h"
 
 namespace cascade::wasm {

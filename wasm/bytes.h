@@ -1,4 +1,5 @@
-// The numbers and lists of the binary format: WebAssembly Core Specification 2.0, section 5.2.
+// Writes numbers and lists in WebAssembly's binary format (WebAssembly Core Specification 2.0,
+// section 5.2).
 //
 // Internal to wasm/.
 #pragma once
@@ -12,11 +13,12 @@ namespace cascade::wasm {
 using Bytes = std::vector<std::uint8_t>;
 
 void append(Bytes& to, const Bytes& bytes);
-/// LEB128: seven bits a byte, the lowest first. The top bit says that more follow.
+/// Appends an unsigned number in LEB128: seven bits per byte, lowest bits first. The top bit of a
+/// byte says that more bytes follow.
 void append_unsigned(Bytes& to, std::uint64_t number);
-/// The same, in two's complement.
+/// Appends a signed number in LEB128, in two's complement.
 void append_signed(Bytes& to, std::int64_t number);
-/// The number of bytes, then the bytes.
+/// Appends the number of bytes, then the bytes.
 void append_sized(Bytes& to, const Bytes& bytes);
 void append_name(Bytes& to, std::string_view name);
 

@@ -1,4 +1,5 @@
-// Loads from the cells themselves and beside them, masks, positions, and stores.
+// Loads the cells' own values and their neighbours' values, masks and positions, and stores
+// results.
 #include "wasm/cells.h"
 
 #include "core/check.h"
@@ -42,7 +43,7 @@ Local Cells::plane(Parameter table, std::size_t slot) {
     return known->second;
 }
 
-/// The distance in bytes from a row to another one, computed once per call.
+/// The distance in bytes to the row that is dy rows and dz slices away. Computed once per call.
 Local Cells::row_offset(int dy, int dz) {
     const auto [known, is_new] = row_offsets_.try_emplace({dy, dz});
     if (is_new) {
@@ -63,7 +64,7 @@ Local Cells::row_offset(int dy, int dz) {
     return known->second;
 }
 
-/// The position of the group's cells in a row of a plane, minus pad_bytes().
+/// The address of the group's first cell in a row of a plane, minus pad_bytes().
 Local Cells::address(const RowOfPlane& row) {
     const auto [known, is_new] = addresses_.try_emplace(row);
     if (is_new) {
@@ -110,7 +111,7 @@ Local Cells::neighbour(Neighbour at) {
     return load({at.slot, stencil_.x ? at.dx : 0, stencil_.y ? at.dy : 0, stencil_.z ? at.dz : 0});
 }
 
-// The bytes of the cells, as words.
+// Turns the cells' bytes into words.
 Local Cells::mask(MaskSlot slot) {
     code().get(address({Parameter::masks, slot.index()}));
     const auto offset = static_cast<std::uint32_t>(vector_ * function_.lanes());

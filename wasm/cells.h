@@ -1,7 +1,8 @@
-// The sources that a kernel's operations without operands read, and the stores of its results.
+// The code that loads the sources of a kernel, which are its operations without operands, and that
+// stores its results.
 //
-// Internal to wasm/. A group of vectors of cells is computed together. Then the loop continues with
-// the next group. Addresses of rows belong to the group, loaded values to the vector.
+// Internal to wasm/. A loop computes a group of vectors of cells in each pass. Addresses of rows
+// are computed once per group, and loaded values belong to one vector.
 #pragma once
 
 #include "core/grid.h"
@@ -17,7 +18,7 @@
 
 namespace cascade::wasm {
 
-/// The parameters of a kernel's function, in order: see wasm/kernel_module.h.
+/// The parameters of a kernel's function, in order. wasm/kernel_module.h explains them.
 enum class Parameter : std::uint32_t {
     fields,
     masks,
@@ -52,10 +53,11 @@ constexpr Local local_of(Parameter parameter) {
     return Local(static_cast<std::uint32_t>(parameter));
 }
 
-/// The position of the loops: bytes from cell (0, 0, 0) of a plane of numbers.
+/// The cells that the loops have reached, as distances in bytes from cell (0, 0, 0) of a plane of
+/// numbers.
 struct Place {
-    Local row;    ///< The row's first cell.
-    Local group;  ///< The group's first cell.
+    Local row;    ///< The first cell of the row.
+    Local group;  ///< The first cell of the group.
 };
 
 class Cells {
@@ -68,15 +70,15 @@ public:
           is_exact_(is_exact) {}
     virtual ~Cells() = default;
 
-    /// Begins a group of this number of vectors. Emits its Laplacians and sums over links, which
-    /// are computed before all other values.
+    /// Begins a group of this number of vectors. Writes the code of the group's Laplacians and sums
+    /// over links, which are computed before all other values.
     virtual void begin_group(int vectors) = 0;
-    /// Selects a vector of the group, by its number, for the calls that follow.
+    /// Selects a vector of the group by its index. The following calls refer to it.
     void begin_vector(int number) { vector_ = number; }
     void end_vector();
 
-    // The local that has the source's value in all lanes, until the end of the vector. A mask sets
-    // or clears all bits of a lane.
+    // Return a local that has the value of the source in each lane, valid until the end of the
+    // vector. For a mask, a lane's bits are all set or all clear.
     Local uniform(UniformSlot slot);
     Local cell_row();
     Local cell_slice();
@@ -85,25 +87,26 @@ public:
     Local field(FieldSlot slot) { return load({slot}); }
     Local neighbour(Neighbour at);
     virtual Local laplacian(FieldSlot slot) = 0;
-    /// All but `laplacian`.
+    /// The local of any sum over links except `laplacian`.
     virtual Local link_sum(const Instruction& sum) = 0;
 
-    // A loop over the links of the vector. Its body is the code of links written between these
-    // calls.
+    // A loop over the links of the vector. The code written at link level between these two calls
+    // is its body.
     virtual void begin_links();
     virtual void end_links();
-    // The local that has this for all lanes, until the end of the body.
-    /// A field's values in the linked cells.
+    // Return a local with the following values, one for each lane, valid until the end of the body.
+    /// The value of a field in the cell to which each lane's link leads.
     virtual Local theirs(FieldSlot slot);
-    /// The bits of a lane are set if it has a link, else clear.
+    /// All bits of a lane are set if it has a link, else all are clear.
     virtual Local is_link();
 
     void store(std::size_t result, Local number);
-    /// Fills the columns of the halo beside a row of a result, whose last column ends at `row_end`.
+    /// Copies columns to the halo of a row of a result, if the arguments name columns. `row_end` is
+    /// the end of the row's last column.
     void fill_columns(Code& code, std::size_t result, Local row_end);
 
 protected:
-    /// A field, and the numbers of columns, rows and slices from the cell to where it is read.
+    /// A field, and the columns, rows and slices from the cell to the cell where the field is read.
     struct Reading {
         FieldSlot slot;
         int dx = 0, dy = 0, dz = 0;
@@ -114,20 +117,20 @@ protected:
     Arithmetic arithmetic() { return {function_, LoopLevel::cell, is_exact_}; }
 
     Local load(const Reading& reading);
-    /// The same as an operand of arithmetic.
+    /// Like load(), but flushed in exact kernels, for use as an operand of arithmetic.
     Local operand(const Reading& reading);
-    /// A plane's address in a table, for numbers pad_bytes() before its first cell.
+    /// The address of the plane with this slot in `table`, minus pad_bytes().
     Local plane(Parameter table, std::size_t slot);
-    /// Addresses of planes are this many bytes before the first cell, so that reads west of a cell
-    /// have no negative offset.
+    /// Addresses of planes are reduced by this many bytes. The offsets of instructions are
+    /// unsigned, and with the smaller address they also reach cells to the west.
     std::uint32_t pad_bytes() const {
         return static_cast<std::uint32_t>(PlaneLayout::row_pad * function_.number_bytes());
     }
-    /// The top of the stack, stored until the end of the vector.
+    /// Moves the top of the stack to a local that is valid until the end of the vector.
     Local keep();
-    /// Pushes the number of columns from the row's first cell to the vector's.
+    /// Pushes the number of columns from the row's first cell to the vector's first cell.
     void push_column();
-    /// The top of the stack, a word, spread to all lanes.
+    /// Replaces the top of the stack, a word, by a vector with this word in all lanes.
     void splat_word(Code& code);
 
     Function& function_;
@@ -135,7 +138,7 @@ protected:
     Stencil stencil_;
     Place place_;
     bool is_exact_;
-    int vector_ = 0;  ///< Its number in the group.
+    int vector_ = 0;  ///< The index of the vector in its group.
 
 private:
     struct RowOfPlane {
@@ -153,9 +156,9 @@ private:
 
     std::map<std::pair<Parameter, std::size_t>, Local> planes_;
     std::map<std::pair<int, int>, Local> row_offsets_;
-    std::map<RowOfPlane, Local> addresses_;  ///< Addresses for the group.
+    std::map<RowOfPlane, Local> addresses_;  ///< Computed for the whole group.
     std::map<Reading, Local> loads_, operands_;
-    std::vector<Local> kept_;  ///< Locals of the vector.
+    std::vector<Local> kept_;  ///< The locals to release at the end of the vector.
 };
 
 std::unique_ptr<Cells> make_grid_cells(Function& function, const CellKernel& kernel,

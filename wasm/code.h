@@ -1,7 +1,7 @@
-// Instructions one after another, as bytes.
+// A sequence of WebAssembly's instructions, as bytes.
 //
 // Internal to wasm/. WebAssembly computes on a stack: an instruction takes its operands from the
-// top and leaves its result there. Locals hold values that are needed more than once.
+// top and leaves its result there. Locals store values that are needed more than once.
 #pragma once
 
 #include "core/precision.h"
@@ -30,7 +30,7 @@ public:
         write_vector(precision_ == Precision::single ? codes.single : codes.binary64);
     }
     void write(const Code& other) { append(bytes_, other.bytes_); }
-    /// An instruction on one lane.
+    /// Writes an instruction that works on one lane.
     void write(Lanes instruction, int lane) {
         write(instruction);
         bytes_.push_back(static_cast<std::uint8_t>(lane));
@@ -44,7 +44,8 @@ public:
         write(Plain::constant);
         append_signed(bytes_, value);
     }
-    /// A vector with the same word in all lanes, or with words that grow from lane to lane.
+    /// Pushes a vector with the same word in all lanes, or with a word that grows by `growth` from
+    /// lane to lane.
     void vector(std::uint64_t word, std::uint64_t growth = 0) {
         write(Whole::constant);
         const int bytes = static_cast<int>(bytes_of(precision_));
@@ -59,7 +60,7 @@ public:
         append_unsigned(bytes_, function);
     }
 
-    /// Loads and stores, `offset` bytes after the address on the stack.
+    /// Writes a load or store at `offset` bytes after the address on the stack.
     template <typename Instruction>
     void access(Instruction instruction, std::uint32_t offset) {
         const bool is_half = is_of_16_bits(instruction);
@@ -67,20 +68,21 @@ public:
         append_unsigned(bytes_, is_half ? 1 : 2);  // The binary logarithm of the alignment.
         append_unsigned(bytes_, offset);
     }
-    /// The same for one lane.
+    /// Writes a load or store of one lane.
     void access(Lanes instruction, std::uint32_t offset, int lane) {
         access(instruction, offset);
         bytes_.push_back(static_cast<std::uint8_t>(lane));
     }
 
-    /// Opens a block, which a branch leaves at its end, or a loop, which a branch restarts.
+    /// Opens a block or a loop. A branch goes to the end of a block, or to the start of a loop.
     void open(Plain block_or_loop) {
         constexpr std::uint8_t no_value = 0x40;
         write(block_or_loop);
         bytes_.push_back(no_value);
     }
     void close() { write(Plain::end); }
-    /// Branches to the innermost block or loop.
+    /// Branches out of the innermost block, or to the start of the innermost loop, if the top of
+    /// the stack is not 0.
     void branch_if() {
         write(Plain::branch_if);
         append_unsigned(bytes_, 0);

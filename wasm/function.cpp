@@ -1,4 +1,4 @@
-// Declares locals, and reuses those of cells.
+// Declares locals, and reuses locals of cells and links.
 #include "wasm/function.h"
 
 namespace cascade::wasm {

@@ -27,10 +27,11 @@ private:
     void compute_again_unless_finite();
     double multiple() const { return 2.0 * stencil_.axes(); }
 
-    std::map<int, std::map<FieldSlot, Local>> laplacians_;  ///< By vector.
+    std::map<int, std::map<FieldSlot, Local>> laplacians_;  ///< By the index of the vector in the
+                                                            ///< group.
 };
 
-/// Calls `write` in every vector of the group for every field whose Laplacian is used.
+/// Calls `write` for every vector of the group and every field whose Laplacian is used.
 void GridCells::for_each_laplacian(const auto& write) {
     for (auto& [vector, by_slot] : laplacians_) {
         begin_vector(vector);
@@ -51,7 +52,7 @@ void GridCells::begin_group(int vectors) {
     if (!laplacians_.empty() && stencil_.axes() < 3) compute_again_unless_finite();
 }
 
-// The specification gives the order of the sums: ((((N + S) + E) + W) + U) + D.
+// Adds in the order of the specification: ((((N + S) + E) + W) + U) + D.
 void GridCells::push_sum(FieldSlot slot) {
     bool is_first = true;
     const auto add_pair = [&](const Reading& first, const Reading& second) {
@@ -84,10 +85,11 @@ void GridCells::push_difference_of_parts(FieldSlot slot) {
     code().write(Lanes::multiply);
 }
 
-// The difference of a sum and two or four times a value must be rounded once. The multiple is exact
-// unless it overflows, and then the difference is not finite. So each group tests once whether all
-// differences are finite. Otherwise differences of large values are computed from parts. Choosing
-// between the two in every cell takes a quarter longer with two species.
+// A sum minus two or four times a value must be rounded once. The multiple is exact unless it
+// overflows, and then the difference is not finite. So each group tests once whether all its
+// differences are finite. If they are not, the differences with large values are computed again
+// from parts that do not overflow. Testing in every cell would take a quarter longer with two
+// species.
 void GridCells::compute_again_unless_finite() {
     bool is_first = true;
     for_each_laplacian([&](FieldSlot, Local laplacian) {

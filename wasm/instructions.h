@@ -1,5 +1,5 @@
-// The instructions of WebAssembly that kernels use, with their codes: WebAssembly Core
-// Specification 2.0, section 5.4.
+// The WebAssembly instructions that kernels use, with their codes (WebAssembly Core Specification
+// 2.0, section 5.4).
 //
 // Internal to wasm/.
 #pragma once
@@ -34,15 +34,15 @@ enum class Plain : std::uint8_t {
     multiply = 0x6c,
     bits_and = 0x71,
     shift_left = 0x74,
-    shift_right = 0x76,  ///< Zeros from the left.
+    shift_right = 0x76,  ///< Fills with zeros from the left.
     long_shift_left = 0x86,
     long_shift_right = 0x88,
-    extend = 0xad,  ///< i32 to i64.
+    extend = 0xad,  ///< From i32 to i64.
     long_to_number = 0xb9,
 };
 
-/// Instructions on vectors of 128 bits as a whole, or of lanes of one width. The byte 0xfd precedes
-/// the code.
+/// Instructions on vectors of 128 bits as a whole, or on lanes of only one width. In the binary
+/// format the byte 0xfd precedes the code.
 enum class Whole : std::uint8_t {
     load = 0x00,
     load_16_splat = 0x08,
@@ -53,16 +53,16 @@ enum class Whole : std::uint8_t {
     bits_and_not = 0x4f,
     bits_or = 0x50,
     bits_xor = 0x51,
-    choose = 0x52,  ///< By bits.
-    any = 0x53,     ///< Is a bit set?
+    choose = 0x52,  ///< Bit by bit.
+    any = 0x53,     ///< 1 if any bit is set.
     load_32_zero = 0x5c,
-    widen_8 = 0x89,  ///< The lower half of the lanes, without sign.
+    widen_8 = 0x89,  ///< Widens the lower half of the lanes, without sign.
     widen_16 = 0xa9,
     widen_32 = 0xc9,
-    numbers_of_words = 0xfa,  ///< f32x4 of signed i32x4.
+    numbers_of_words = 0xfa,  ///< From signed i32x4 to f32x4.
 };
 
-/// On vectors of four numbers or words of 32 bits, and of two of 64 bits.
+/// Instructions on lanes that exist for 32 and for 64 bits. A vector has four or two lanes.
 enum class Lanes : std::uint8_t {
 #define CASCADE_LANES(name, single, binary64) name,
 #include "wasm/lanes.def"

@@ -1,5 +1,5 @@
-// The loops over rows and cells, and the sections of the module: WebAssembly Core Specification
-// 2.0, section 5.5.
+// Writes the loops over rows and cells, and the sections of the module (WebAssembly Core
+// Specification 2.0, section 5.5).
 #include "wasm/kernel_module.h"
 
 #include "ir/multiply_add.h"
@@ -11,8 +11,9 @@ namespace {
 
 constexpr std::size_t most_instructions = 20000;
 
-/// The number of vectors computed in one pass of the loop, so that counting and addresses take
-/// little time: two for small kernels. A kernel may write that far after the last cell of a row.
+/// The number of vectors computed in one pass of the loop: two for small kernels, so that the loop
+/// counter and addresses take little time. Kernels may write this many vectors behind the last cell
+/// of a row.
 int vectors_of_group(const CellKernel& kernel) {
     constexpr std::size_t largest_in_pairs = 64;
     return kernel.code.size() <= largest_in_pairs ? 2 : 1;
@@ -24,7 +25,7 @@ std::uint32_t parameter_count(Stencil stencil) {
                                                     : Parameter::plane_parameters);
 }
 
-/// Pushes the number of bytes from the plane's first cell to a column of the present row.
+/// Pushes the distance in bytes from the plane's first cell to a column of the present row.
 void push_place(Code& code, const Function& function, Local row, Parameter column) {
     code.get(row);
     code.get(local_of(column));
@@ -33,7 +34,7 @@ void push_place(Code& code, const Function& function, Local row, Parameter colum
     code.write(Plain::add);
 }
 
-/// Fills the columns of the halo beside a row, if requested.
+/// Copies columns to the halo of a row, if the arguments name columns.
 void write_columns(Code& code, Cells& cells, const std::vector<std::size_t>& results,
                    Local row_end) {
     code.open(Plain::block);
@@ -45,7 +46,19 @@ void write_columns(Code& code, Cells& cells, const std::vector<std::size_t>& res
     code.close();
 }
 
-/// The function of a part: its loops.
+/// Ends a loop: counts `counter` up, and begins anew while it is `less` than `end`.
+void close_loop(Code& code, Local counter, int step, Local end, Plain less) {
+    code.get(counter);
+    code.integer(step);
+    code.write(Plain::add);
+    code.tee(counter);
+    code.get(end);
+    code.write(less);
+    code.branch_if();
+    code.close();
+}
+
+/// The function of a part of a kernel: its loops and their bodies.
 Bytes function_of(const KernelPart& part, Stencil stencil, bool is_exact) {
     const CellKernel& kernel = part.kernel;
     Function function(kernel.precision, parameter_count(stencil));
@@ -86,25 +99,11 @@ Bytes function_of(const KernelPart& part, Stencil stencil, bool is_exact) {
     code.write(function.at(LoopLevel::row));
     code.open(Plain::loop);
     code.write(function.at(LoopLevel::cell));
-    code.get(place.group);
-    code.integer(vectors * Code::vector_bytes);
-    code.write(Plain::add);
-    code.tee(place.group);
-    code.get(end);
-    code.write(Plain::less_unsigned);
-    code.branch_if();
-    code.close();
+    close_loop(code, place.group, vectors * Code::vector_bytes, end, Plain::less_unsigned);
     if (!stencil.links && !stencil.z) write_columns(code, *cells, part.results, end);
-    code.get(row);
-    code.integer(1);
-    code.write(Plain::add);
-    code.tee(row);
-    code.get(local_of(Parameter::row_end));
-    code.write(Plain::less);
-    code.branch_if();
+    close_loop(code, row, 1, local_of(Parameter::row_end), Plain::less);
     code.close();
-    code.close();
-    code.close();  // The function.
+    code.close();  // Closes the function.
     return function.with_locals(code);
 }
 
@@ -124,7 +123,7 @@ void append_section(Bytes& to, Section section, const std::vector<Bytes>& entrie
     append_sized(to, content);
 }
 
-/// A function that passes its arguments to all others, one after another.
+/// A function that calls all other functions in order and passes its own arguments to each.
 Bytes calls_of(std::size_t functions, std::uint32_t parameters) {
     Code code(Precision::single);
     for (std::size_t function = 0; function < functions; ++function) {
@@ -133,22 +132,22 @@ Bytes calls_of(std::size_t functions, std::uint32_t parameters) {
     }
     code.close();
     Bytes function;
-    append_unsigned(function, 0);  // Locals.
+    append_unsigned(function, 0);  // No locals.
     append(function, code.bytes());
     return function;
 }
 
-/// A module with the memory of its host and functions of the same parameters, of which it exports
-/// the last one.
+/// A module that imports the memory of its host and contains functions with the same parameters. It
+/// exports the last one.
 Bytes module_of(const std::vector<Bytes>& functions, std::uint32_t parameters) {
     constexpr std::uint8_t function_type = 0x60, is_function = 0x00, is_memory = 0x02;
     Bytes type{function_type};
     append_sized(type, Bytes(parameters, static_cast<std::uint8_t>(LocalType::integer)));
-    type.push_back(0);  // Results.
+    type.push_back(0);  // No results.
     Bytes memory;
     append_name(memory, "env");
     append_name(memory, "memory");
-    append(memory, {is_memory, 0, 0});  // Any number of pages from 0 on.
+    append(memory, {is_memory, 0, 0});  // With at least 0 pages.
     Bytes exported;
     append_name(exported, "run");
     exported.push_back(is_function);

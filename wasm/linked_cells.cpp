@@ -1,5 +1,6 @@
 // Loops over the links of cells (core/links.h). One loop over the entries of a slice computes all
-// sums of the kernel for all vectors of a group. Each vector's reductions have loops of their own.
+// sums of the kernel for all vectors of a group. Reductions have further loops, separate for each
+// vector.
 #include "wasm/cells.h"
 
 #include "core/links.h"
@@ -15,7 +16,7 @@ constexpr int slice_cells = LinkTable<float>::slice_cells;
 constexpr int slice_shift = 4;
 static_assert(1 << slice_shift == slice_cells);
 
-/// Identifies a sum of a kernel.
+/// Identifies a sum over links by its operation and payload.
 using SumKey = std::pair<Op, std::uint64_t>;
 SumKey key_of(const Instruction& instruction) { return {instruction.op, instruction.payload}; }
 
@@ -43,10 +44,10 @@ public:
 private:
     using LocalBySlot = std::map<FieldSlot, Local>;
 
-    /// The data of a vector of the group for all entries.
+    /// The locals of one vector of the group. They are valid in all entries.
     struct Vector {
         std::map<SumKey, Local> sums;
-        LocalBySlot own;  ///< Values of fields in the cells themselves.
+        LocalBySlot own;  ///< The fields' values in the cells themselves.
     };
 
     Local sum(const SumKey& key) const { return vectors_.at(vector_).sums.at(key); }
@@ -67,30 +68,32 @@ private:
 
     Code& links() { return function_.at(LoopLevel::link); }
     Arithmetic arithmetic_of_links() { return {function_, LoopLevel::link, is_exact_}; }
-    /// Moves the top of the stack of links to a local until the end of the entry.
+    /// Moves the top of the stack, in code of links, to a local that is valid until the end of the
+    /// entry.
     Local keep_in_entry(LocalType type = LocalType::vector) {
         of_entry_.push_back(function_.keep(LoopLevel::link, type));
         return of_entry_.back();
     }
-    /// Moves the top of the stack to a local until the end of the loop.
+    /// Moves the top of the stack to a local that is valid until the end of the loop.
     Local keep_in_loop() {
         of_loop_.push_back(function_.keep(LoopLevel::cell, LocalType::integer));
         return of_loop_.back();
     }
 
-    std::map<int, Vector> vectors_;  ///< By number.
-    // The loop's locals: addresses of an entry's data, or their end.
+    std::map<int, Vector> vectors_;  ///< By the vector's index in the group.
+    // Locals of the loop: the addresses of the entry's data, and the address at which the bases
+    // end.
     std::vector<Local> of_loop_;
     Local base_at_{}, bases_end_{}, offsets_at_{}, filled_at_{};
-    Local lane_{};  ///< The group's first cell in the slice.
-    Local link_{};  ///< The number of its first link.
+    Local lane_{};  ///< The lane, in its slice, of the group's first cell.
+    Local link_{};  ///< The index of the first link of that cell.
     std::map<Parameter, Local> factors_at_;
-    // The entry's locals.
+    // Locals of the entry.
     std::vector<Local> of_entry_;
-    Local base_{};                 ///< Bytes from cell (0, 0).
-    LocalBySlot bases_of_fields_;  ///< Addresses from which offsets count.
-    // The vector's locals in the entry.
-    std::vector<Local> targets_;  ///< By lane: bytes from the base.
+    Local base_{};  ///< The position from which offsets are counted, in bytes from cell (0, 0).
+    LocalBySlot bases_of_fields_;  ///< The addresses from which offsets are counted.
+    // Locals of the vector in the entry.
+    std::vector<Local> targets_;  ///< For each lane, the distance in bytes from `base_`.
     std::optional<Local> is_link_;
     LocalBySlot fields_, operands_, differences_;
     std::map<Parameter, Local> factors_;
@@ -115,7 +118,7 @@ void LinkedCells::begin_group(int vectors) {
     end_links();
 }
 
-/// Sets the sums to 0, and loads the cells' own values for their terms.
+/// Sets the sums to 0, and loads the cells' own values that the terms of the sums need.
 void LinkedCells::begin_sums(Vector& vector) {
     const auto load_own = [&](FieldSlot slot) {
         if (vector.own.contains(slot)) return;
@@ -133,14 +136,14 @@ void LinkedCells::begin_sums(Vector& vector) {
     }
 }
 
-/// Finds the addresses of the slice's first entry. If the group's first cell is in column c, the
-/// slice is number c / 16 of the row, and the entry is at lane c mod 16.
+/// Finds the addresses of the data of the slice's first entry. If the group's first cell is in
+/// column c, its slice is number c / 16 of the row, and its lane in the slice is c mod 16.
 void LinkedCells::find_links() {
     const int vector = std::exchange(vector_, 0);
     push_column();
     begin_vector(vector);
     const Local column = keep_in_loop();
-    // The stride is the width of whole slices plus one slice of padding on each side.
+    // The stride is the width of all slices of a row, plus one slice of padding on each side.
     code().get(local_of(Parameter::stride));
     code().integer(slice_shift);
     code().write(Plain::shift_right);
@@ -176,7 +179,7 @@ void LinkedCells::find_links() {
     offsets_at_ = address(Parameter::offsets, link_, 1);
 }
 
-/// The address of an element of an array.
+/// The address of an element of an array whose elements have 2^shift bytes.
 Local LinkedCells::address(Parameter array, Local element, int shift) {
     code().get(local_of(array));
     code().get(element);
@@ -198,7 +201,7 @@ void LinkedCells::begin_links() {
     begin_entry();
 }
 
-/// Writes the loop around the code of links.
+/// Writes a loop whose body is the code of links written so far.
 void LinkedCells::end_links() {
     end_vector_of_entry();
     for (const Local local : of_entry_) function_.give_back(local, LoopLevel::link);
@@ -289,7 +292,7 @@ Local LinkedCells::is_link() {
     return *is_link_;
 }
 
-/// Pushes the entry's term in a sum.
+/// Pushes the term that the entry adds to a sum.
 void LinkedCells::push_term(const SumKey& key) {
     const auto [op, payload] = key;
     const Flow flow = Flow::with(payload);
@@ -305,7 +308,7 @@ void LinkedCells::push_term(const SumKey& key) {
     arithmetic_of_links().multiply();
 }
 
-/// The address in a field from which the entry's offsets count, minus pad_bytes().
+/// The address in a field's plane from which the entry's offsets are counted, minus pad_bytes().
 Local LinkedCells::base_of(FieldSlot slot) {
     const auto [known, is_new] = bases_of_fields_.try_emplace(slot);
     if (is_new) {
@@ -338,7 +341,7 @@ Local LinkedCells::theirs(FieldSlot slot) {
     return known->second;
 }
 
-/// The same as an operand of arithmetic.
+/// Like theirs(), but flushed in exact kernels, for use as an operand of arithmetic.
 Local LinkedCells::at_targets(FieldSlot slot) {
     if (!is_exact_) return theirs(slot);
     const auto [known, is_new] = operands_.try_emplace(slot);
@@ -350,7 +353,8 @@ Local LinkedCells::at_targets(FieldSlot slot) {
     return known->second;
 }
 
-/// f_j − f_i.
+/// The difference f_j − f_i of a field's values in the cell j to which the link leads and in the
+/// cell i itself.
 Local LinkedCells::difference(FieldSlot slot) {
     const auto [known, is_new] = differences_.try_emplace(slot);
     if (is_new) {

@@ -1,7 +1,8 @@
-// cascade_halide_bench: speed of Cascade's native code, one core, against Halide's in this process.
+// cascade_halide_bench: speed of Cascade's native code on one core, compared with Halide's in this
+// process.
 //
-// For each system and size ours takes turns with Halide by several schedules; the table names the
-// best of them. All flags of Google Benchmark work (--benchmark_filter=turing/512).
+// For each system and size, Cascade takes turns with several schedules of Halide. The table names
+// the best schedule. All flags of Google Benchmark work (--benchmark_filter=turing/512).
 #include "bench/cascade_side.h"
 #include "bench/medians.h"
 #include "bench/peers/halide_side.h"
@@ -45,7 +46,7 @@ std::vector<HalideSchedule> schedules() {
             {Kind::windows, 16, 1024}, {Kind::windows, 4, 2048}, {Kind::windows, 16, 2048}};
 }
 
-/// A contest between different computations would be worth nothing.
+/// A comparison of different computations would be worthless.
 void check_agreement(Backend& backend, const System& system, HalideProgram& program) {
     constexpr std::int64_t steps = 64;
     const std::int64_t side = std::max(256, program.schedule().width);
@@ -60,8 +61,8 @@ void check_agreement(Backend& backend, const System& system, HalideProgram& prog
     std::exit(1);
 }
 
-/// The programs of a system by schedule, made and checked when first needed: compiling takes
-/// seconds.
+/// The programs of a system by schedule. Each is made and checked when first needed, because
+/// compiling takes seconds.
 class Programs {
 public:
     Programs(Backend& backend, const System& system) : backend_(backend), system_(system) {}
@@ -93,7 +94,7 @@ struct Contest {
     HalideSide theirs;
 };
 
-/// Ours and each schedule take turns; both sides are freed after it.
+/// Cascade and each schedule take turns. Both sides are freed afterwards.
 void run_contest(Backend& backend, const System& system, std::int64_t side, Programs& programs,
                  Medians& times) {
     const GridSize grid = {side, side};

@@ -19,7 +19,7 @@ using Halide::Var;
 constexpr int vector_cells = 16;
 constexpr int halo = HalideProgram::most_steps;
 
-/// Species of a step around a cell.
+/// The values of species around a cell, in one step.
 class Around {
 public:
     Around(const Func& step, const Var& x, const Var& y) : step_(step), x_(x), y_(y) {}
@@ -112,8 +112,8 @@ void HalideProgram::add_step(HalideSystem system) {
 void HalideProgram::apply_schedule() {
     const Var tile_x("tile_x"), tile_y("tile_y"), x("x_in_tile"), y("y_in_tile");
     Func& last = steps_.back();
-    // A vector at the end of a row lies over the one before it: steps before the last grow no
-    // wider.
+    // The last vector of a row is shifted back and overlaps the one before it, so that steps before
+    // the last compute no further columns.
     const auto inner_steps = [&](auto place) {
         for (std::size_t step = 1; step + 1 < steps_.size(); ++step) {
             steps_[step].vectorize(x_, vector_cells, TailStrategy::ShiftInwards);
@@ -152,7 +152,7 @@ void HalideProgram::run(const std::vector<Halide::Buffer<float>>& now,
     if (frozen.defined()) frozen_.set(frozen);
     std::vector<Halide::Buffer<>> results;
     for (const Halide::Buffer<float>& plane : next) {
-        // Without the halo; the cells are the same.
+        // A view of the same cells without the halo.
         results.emplace_back(Halide::Buffer<float>(plane.get()
                                                        ->cropped(0, 0, plane.width() - 2 * halo)
                                                        .cropped(1, 0, plane.height() - 2 * halo)));
@@ -161,12 +161,12 @@ void HalideProgram::run(const std::vector<Halide::Buffer<float>>& now,
 }
 
 HalideSide::HalideSide(const CascadeSide& like, const std::string& varying) : layout_(like.grid()) {
-    for (const Field& field : like.start().species) {
+    for (const Field& field : like.start().species()) {
         now_.push_back(plane_like(field.origin()));
         next_.push_back(plane_like(field.origin()));
     }
     if (!varying.empty()) varying_ = plane_like(like.parameter(varying).origin());
-    if (!like.start().frozen.empty()) frozen_ = plane_like(like.start().frozen.origin());
+    if (!like.start().frozen().empty()) frozen_ = plane_like(like.start().frozen().origin());
 }
 
 template <typename Number>
@@ -182,7 +182,7 @@ Halide::Buffer<Number> HalideSide::plane_like(const Number* origin) const {
     return plane;
 }
 
-/// As far as `reach` cells from the sides.
+/// Fills the halo up to `reach` cells from the sides.
 template <typename Number>
 void HalideSide::fill_halo(Halide::Buffer<Number>& plane, int reach) const {
     const int width = static_cast<int>(layout_.width), height = static_cast<int>(layout_.height);

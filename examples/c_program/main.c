@@ -1,9 +1,9 @@
-/* Grows Turing's spots with a stage that Cascade compiled, in a program that needs no Cascade.
+/* Grows Turing's spots with a stage that Cascade has compiled. The program itself needs no Cascade.
  *
  *     ./cascade compile examples/c_program/spots.cascade --per-cell ka -o step.o
  *     cc -O2 -I. examples/c_program/main.c step.o -lpng -o spots && ./spots spots.png
  *
- * With -fopenmp all cores take part.
+ * With -fopenmp it uses all cores.
  */
 #include "step.h"
 
@@ -13,7 +13,7 @@
 
 enum { width = SPOTS_STAGE1_WIDTH, height = SPOTS_STAGE1_HEIGHT };
 
-/* Dark where b is low, as in Turk's figures. */
+/* Draws low values of b dark, as in Turk's figures. */
 static int write_picture(const char *name, const float *b) {
     static unsigned char pixels[width * height];
     float low = b[0], high = b[0];
@@ -42,7 +42,7 @@ int main(int argc, char **argv) {
     spots_stage1_init(&spots, memory);
     spots_stage1_start(&spots);
 
-    /* What the script left open is the program's to decide: here, a gradient of ka. */
+    /* The program must set the planes that the script left open. Here it sets a gradient of ka. */
     for (int j = 0; j < height; ++j) {
         for (int i = 0; i < width; ++i) {
             spots.planes[SPOTS_STAGE1_PLANE_KA][spots_stage1_at(i, j, 0)] =

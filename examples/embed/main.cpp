@@ -1,4 +1,5 @@
-// Runs a pattern inside another program: parse, look at diagnostics, step, read fields, cancel.
+// Runs a pattern inside another program: parses a script, shows its errors, takes steps, reads
+// fields, and cancels.
 
 #include <cascade/cascade.h>
 
@@ -17,7 +18,8 @@ const char* const script =
     "  ka: 1/80\n"
     "}\n";
 
-/// The script has a mistake on its second line; the library says where, and does not run it.
+/// This script has a mistake in its second line. The library reports where, and does not run
+/// the script.
 bool shows_mistakes() {
     const cascade::Pattern wrong("stage spots: turing_spots {\n  betta: 12\n}\n");
     if (wrong.ok()) return false;
@@ -26,7 +28,8 @@ bool shows_mistakes() {
     return messages.size() == 1 && messages[0].line == 2 && messages[0].column == 3;
 }
 
-/// The pattern in letters, every second row: letters are twice as high as wide.
+/// Draws the pattern with characters, using every second row, because characters are twice as high
+/// as wide.
 void draw(const cascade::Pattern& pattern, const std::vector<float>& values) {
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
     const std::string ink = "@#*+-. ";

@@ -1,4 +1,4 @@
-// Simplifications, function by function.
+// Simplifies calls, function by function.
 #include "lang/calculus/algebra.h"
 
 #include "lang/program/fold.h"
@@ -10,7 +10,7 @@
 
 namespace cascade {
 
-/// Values that are known without computation.
+/// The simpler node that a call equals, if there is one.
 std::optional<NodeId> Algebra::simpler(Function function, const Operands& operands) {
     const auto [a, b, c] = std::array{operands[0], operands[1], operands[2]};
     const Node& first = (*this)[a];

@@ -1,18 +1,20 @@
-// Expression graphs that simplify themselves, for formulas derived from formulas (derivatives).
-// Values of patterns are always computed by formulas as they were written.
+// Expression graphs that simplify themselves. Used for formulas derived from other formulas, such
+// as derivatives. The values of a pattern itself are always computed by the formulas as their
+// author wrote them.
 #pragma once
 
 #include "lang/program/flatten.h"
 
 namespace cascade {
 
-/// Constants are folded. Sums and products are simplified if an operand is 0 or 1 or both are
-/// numbers. A product with 0 is 0, even if the other factor may be infinite or NaN.
+/// A graph in which functions of constants are evaluated, and sums and products are simplified if
+/// an operand is 0 or 1 or if both operands are numbers. A product with 0 becomes 0, although the
+/// other factor may be infinite or NaN.
 class Algebra : public ExpressionGraph {
 public:
     NodeId call(Function function, std::initializer_list<NodeId> operands,
                 ValueType type = ValueType::number) override;
-    /// The function of a node, applied to its one to three operands, which are nodes of this graph.
+    /// Applies the function of a node to the node's operands, one to three nodes of this graph.
     NodeId call_of(const Node& node);
 
     NodeId sum(NodeId a, NodeId b) { return call(Function::add, {a, b}); }
@@ -28,16 +30,17 @@ private:
     std::optional<NodeId> simpler(Function function, const Operands& operands);
 };
 
-/// The rules of calculus give up on larger formulas, which would cost more than they are worth.
+/// The largest formula to which the rules of calculus are applied. Derivatives of larger formulas
+/// would cost more time than they save.
 inline constexpr std::size_t most_calculus_nodes = 100'000;
 
 /// The rates of a system in one graph.
 struct FlatRates {
-    Algebra algebra;  ///< Holds the nodes of the rates first, then nodes made from them.
+    Algebra algebra;  ///< The nodes of the rates come first, then nodes computed from them.
     Flattening flattening;
-    std::size_t count = 0;  ///< The nodes below this number belong to the rates.
+    std::size_t count = 0;  ///< Nodes below this number belong to the rates.
 
-    /// With a space, vectors of fields are written out.
+    /// If `space` is given, vectors of fields are expanded into components.
     explicit FlatRates(const System& system, const std::optional<FieldSpace>& space = {})
         : flattening(algebra, space) {
         flattening.add_rates(system);
@@ -47,9 +50,10 @@ struct FlatRates {
     NodeId rate(ItemId species) const { return flattening.rate(species); }
 };
 
-/// What a formula reads of definitions and rates becomes part of it. The system must be sound.
+/// The formula, in which the definitions and rates that it reads are replaced by their own
+/// formulas. The system must be free of errors.
 Formula without_definitions(const System& system, const Formula& formula);
-/// The distances of a formula's sums `over near(d)`.
+/// The distances d of the sums `over near(d)` in a formula.
 std::vector<Formula> near_distances(const Formula& formula);
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
-// Derivatives of rates by forward accumulation, one species at a time, over a list of parts that
-// definitions and rates share.
+// Derivatives of rates, found by forward accumulation. For each species, goes once through the list
+// of all parts of definitions and rates. Equal parts are listed once.
 #include "lang/calculus/derivative.h"
 
 #include "core/check.h"
@@ -14,8 +14,8 @@ namespace cascade {
 
 namespace {
 
-/// The slopes by a species of all parts of the rates. Empty if there is no rule for a part that a
-/// rate needs, or if there are too many slopes.
+/// The slopes of all parts of the rates with respect to a species. Empty if there is no rule for a
+/// part that a rate needs, or if there are too many slopes.
 std::optional<IdVector<NodeId, Slopes>> slopes_of(FlatRates& rates, SlopeRules& rules,
                                                   ItemId species) {
     IdVector<NodeId, Slopes> slopes;
@@ -28,8 +28,8 @@ std::optional<IdVector<NodeId, Slopes>> slopes_of(FlatRates& rates, SlopeRules& 
     return slopes;
 }
 
-/// The bounds of one row or column of the matrix of slopes: of a rate by every species, or of every
-/// rate by one species.
+/// Bounds of one row or column of the matrix of slopes. A row contains the slopes of one rate with
+/// respect to all species, and a column the slopes of all rates with respect to one species.
 class LineBound {
 public:
     explicit LineBound(Algebra& algebra)
@@ -56,11 +56,12 @@ public:
     Term whole() const { return whole_; }
     Term far() const { return far_; }
     Term own() const { return own_; }
-    /// Without growth of waves.
+    /// The bound for the row or column if waves do not grow.
     Term at_rest() { return abs(own_) + others_; }
     bool has_cross_diffusion() const { return !cross_diffusion_.empty(); }
 
-    /// The largest growth of waves of any length, or the reaction alone.
+    /// The largest growth of a wave of any length, or the bound of the reaction alone if that is
+    /// larger.
     Term reaction() {
         Term most = abs(own_);
         for (const double x : lengths()) most = max(most, growth(x));
@@ -68,9 +69,10 @@ public:
     }
 
 private:
-    /// The values of x, relative to the largest gain, at which the growth of waves is evaluated.
-    /// Growth that is linear in x is largest at an end; for nested operators it may be largest in
-    /// between. Steps of √2 miss 4 % of a parabola at most.
+    /// The values of x (relative to the largest gain) at which the growth of waves is evaluated.
+    /// Growth that is linear in x is largest at an end. With nested operators it may be largest in
+    /// between. If the values differ by a factor √2, the maximum of a parabola is underestimated by
+    /// at most 4 %.
     std::vector<double> lengths() const {
         std::size_t degree = 0;
         for (const auto* diffusions : {&own_diffusion_, &cross_diffusion_}) {
@@ -116,7 +118,7 @@ Formula over_domain(const Algebra& algebra, Term part) {
     return algebra.formula(algebra.is_number(part) ? part : domain_max(part));
 }
 
-/// The matrix of slopes by rate and species, as rows and columns.
+/// The matrix of slopes, by rows (rates) and columns (species).
 class SlopeMatrix {
 public:
     SlopeMatrix(Algebra& algebra, std::size_t species)
@@ -150,8 +152,10 @@ public:
         return largest(parts);
     }
 
-    /// A matrix has the eigenvalues of its transpose. If one species drags another along, as bait
-    /// does cells, its column may give a smaller bound than the other's row.
+    /// A matrix and its transpose have the same eigenvalues, so the bound from the columns is
+    /// valid, too. It may be smaller than the bound from the rows: if one species drags another
+    /// along, as bait drags cells, the column of the first may have a smaller bound than the row of
+    /// the second.
     Term reaction() {
         const Term by_rows = growth_in(rows_);
         const auto crosses = [](const LineBound& row) { return row.has_cross_diffusion(); };

@@ -1,4 +1,4 @@
-// Derivatives of a system's rates with respect to its species, by the rules of calculus and
+// Derivatives of a system's rates with respect to its species, found by the rules of calculus and
 // simplified.
 #pragma once
 
@@ -10,43 +10,45 @@
 
 namespace cascade {
 
-/// The derivatives of all rates by the values of all species in the same cell. Values that
-/// operators read at neighbours, and aggregates, are held constant.
+/// The derivatives of all rates with respect to the values of all species in the same cell.
+/// Aggregates, and values that operators read at neighbours, are held constant.
 struct LocalJacobian {
-    /// Definitions and other rates are expanded. Nodes that were written were written in the
-    /// formulas of the rates, numbered as Flattening::add_rates() does.
+    /// Contains the rates, with definitions and other rates expanded. `written` gives the node of
+    /// the rates' formulas from which each node comes, numbered as by Flattening::add_rates().
     Algebra algebra;
-    /// rows[of][by] is the derivative of the rate of one species by the value of another.
+    /// rows[of][by] is the derivative of the rate of species `of` with respect to species `by`.
     IdVector<SpeciesId, IdVector<SpeciesId, NodeId>> rows;
 };
-/// Empty if a function without a rule depends on a species, or if the formulas become too large.
+/// The Jacobian of a stage. Empty if there is no rule for a function that depends on a species, or
+/// if the formulas become too large.
 std::optional<LocalJacobian> local_jacobian(const Program& program, std::uint32_t stage);
 
-/// Bounds of the Jacobian J of the rates in a state. Each is one number, the largest over all cells
-/// (an aggregate over the domain). Coefficients of operators are taken at the cell itself; see
-/// slopes.h.
+/// Bounds of the Jacobian J of the rates in a state. Each is a formula for one number, the largest
+/// over all cells (an aggregate over the domain). slopes.h explains how operators are counted.
 struct JacobianBound {
-    /// Of the magnitude of the eigenvalues: the largest Σ |J_ij| of a row i, where i and j are
-    /// pairs of a species and a cell (S. Gerschgorin, 1931). It limits the step, or the number of
-    /// stages, of an explicit method.
+    /// A bound of the eigenvalues' magnitude: the largest Σ |J_ij| of a row i, where i and j are
+    /// pairs of a species and a cell (S. Gerschgorin, 1931). It limits the step of an explicit
+    /// method, or sets its number of stages.
     Formula whole;
-    /// Of the part that stages do not stabilise: the reaction, waves, and the growth that operators
-    /// cause, as -lap(c) does in lap(c^3 - c - lap(c)). It limits the step of a stabilised method.
+    /// A bound for the part of J that additional stages do not stabilise: the reaction, waves, and
+    /// growth caused by operators, such as that by -lap(c) in lap(c^3 - c - lap(c)). It limits the
+    /// step of a stabilised method.
     Formula reaction;
-    /// Of the part that a method does not stabilise that takes the reaction of each cell
-    /// implicitly: what operators and aggregates read in other cells. It limits the step of such a
-    /// method.
+    /// A bound for the part of J that reads other cells, by operators and aggregates. It limits the
+    /// step of a method that takes the reaction in each cell implicitly.
     Formula spread;
-    /// The fastest growth of a species by itself in its cell, 0 if none grows. The equations of
-    /// such a method are singular at steps that are too long for it.
+    /// The fastest growth of a species by itself in its cell; 0 if no species grows. A method that
+    /// takes the reaction in each cell implicitly must not take steps as long as 1 / growth,
+    /// because its equations are then singular.
     Formula growth;
-    /// Does a rate jump where a species passes a threshold? The reaction is then faster there than
-    /// the bound.
+    /// Whether a rate jumps where a species passes a threshold. At the jump the reaction is faster
+    /// than these bounds.
     bool jumps = false;
 };
 
-/// Empty as above, or if the formulas become too large. `model` has facts about the model that is
-/// the domain; null on grids.
+/// The bounds for a stage. Empty if there is no rule for a function that depends on a species, or
+/// if the formulas become too large. `model` describes the model on which the stage runs. Null on
+/// grids.
 std::optional<JacobianBound> jacobian_bound(const Program& program, std::uint32_t stage,
                                             const ModelFacts* model = nullptr);
 

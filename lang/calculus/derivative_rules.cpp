@@ -1,4 +1,4 @@
-// The rules of calculus, from the column `slope` of lang/vocabulary/elementary.def.
+// The rules of calculus, taken from the column `slope` of lang/vocabulary/elementary.def.
 #include "lang/calculus/derivative_rules.h"
 
 #include "lang/program/terms.h"
@@ -14,8 +14,8 @@ Term clamp_slope(Term v, Term low, Term high, std::size_t n) {
     return n == 1 ? if_(is_low, one, zero) : if_(is_low, zero, if_(is_high, one, zero));
 }
 
-/// The derivative of 3 p² − 2 p³ with p = (v − a) / (b − a) inside 0 … 1. There is no rule for a
-/// and b.
+/// The derivative of 3 p² − 2 p³ with respect to v, where p = (v − a) / (b − a) is between 0 and 1.
+/// There is no rule for the derivatives with respect to a and b.
 std::optional<Term> smooth_step_slope(Term a, Term b, Term v, std::size_t n) {
     if (n != 2) return std::nullopt;
     const Term p = (v - a) / (b - a), zero = v.number(0), one = v.number(1);
@@ -32,7 +32,7 @@ std::optional<Term> slope_of(Algebra& algebra, const Node& call, std::size_t n) 
 #define CASCADE_ELEMENTARY(id, value, kernel, slope) case Function::id: return slope;
 #include "lang/vocabulary/elementary.def"
         // clang-format on
-        // Mean + spread · noise, where |noise| ≤ 1.
+        // The value is mean + spread · noise, with |noise| ≤ 1.
         case Function::random: return one;
         default: return std::nullopt;
     }
@@ -41,7 +41,7 @@ std::optional<Term> slope_of(Algebra& algebra, const Node& call, std::size_t n) 
 }  // namespace
 
 std::optional<NodeId> partial_derivative(Algebra& algebra, const Node& call, std::size_t n) {
-    const Node copy = call;  // A copy, since `call` may refer into the algebra's list, which grows.
+    const Node copy = call;  // A copy, because `call` may be in the algebra's list, which grows.
     const auto slope = slope_of(algebra, copy, n);
     if (!slope) return std::nullopt;
     return slope->id;

@@ -1,4 +1,4 @@
-// The rules of calculus, one call at a time (internal to derivative.cpp).
+// The rules of calculus for single calls (internal to derivative.cpp).
 #pragma once
 
 #include "lang/calculus/algebra.h"
@@ -8,8 +8,8 @@
 
 namespace cascade {
 
-/// ∂(the call)/∂(its operand n), if its function has a rule for it. Operators of derivatives have
-/// none here: see lang/calculus/slopes.h.
+/// ∂(the call)/∂(its operand n), if there is a rule for the function. Rules for operators of
+/// derivatives are in lang/calculus/slopes.h.
 std::optional<NodeId> partial_derivative(Algebra& algebra, const Node& call, std::size_t n);
 
 }  // namespace cascade

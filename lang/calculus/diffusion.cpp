@@ -1,5 +1,5 @@
-// Goes forwards through the parts of the rates and writes each as a sum of operators applied to the
-// species.
+// Goes forward through the parts of the rates. Writes each part as a sum of operators that are
+// applied to the species.
 #include "lang/calculus/diffusion.h"
 
 #include "lang/calculus/derivative_rules.h"
@@ -17,13 +17,15 @@ namespace cascade {
 
 namespace {
 
-/// How a part changes with the species: directly, then through the operators of DiffusionTerms.
+/// How a part depends on the species: directly (`own`), and through the operators of
+/// DiffusionTerms.
 struct Operators {
     Term own;
     DiffusionTerms<Term> terms{};
 };
 
-/// Does a node have the same value in all cells? Not if it aggregates values that differ by cell.
+/// Whether a node has the same value in all cells. An aggregate of values that differ by cell
+/// counts as different.
 bool is_even(const ExpressionGraph& graph, NodeId root, const Program& program,
              std::uint32_t stage) {
     return std::ranges::none_of(formula_of(graph.nodes(), root).nodes, [&](const Node& node) {
@@ -41,7 +43,7 @@ public:
           stage_(stage),
           zero_{&algebra_, algebra_.number(0)} {}
 
-    /// The operators of all parts; fewer if there are too many nodes.
+    /// The operators of all parts. Stops early if there are too many nodes.
     IdVector<NodeId, Operators> run() && {
         found_.reserve(rates_.count);
         while (found_.size() < rates_.count && algebra_.size() < most_calculus_nodes) {
@@ -80,7 +82,8 @@ private:
         const bool is_vector = node.type == ValueType::vector;
         for (std::size_t n = 0; n < node.operand_count; ++n) {
             const NodeId operand = node.operands[n];
-            // A factor that depends on the species, times a gradient, is drift.
+            // A gradient multiplied by a factor that depends on the species is drift, not
+            // diffusion.
             if (is_vector && algebra_[operand].type != ValueType::vector) continue;
             if (is_nothing(found_[operand])) continue;
             const auto partial = partial_derivative(algebra_, node, n);
@@ -98,7 +101,8 @@ private:
         }
     }
 
-    /// Drops powers beyond the last, and lap of an operator along one axis.
+    /// Applies lap. Drops powers of lap above the highest in DiffusionTerms, and lap of an operator
+    /// along a single axis.
     Operators laplacian(const Operators& of) const {
         Operators result = nothing();
         result.terms[0] = of.own;
@@ -112,9 +116,10 @@ private:
         return result;
     }
 
-    /// a11 dxx + a22 dyy + 2 a12 dxy damps no wave more than (a11 + |a12|) dxx + (a22 + |a12|) dyy:
-    /// the symbol of dxy is no larger than the mean of those of dxx and dyy. Between periodic sides
-    /// it is known for each wave; between others dxy makes other waves of a wave.
+    /// The symbol of dxy is at most the mean of the symbols of dxx and dyy. So a11 dxx + a22 dyy +
+    /// 2 a12 dxy damps no wave more than (a11 + |a12|) dxx + (a22 + |a12|) dyy. Between periodic
+    /// sides the symbol of dxy is known for each wave. Between other sides dxy turns waves into
+    /// other waves.
     Operators directed(const Node& node) {
         Operators result = nothing();
         const Term own{&algebra_, found_[node.operands[0]].own};

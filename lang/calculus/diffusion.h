@@ -1,5 +1,5 @@
-// The part of each rate that is diffusion of its own species, which semi-implicit solvers take
-// implicitly.
+// Finds the part of each rate that is diffusion of the rate's own species. Semi-implicit solvers
+// treat this part implicitly.
 #pragma once
 
 #include "ir/diffusion.h"
@@ -10,20 +10,23 @@
 
 namespace cascade {
 
-/// A formula for each factor of a species' diffusion; no nodes if it is 0. Its largest value over
-/// the cells is used.
+/// A formula for each factor of a species' diffusion. A factor of 0 is a formula without nodes.
+/// Solvers use the largest value of each formula over all cells.
 using SpeciesDiffusion = DiffusionTerms<Formula>;
 
-/// The diffusion of each species: its rate is linearised by the species itself at the present
-/// state, as if factors were the same in all cells, and the factors of lap, lap(lap), …, dxx, dyy,
-/// dzz are collected. div(k * grad(e)) counts as k lap(e). The part of diffuse across the axes has
-/// a factor of its own where its coefficients are the same in all cells and x and y are periodic;
-/// elsewhere it is added to both diagonal entries, so that they damp at least as much as the whole.
-/// A derivative by the own value that is the same in all cells is decay, if there is any diffusion.
-/// Everything else (advection, tensors in fluxes, random numbers, other species) is left out.
+/// The diffusion of each species. The rate is linearised at the present state with respect to its
+/// own species. Coefficients count as if they were the same in all cells. Then the factors of lap,
+/// lap(lap), …, dxx, dyy, dzz are collected.
+/// - div(k * grad(e)) counts as k lap(e).
+/// - Mixed derivatives in diffuse(…) get a factor of their own if x and y are periodic and the
+///   coefficients are the same in all cells. Otherwise they are added to the two unmixed
+///   derivatives, which then damp at least as much as the whole operator.
+/// - A derivative with respect to the species' own value that is the same in all cells counts as
+///   decay, if there is any diffusion.
+/// - Everything else (advection, tensors in fluxes, random numbers, other species) is left out.
 IdVector<SpeciesId, SpeciesDiffusion> diffusion_of(const Program& program, std::uint32_t stage);
 
-/// Can the formula's value change while a stage runs?
+/// Whether the formula's value can change while the stage runs.
 bool changes_in_time(const Program& program, std::uint32_t stage, const Formula& formula);
 
 }  // namespace cascade

@@ -9,7 +9,7 @@
 #include <utility>
 
 namespace cascade {
-/// Can it produce a NaN from finite numbers?
+/// Whether the node can produce a NaN from finite numbers.
 bool LostNumbers::makes_nan(const Node& node) const {
     const auto* const second = flat_.algebra[node.operands[1]].as<double>();
     switch (info(node.function).behaviour) {
@@ -34,7 +34,7 @@ void LostNumbers::know_all_parts() {
                 may = may || may_be_nan_[operand];
                 is_of_file = is_of_file || reads_file_[operand];
             }
-            // A comparison is 0 or 1, even of NaN.
+            // A comparison yields 0 or 1, even if an operand is NaN.
             may = may && !is_of_file && !is_comparison(node.function);
         }
         may_be_nan_.push_back(may);
@@ -46,8 +46,8 @@ bool LostNumbers::is_random(NodeId root) const {
     return holds_in(flat_.algebra.formula(root), is_draw);
 }
 
-/// Finds the comparisons of a formula and the conditions under which they matter, without
-/// recursion, so that formulas may be of any depth.
+/// Finds the comparisons of a formula, and the conditions under which their results matter. Works
+/// without recursion, so formulas may be of any depth.
 class LostNumbers::Search {
 public:
     Search(Algebra& algebra, const IdVector<NodeId, bool>& may_be_nan)
@@ -68,11 +68,13 @@ public:
 
 private:
     static constexpr std::size_t none = SIZE_MAX;
-    /// Users' formulas have a few.
+    /// Limits of the search. Formulas that people write contain far fewer comparisons and
+    /// conditions.
     static constexpr std::size_t most_found = 64, most_guards = 64;
 
-    /// What it guards matters where `part` is not 0, or where it is 0 if `is_zero`. `around` is the
-    /// next guard outwards.
+    /// A condition around some parts, which decides whether their values matter. They matter where
+    /// the condition `part` is not 0 or, if `is_zero`, where it is 0. `around` is the condition
+    /// around this one.
     struct Guard {
         NodeId part;
         bool is_zero = false;
@@ -86,7 +88,7 @@ private:
         return guards_.size() - 1;
     }
 
-    /// A node that is read twice is visited once.
+    /// A node that several nodes read is visited once.
     void visit_later(NodeId id, std::size_t guard) {
         if (seen_[id] || (guard != none && guards_[guard].depth > most_guards)) return;
         seen_[id] = true;
@@ -134,7 +136,7 @@ private:
     Algebra& algebra_;
     const IdVector<NodeId, bool>& may_be_nan_;
     IdVector<NodeId, bool> seen_;
-    std::vector<std::pair<NodeId, std::size_t>> waiting_;  ///< Parts and their guards.
+    std::vector<std::pair<NodeId, std::size_t>> waiting_;  ///< Parts and their innermost guards.
     std::vector<Guard> guards_;
     std::vector<LostNumber> found_;
 };

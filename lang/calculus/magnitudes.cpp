@@ -1,4 +1,5 @@
-// Carries bounds from the leaves of an expression graph to its roots, and with them what is lost.
+// Computes two bounds for each node, from the leaves of an expression graph to its roots: of the
+// node's value, and of the error by parts that count as 0.
 #include "lang/calculus/magnitudes.h"
 
 #include "lang/calculus/algebra.h"
@@ -12,37 +13,52 @@ namespace cascade {
 
 namespace {
 
-/// The least and the largest normal number of single precision. What is smaller counts as 0.
+/// The least and the largest normal number of single precision. Smaller numbers count as 0.
 constexpr double least_single = 0x1p-126, largest_single = 3.4028235e38;
+/// A term that is smaller than this fraction of a number is less than half of the number's last
+/// digit.
+constexpr double least_added = 0x1p-25;
 
 struct Part {
     Magnitude size;
-    double lost = 0;                     ///< A bound of what has been taken for 0.
-    std::optional<NodeId> lost_by = {};  ///< The part that was.
+    double lost = 0;  ///< A bound of the total of all parts that count as 0 because they are too
+                      ///< small.
+    std::optional<NodeId> lost_by = {};  ///< The part that counts as 0.
+    std::optional<NodeId> within = {};   ///< The part to which this part was added, if any.
     std::optional<NodeId> too_large = {};
-    std::optional<double> number = {};  ///< If it is one.
+    std::optional<double> number = {};  ///< The value, if it is a constant.
 
     static Magnitude either(const Magnitude& a, const Magnitude& b) {
         return {std::min(a.least, b.least), std::max(a.most, b.most),
-                a.is_positive && b.is_positive};
+                a.is_positive && b.is_positive, a.is_negative && b.is_negative};
     }
-    /// A sum or a difference.
-    static Part joined(const Part& a, const Part& b, bool keeps_sign) {
-        const double least =
-            keeps_sign ? a.size.least + b.size.least
-                       : std::max({a.size.least - b.size.most, b.size.least - a.size.most, 0.0});
-        return {{least, a.size.most + b.size.most, keeps_sign}, a.lost + b.lost};
+    static Magnitude negative(const Magnitude& a) {
+        return {a.least, a.most, a.is_negative, a.is_positive};
+    }
+    static Part sum(const Magnitude& a, const Magnitude& b, double lost) {
+        const auto low = [](const Magnitude& of) { return of.is_positive ? of.least : -of.most; };
+        const auto high = [](const Magnitude& of) { return of.is_negative ? -of.least : of.most; };
+        const double lowest = low(a) + low(b), highest = high(a) + high(b);
+        const double most = std::max(std::abs(lowest), std::abs(highest));
+        const double least = std::max({lowest, -highest, a.least - b.most, b.least - a.most, 0.0});
+        return {{least, std::isnan(most) ? INFINITY : most, lowest >= 0, highest <= 0}, lost};
+    }
+    /// The sign of a product or a quotient.
+    static Magnitude with_sign(double least, double most, const Part& a, const Part& b) {
+        const Magnitude &x = a.size, &y = b.size;
+        return {least, most, (x.is_positive && y.is_positive) || (x.is_negative && y.is_negative),
+                (x.is_positive && y.is_negative) || (x.is_negative && y.is_positive)};
     }
     static Part truth() { return {{0, 1, true}}; }
     static Part within_one(const Part& a) { return {{0, 1, false}, a.lost}; }
 
-    // What functions make of parts, by their names in functions.def; of the others nothing is
-    // known.
-    friend Part add(const Part& a, const Part& b) {
-        return joined(a, b, a.size.is_positive && b.size.is_positive);
+    // The bounds of functions, by their names in functions.def. The values of all other functions
+    // are unbounded.
+    friend Part add(const Part& a, const Part& b) { return sum(a.size, b.size, a.lost + b.lost); }
+    friend Part subtract(const Part& a, const Part& b) {
+        return sum(a.size, negative(b.size), a.lost + b.lost);
     }
-    friend Part subtract(const Part& a, const Part& b) { return joined(a, b, false); }
-    friend Part negate(const Part& a) { return {{a.size.least, a.size.most, false}, a.lost}; }
+    friend Part negate(const Part& a) { return {negative(a.size), a.lost}; }
     friend Part abs(const Part& a) { return {{a.size.least, a.size.most, true}, a.lost}; }
     friend Part min(const Part& a, const Part& b) {
         return {either(a.size, b.size), std::max(a.lost, b.lost)};
@@ -53,8 +69,9 @@ struct Part {
         return {{std::sqrt(a.size.least), std::sqrt(a.size.most), true}, std::sqrt(a.lost)};
     }
     friend Part exp(const Part& a) {
-        const double most = std::exp(a.size.most);
-        return {{std::exp(-a.size.most), most, true}, most * a.lost};
+        const double least = std::exp(a.size.is_positive ? a.size.least : -a.size.most);
+        const double most = std::exp(a.size.is_negative ? -a.size.least : a.size.most);
+        return {{least, most, true}, most * a.lost};
     }
     friend Part sin(const Part& a) { return within_one(a); }
     friend Part cos(const Part& a) { return within_one(a); }
@@ -67,19 +84,19 @@ struct Part {
     friend Part not_equal(const Part&, const Part&) { return truth(); }
     friend Part multiply(const Part& a, const Part& b) {
         const bool is_square = &a == &b;
-        Part part{{a.size.least * b.size.least, a.size.most * b.size.most,
-                   is_square || (a.size.is_positive && b.size.is_positive)}};
+        Part part{with_sign(a.size.least * b.size.least, a.size.most * b.size.most, a, b)};
+        if (is_square) part.size.is_positive = true;
         if (a.size.most == 0 || b.size.most == 0) part.size.most = 0;
         part.lost =
             (a.lost > 0 ? a.lost * b.size.most : 0) + (b.lost > 0 ? b.lost * a.size.most : 0);
         return part;
     }
     friend Part divide(const Part& a, const Part& b) {
-        Part part{{a.size.least / b.size.most, a.size.most / b.size.least,
-                   a.size.is_positive && b.size.is_positive}};
+        Part part{with_sign(a.size.least / b.size.most, a.size.most / b.size.least, a, b)};
         if (b.lost >= b.size.least && b.lost > 0) {
             part.lost = part.size.most;
             part.lost_by = b.lost_by;
+            part.within = b.within;
         } else {
             part.lost = (a.lost > 0 ? a.lost / b.size.least : 0) +
                         (b.lost > 0 ? part.size.most * b.lost / b.size.least : 0);
@@ -117,7 +134,7 @@ private:
             return part;
         }
         if (differentiates(node.function)) {
-            part.size = {0, 0, false};  // What operators add is left out.
+            part.size = {0, 0, false};  // Terms of operators are left out.
         } else if (node.operand_count > 0) {
             const auto operand = [&](std::size_t n) -> const Part& {
                 return parts_[node.operands[n < node.operand_count ? n : 0]];
@@ -125,17 +142,33 @@ private:
             part = call_by_name(node.function, operand(0), operand(1), operand(2));
         }
         inherit(node, part);
-        // Where nothing is known of the size, nothing is known of the loss.
+        // If the size is unknown, the loss is unknown, too.
         if (!std::isfinite(part.lost) || !std::isfinite(part.size.most)) part.lost = 0;
+        if (!std::isfinite(part.size.most)) return part;
+        if (node.calls(Function::add) || node.calls(Function::subtract)) swallow(node, part);
         const bool multiplies = node.calls(Function::multiply) || node.calls(Function::divide) ||
-                                node.calls(Function::power);
-        if (!multiplies || !std::isfinite(part.size.most)) return part;
+                                node.calls(Function::power) || node.calls(Function::exp);
+        if (!multiplies) return part;
         if (part.size.most > 0 && part.size.most < least_single) {
             part.lost = part.size.most;
             part.lost_by = id;
+            part.within = {};
         }
         if (part.size.most > largest_single && !part.too_large) part.too_large = id;
         return part;
+    }
+
+    /// Adds what one operand of a sum loses to the other in all cells.
+    void swallow(const Node& node, Part& part) const {
+        for (const std::size_t small : {0, 1}) {
+            const NodeId id = node.operands[small], other = node.operands[1 - small];
+            const double most = parts_[id].size.most;
+            if (!(most > 0 && most < least_added * parts_[other].size.least)) continue;
+            part.lost += most;
+            if (part.lost_by && parts_[*part.lost_by].size.most > most) continue;
+            part.lost_by = id;
+            part.within = other;
+        }
     }
 
     Magnitude leaf(const Node& node) const {
@@ -145,21 +178,24 @@ private:
         return is_share ? Magnitude{0, 1, true} : Magnitude{};
     }
 
-    /// The part that loses most passes its name on.
+    /// Takes `lost_by` from the operand that loses most.
     void inherit(const Node& node, Part& part) const {
         double most = 0;
-        std::optional<NodeId> lost_by;
+        const Part* from = nullptr;
         for (const NodeId operand : node.reads()) {
             const Part& of = parts_[operand];
             if (of.too_large && !part.too_large) part.too_large = of.too_large;
             if (!of.lost_by || !(of.lost > 0)) continue;
-            // Relative to its own size, because factors follow.
+            // The loss relative to the operand's size, because the operand may be multiplied by
+            // other factors.
             const double share = of.size.most > 0 ? of.lost / of.size.most : 0;
-            if (lost_by && share <= most) continue;
+            if (from != nullptr && share <= most) continue;
             most = share;
-            lost_by = of.lost_by;
+            from = &of;
         }
-        if (!part.lost_by) part.lost_by = lost_by;
+        if (part.lost_by || from == nullptr) return;
+        part.lost_by = from->lost_by;
+        part.within = from->within;
     }
 
     const Algebra& graph_;
@@ -167,22 +203,54 @@ private:
     IdVector<NodeId, Part> parts_;
 };
 
+/// A formula that is searched.
+struct Root {
+    ItemId species;
+    std::optional<Side> side;
+    SideKind kind{};
+    NodeId id;
+};
+
+std::vector<Root> roots_of(const Stage& stage, const System& system, FlatRates& rates) {
+    std::vector<Root> roots;
+    const IdVector<SpeciesId, ItemId> items = system.species();
+    for (const SpeciesId species : items.ids()) {
+        const ItemId item = items[species];
+        roots.push_back({item, std::nullopt, {}, rates.rate(item)});
+        if (species.index() >= stage.sides.size()) continue;
+        for (std::size_t side = 0; side < wall_count; ++side) {
+            const SideSetting& setting = stage.sides[species][side];
+            if (setting.value.nodes.empty()) continue;
+            roots.push_back(
+                {item, static_cast<Side>(side), setting.kind, rates.flattening.add(setting.value)});
+        }
+    }
+    return roots;
+}
+
 }  // namespace
 
-std::vector<LostProduct> find_lost_products(const Program& program, std::uint32_t stage,
-                                            const std::function<Magnitude(ItemId)>& magnitude_of) {
+std::vector<LostPart> find_lost_parts(const Program& program, std::uint32_t stage,
+                                      const std::function<Magnitude(ItemId)>& magnitude_of) {
     const System& system = program.system_of(stage);
-    const FlatRates rates(system, FieldSpace::of(program, system));
+    FlatRates rates(system, FieldSpace::of(program, system));
+    const std::vector<Root> roots = roots_of(program.stages[stage], system, rates);
     const Bounds bounds(rates.algebra, magnitude_of);
-    std::vector<LostProduct> found;
-    for (const ItemId item : system.species()) {
-        const Part& rate = bounds[rates.rate(item)];
-        const auto add = [&](NodeId id, bool is_too_large) {
-            found.push_back({item, rates.algebra[id].span, rates.algebra.formula(id),
-                             bounds[id].size.most, rate.lost, rate.size.most, is_too_large});
+    std::vector<LostPart> found;
+    for (const Root& root : roots) {
+        const Part& whole = bounds[root.id];
+        const auto add = [&](NodeId id, LostPart::Cause cause) {
+            const Span other =
+                cause == LostPart::Cause::swallowed ? rates.algebra[*whole.within].span : Span();
+            found.push_back({root.species, root.side, root.kind, rates.algebra[id].span, other,
+                             rates.algebra.formula(id), bounds[id].size.most, whole.lost,
+                             whole.size.most, cause});
         };
-        if (rate.lost > 0 && rate.lost_by) add(*rate.lost_by, false);
-        if (rate.too_large) add(*rate.too_large, true);
+        if (whole.lost > 0 && whole.lost_by) {
+            add(*whole.lost_by,
+                whole.within ? LostPart::Cause::swallowed : LostPart::Cause::too_small);
+        }
+        if (whole.too_large) add(*whole.too_large, LostPart::Cause::too_large);
     }
     return found;
 }

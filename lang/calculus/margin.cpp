@@ -1,4 +1,4 @@
-// Rules for comparisons and logic, by their names in functions.def.
+// Margins of comparisons and logic, by their names in functions.def.
 #include "lang/calculus/margin.h"
 
 #include "lang/program/terms.h"

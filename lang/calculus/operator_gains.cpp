@@ -1,4 +1,4 @@
-// Gains by Gershgorin's circles and by the symbols of differences.
+// Finds gains by Gershgorin's circles and by the symbols of differences.
 #include "lang/calculus/operator_gains.h"
 
 #include <algorithm>
@@ -25,10 +25,12 @@ bool OperatorGains::has_axis(std::size_t axis) const {
 
 Term OperatorGains::metric(MetricPlane plane) { return {&algebra_, algebra_.leaf(plane)}; }
 
-/// 2 / h: a difference across a face counts both cells. On a surface it is multiplied by entries of
-/// Ṽ⁻¹; the second direction has parts along columns and along rows.
+/// The gain is 2 / h, because a difference across a face adds the magnitudes in both cells. On a
+/// surface it is multiplied by entries of Ṽ⁻¹, two for the second direction, which has parts along
+/// columns and along rows.
 Term OperatorGains::of_gradient(std::size_t axis) {
-    // A gradient and a divergence make a Laplacian, which has parts along three axes.
+    // On a model, a gradient and a divergence together make a Laplacian, which has parts along
+    // three axes.
     if (links_) return zero_.number(std::sqrt(2 * *links_ / 3));
     const Term plane = zero_.number(2 / grid_.spacing);
     if (!has_metric_) return plane;
@@ -46,13 +48,13 @@ Term OperatorGains::of_derivative(std::size_t axis) {
     return zero_.number(largest(Difference::central) / 2) * of_gradient(axis);
 }
 
-/// For lap, each neighbour counts 1 and the cell as much as all of them; for a tensor, its trace
-/// counts (see SlopeRules::times_tensor).
+/// For lap, each neighbour counts 1, and the cell itself counts as much as all neighbours together.
+/// For a tensor, the gain follows from the tensor's trace (SlopeRules::times_tensor).
 std::optional<Term> OperatorGains::of_diffusion(const Node& node) {
     const double along_axis = 4 / (grid_.spacing * grid_.spacing);
     const auto applied = difference_of(node.function);
     if (applied && applied->difference == Difference::laplacian) {
-        // Gershgorin: the cell counts as much as its neighbours together.
+        // By Gershgorin's theorem, the cell counts as much as all its neighbours together.
         if (links_) return zero_.number(2 * *links_);
         if (has_metric_) {
             const Term trace = metric(MetricPlane::flow_11) + metric(MetricPlane::flow_22);

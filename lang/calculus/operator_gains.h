@@ -1,5 +1,5 @@
-// The factors by which operators multiply waves, on the plane, on a surface and on a model, and the
-// components of vectors (internal to derivative.cpp).
+// The factors by which operators on planes, surfaces and models multiply waves. Also the components
+// of vectors (internal to derivative.cpp).
 #pragma once
 
 #include "lang/calculus/algebra.h"
@@ -13,24 +13,28 @@ namespace cascade {
 
 class OperatorGains {
 public:
-    /// `model` may be null if only the cell's own value is needed.
+    /// `model` may be null if only derivatives with respect to the cell's own value are needed.
     OperatorGains(Algebra& algebra, const Program& program, const ModelFacts* model);
 
     bool has_axis(std::size_t axis) const;
     bool has_metric() const { return has_metric_; }
     bool is_on_model() const { return links_.has_value(); }
 
-    /// The largest factor of an operator that makes all waves decay; none for other operators.
+    /// The largest factor by which an operator of diffusion, which damps all waves, multiplies a
+    /// wave; nullopt for operators that are not diffusion.
     std::optional<Term> of_diffusion(const Node& node);
-    /// The gain of another operator or an aggregate; none for other functions.
+    /// The largest factor by which an aggregate or an operator that is not diffusion multiplies a
+    /// wave; nullopt for other functions.
     std::optional<Term> of_other(const Node& node);
-    /// Of the derivative along a direction, with faces, and of the central difference.
+    /// The gain of the derivative along an axis. of_gradient() is for the difference between
+    /// adjacent cells, from which fluxes through faces are computed, of_derivative() for the
+    /// central difference.
     Term of_gradient(std::size_t axis);
     Term of_derivative(std::size_t axis);
 
     /// The components of a vector at the cell itself.
     const SparseVector& components(NodeId vector) { return vectors_.components(vector); }
-    /// The central difference of a number along an axis; 0 along one that the grid does not have.
+    /// The central difference of a number along an axis; 0 if the grid does not have this axis.
     Term derivative(NodeId of, std::size_t axis);
 
 private:
@@ -41,7 +45,7 @@ private:
     const Grid& grid_;
     bool has_metric_;
     StencilKind stencil_;
-    std::optional<double> links_;  ///< The largest sum of weights of a cell's links, on a model.
+    std::optional<double> links_;  ///< On a model: the largest sum of a cell's weights.
     Term zero_;
     FieldVectors vectors_;
 };

@@ -1,5 +1,6 @@
-// Each side has a small system of linear equations for the changes from the cell to the face, which
-// is solved by elimination before anything runs.
+// Each side has a small system of linear equations. The unknowns are the changes of species from
+// the cell to the face. The equations are solved by elimination before the run. The results are
+// formulas.
 #include "lang/calculus/side_values.h"
 
 #include "core/check.h"
@@ -37,7 +38,7 @@ public:
           zero_(algebra_.number(0)),
           values_(species_.size()) {}
 
-    /// The species whose values at the face the value of `of` depends on, `of` last.
+    /// The species on whose values at the face the value of `of` depends. `of` comes last.
     std::vector<SpeciesId> coupled(SpeciesId of) {
         std::vector<SpeciesId> found{of};
         for (std::size_t next = 0; next < found.size(); ++next) {
@@ -50,7 +51,7 @@ public:
         return found;
     }
 
-    /// The value of `of` at the face or its slope there, as its rule says.
+    /// The value of `of` at the face, or its slope there if its rule gives a slope.
     Formula solve(SpeciesId of) {
         if (unknowns_in(of).empty()) return algebra_.formula(value(of));
         const std::vector<SpeciesId> unknown = coupled(of);
@@ -90,8 +91,8 @@ private:
     bool is_fixed(SpeciesId species) const { return setting(species).kind == SideKind::fixed; }
     NodeId cell(SpeciesId species) { return algebra_.leaf(species_[species]); }
 
-    /// The value or slope that a rule asks for, with the values of the cell in place of those at
-    /// the face.
+    /// The value or slope that a rule gives if values at the face are replaced by values in the
+    /// cell.
     NodeId value(SpeciesId species) {
         std::optional<NodeId>& known = values_[species];
         if (known) return *known;
@@ -100,14 +101,14 @@ private:
         if (rule.kind == SideKind::flux) {
             if (diffusion_.empty()) diffusion_ = diffusion_of(program_, stage_);
             const auto factor = conductivity_at(system_, diffusion_, species, side_).factor;
-            // The side of a species that no operator reads has no effect.
+            // The rule has no effect on a species that no operator reads.
             node = factor ? algebra_.quotient(node, rates_.flattening.add(*factor)) : zero_;
         }
         known = node;
         return node;
     }
 
-    /// The species in the value of another one that differ between the cell and the face.
+    /// The species in the rule of `species` whose values differ between the cell and the face.
     std::vector<SpeciesId> unknowns_in(SpeciesId species) {
         std::vector<SpeciesId> found;
         const NodeId root = value(species);
@@ -120,7 +121,7 @@ private:
         return found;
     }
 
-    /// The derivative of a value by a species; 0 through a function without a rule.
+    /// The derivative of a value with respect to a species. Functions without a rule contribute 0.
     NodeId slope(NodeId root, SpeciesId by) {
         const IdVector<NodeId, bool> needed = needed_by(algebra_, {&root, 1});
         IdVector<NodeId, NodeId> slopes(needed.size(), zero_);
@@ -139,14 +140,14 @@ private:
         return slopes[root];
     }
 
-    /// The change of a species from the cell to the face for each unit of its unknown: of a slope
-    /// half a cell, of a value the change itself.
+    /// The change of a species from the cell to the face, divided by its unknown. If the unknown is
+    /// a slope, this is half a cell's width. If the unknown is the change itself, this is 1.
     NodeId change_by(SpeciesId species) {
         if (is_fixed(species)) return algebra_.number(1);
         const NodeId half = algebra_.number(program_.domain.grid.spacing / 2);
         const auto& surface = program_.domain.surface;
         if (!surface || !surface->has_metric) return half;
-        // As across_side() of lang/lower/surface_pass.cpp.
+        // The formula is that of across_side() in lang/lower/surface_pass.cpp.
         const auto square = [&](MetricPlane plane) {
             return algebra_.product(algebra_.leaf(plane), algebra_.leaf(plane));
         };
@@ -169,7 +170,7 @@ private:
     IdVector<SpeciesId, SpeciesDiffusion> diffusion_;  ///< Empty until it is needed.
 };
 
-/// Which nodes of a formula without definitions do not stay the same.
+/// For each node of a formula without definitions, whether its value may change during the stage.
 IdVector<NodeId, bool> changing_nodes(const System& system, const Formula& formula) {
     IdVector<NodeId, bool> changes;
     for (const Node& node : formula.nodes) {
@@ -180,7 +181,8 @@ IdVector<NodeId, bool> changing_nodes(const System& system, const Formula& formu
     return changes;
 }
 
-/// Replaces the rules at a side by those without fluxes, definitions and values at the face.
+/// Replaces the rules at a side by rules that contain no fluxes, no definitions and no values at
+/// the face.
 void settle(IdVector<SpeciesId, SideSettings>& settings, const Program& program,
             std::uint32_t stage, Side side) {
     const System& system = program.system_of(stage);

@@ -1,4 +1,4 @@
-// Slopes through functions, operators and vectors.
+// Computes slopes through functions, operators and vectors.
 #include "lang/calculus/slopes.h"
 
 #include "lang/calculus/derivative_rules.h"
@@ -37,7 +37,8 @@ Slope SlopeRules::scaled(const Slope& slope, Term factor) {
     return result;
 }
 
-/// After an operator of diffusion, or half of one: a gradient or a divergence.
+/// The slope after an operator of diffusion, or after half of such an operator: a gradient or a
+/// divergence.
 Slope SlopeRules::through_diffusion(const Slope& slope, Term gain) {
     Slope result = zero();
     result.jumps = slope.jumps;
@@ -53,8 +54,8 @@ Slope SlopeRules::through_other(const Slope& slope, Term gain) {
     return {zero_, far, {}, far, slope.jumps};
 }
 
-/// The slope of a factor in a product that is averaged at faces, where diffusion cannot be told
-/// from the rest.
+/// The part of a product's slope that comes from one factor, if factors are averaged at faces. In
+/// such a product, diffusion cannot be separated from other changes.
 Slope SlopeRules::as_other(const Slope& slope, Term factor) {
     const Term far = slope.far * abs(factor);
     return {slope.own * factor, far, {}, far, slope.jumps};
@@ -71,7 +72,7 @@ std::optional<Slopes> SlopeRules::slopes_of(NodeId id, ItemId species,
         for (const Slope& slope : before[operand]) depends |= !is_zero(slope);
     }
     if (node.type == ValueType::tensor) {
-        // There is no rule for a tensor that turns with a species.
+        // There is no rule for a tensor whose direction depends on a species.
         if (depends) return std::nullopt;
         return slopes;
     }
@@ -117,7 +118,7 @@ std::optional<Slope> SlopeRules::by_partials(const Node& node,
     return slope;
 }
 
-/// Σ 2 · (derivative of e) · (derivative of the change), along each direction.
+/// Σ 2 · (derivative of e) · (derivative of the change of e), over all directions.
 Slope SlopeRules::of_squared_gradient(const Node& node, const Slope& inner) {
     Slope slope = zero();
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -129,8 +130,9 @@ Slope SlopeRules::of_squared_gradient(const Node& node, const Slope& inner) {
     return slope;
 }
 
-/// Upwind, v (c − W) / h: diffusion of the gain −2 |v| / h, and waves of |v| / h. Limited slopes
-/// at most double the differences.
+/// An upwind difference v (c − W) / h, with the value c of the cell and W of its western neighbour,
+/// consists of diffusion with the gain −2 |v| / h and waves with the gain |v| / h. Limiters at most
+/// double the difference.
 Slope SlopeRules::of_advection(const Node& node, const IdVector<NodeId, Slopes>& before) {
     const std::size_t velocities = node.operand_count - 1;
     const NodeId carried = node.operands[velocities];
@@ -158,7 +160,8 @@ Slope SlopeRules::of_advection(const Node& node, const IdVector<NodeId, Slopes>&
     return slope;
 }
 
-/// A value that is averaged at faces counts half as a wave: (c + E)/2 − (c + W)/2 leaves (E − W)/2.
+/// A value that is averaged at faces contributes half its gain as a wave: for the values c of the
+/// cell, E and W of its neighbours, (c + E)/2 − (c + W)/2 = (E − W)/2.
 Slope SlopeRules::of_divergence(const Slopes& flux) {
     Slope slope = zero();
     Node vector;
@@ -183,8 +186,8 @@ Slope SlopeRules::of_divergence(const Slopes& flux) {
             slope.diffusion[k] = slope.diffusion[k] + gain * along.diffusion[k];
         }
     }
-    // On a model components make no flux, so the change of the cell's own value is bounded like
-    // those of its neighbours.
+    // On a model, a flux is not made of components. There the change of the cell's own value is
+    // part of `far`, like the changes of the neighbours' values.
     if (changes && !gains_.is_on_model()) slope.own = div(term(algebra_.add(vector)));
     return slope;
 }
@@ -198,7 +201,7 @@ Slopes SlopeRules::along_axes(const Make& make) {
     return slopes;
 }
 
-/// The slopes of a vector from those of its operands.
+/// Computes the slopes of a vector from the slopes of its operands.
 struct SlopeRules::OfVectors {
     SlopeRules& own;
     const IdVector<NodeId, Slopes>& before;
@@ -238,7 +241,8 @@ struct SlopeRules::OfVectors {
         const NodeId factor = is_vector_first ? b : a;
         return multiple(is_vector_first ? a : b, own.term(factor), factor, number(1));
     }
-    /// A vector times `by`, which changes by `change` times the change of `factor`.
+    /// The slopes of a vector times `by`, where `change` is the derivative of `by` with respect to
+    /// `factor`.
     Slopes multiple(NodeId vector, Term by, NodeId factor, Term change) const {
         return own.along_axes([&](std::size_t axis) {
             Slope slope = own.scaled(before[vector][axis], by);
@@ -258,8 +262,8 @@ std::optional<Slopes> SlopeRules::of_vector(const Node& node,
     return vector_by(OfVectors{*this, before}, algebra_, node);
 }
 
-/// Waves of a gradient decay at most as fast as if the larger of a1² and a2² held in all directions
-/// (surface/cell_frames.h).
+/// The waves of a gradient decay at most as fast as if the larger of a1² and a2² applied in all
+/// directions (surface/cell_frames.h).
 Slopes SlopeRules::times_model_tensor(const Node& tensor, const Slopes& flux) {
     const Term a1 = term(tensor.operands[0]), a2 = term(tensor.operands[1]);
     const Term most = max(square(a1), square(a2));
@@ -277,11 +281,11 @@ Slopes SlopeRules::times_model_tensor(const Node& tensor, const Slopes& flux) {
     return slopes;
 }
 
-/// For a gradient the diagonal is enough. In units of 4/h², with sines s and cosines c along the
-/// axes, the symbol of div(A grad e) is Σ a_ii s_i² + 2 Σ a_ij s_i c_i s_j c_j. If A is not
-/// negative, then |a_ij| ≤ √(a_ii a_jj), and the symbol is at most the largest eigenvalue of
-/// diag(s_i⁴) + v vᵀ with v_i = s_i c_i times the trace of A: 1 in the plane, and 9/8 in space, at
-/// s_i² = 3/4.
+/// For a gradient, the diagonal of the tensor A is enough to bound the gain. In units of 4/h², with
+/// sines s and cosines c along the axes, the symbol of div(A grad e) is Σ a_ii s_i² + 2 Σ a_ij s_i
+/// c_i s_j c_j. If A is positive semidefinite, |a_ij| ≤ √(a_ii a_jj). Then the symbol is at most
+/// the trace of A times the largest eigenvalue of diag(s_i⁴) + v vᵀ with v_i = s_i c_i. This
+/// eigenvalue is at most 1 in the plane and 9/8 in space, at s_i² = 3/4.
 Slopes SlopeRules::times_tensor(NodeId tensor, const Slopes& flux) {
     const Node node = algebra_[tensor];
     if (gains_.is_on_model()) return times_model_tensor(node, flux);

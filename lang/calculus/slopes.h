@@ -1,11 +1,11 @@
-// How parts of a formula change with a species, through the cell's own value and through operators
-// (internal to derivative.cpp).
+// How much parts of a formula change if a species changes: its value in the cell itself, or values
+// that operators read (internal to derivative.cpp).
 //
-// For operators, coefficients count as if they were the same all around the cell ("frozen"); an
-// operator then multiplies each wave by a factor. Operators of diffusion make no wave grow and damp
-// the shortest one most: the factor is −gain · x, with x from 0 (long waves) to 1. Several of them
-// in each other give a polynomial of x, whose coefficients are kept, so that decay and possible
-// growth stay separate.
+// Coefficients of operators count as if they had the same value in all cells around the cell. An
+// operator then multiplies each wave by a factor. For operators of diffusion the factor is −gain ·
+// x, with x from 0 (long waves) to 1 (the shortest wave), so no wave grows. Nested operators of
+// diffusion give a polynomial of x. The coefficients of the polynomial are stored one by one, so
+// that decay and possible growth remain separate.
 #pragma once
 
 #include "lang/calculus/operator_gains.h"
@@ -17,31 +17,33 @@
 
 namespace cascade {
 
-/// The change of a number, or of one component of a vector at the faces.
+/// The derivative of a number, or of one component of a vector at the faces, with respect to a
+/// species.
 struct Slope {
-    Term own;  ///< The derivative by the cell's own value, without operators.
-    /// Σ of the magnitudes of the derivatives through operators and aggregates, over all cells: no
-    /// wave is multiplied by more. Never below 0.
+    Term own;  ///< The derivative with respect to the cell's own value, without operators.
+    /// The sum of the magnitudes of the derivatives with respect to the values of all cells that
+    /// operators and aggregates read. No wave is multiplied by a larger factor. Never below 0.
     Term far;
-    /// The part that is diffusion: diffusion[k] is the coefficient of (−x)^(k+1). For a vector's
-    /// component, [k] is the factor of the gradient of what would be (−x)^k, so that its divergence
-    /// has the same coefficients.
+    /// The part that is diffusion. For a number, diffusion[k] is the coefficient of (−x)^(k+1). For
+    /// a component of a vector, diffusion[k] is the factor of the gradient of the term (−x)^k, so
+    /// that the divergence of the vector has the same coefficients.
     std::vector<Term> diffusion;
-    /// The magnitude of the rest: waves that travel, mixed derivatives, aggregates.
+    /// The magnitude of all other parts: travelling waves, mixed derivatives, aggregates.
     Term other;
-    /// Does it jump where the species passes a threshold? The derivatives do not show this.
+    /// Whether the value jumps where the species passes a threshold. The derivatives do not contain
+    /// the jump.
     bool jumps = false;
 };
-/// For a number the first one; for a vector one for each axis.
+/// The slope of a number is the first entry. A vector has an entry for each axis.
 using Slopes = std::array<Slope, 3>;
 
 class SlopeRules {
 public:
-    /// `model` may be null if only the cell's own value is needed.
+    /// `model` may be null if only derivatives with respect to the cell's own value are needed.
     SlopeRules(Algebra& algebra, const Program& program, const ModelFacts* model);
 
-    /// The slopes of part `id` by `species`, given those of all earlier parts. Empty
-    /// if the part depends on the species and has no rule.
+    /// The slopes of part `id` with respect to `species`, given the slopes of all earlier parts.
+    /// Empty if the part depends on the species and there is no rule for it.
     std::optional<Slopes> slopes_of(NodeId id, ItemId species,
                                     const IdVector<NodeId, Slopes>& before);
 

@@ -1,4 +1,5 @@
-// Marks parts bottom-up, then takes the largest ones that depend on time and places alone.
+// Marks parts from the leaves upwards, then takes the largest parts that depend only on time and
+// positions.
 #include "lang/calculus/time_parts.h"
 
 #include "lang/calculus/algebra.h"
@@ -11,16 +12,18 @@ namespace {
 
 /// Facts about a part of a formula.
 struct TimeFacts {
-    bool is_of_time = false;    ///< It reads only constants and `t`;
-    bool is_of_places = false;  ///< it reads only those and places;
-    bool reads_time = false;    ///< `t` is among them;
-    bool reads_places = false;  ///< places are.
-    bool is_separable = true;   ///< Sums and products of what reads one of both.
+    bool is_of_time = false;    ///< It reads only constants and `t`.
+    bool is_of_places = false;  ///< It reads only constants, `t` and positions.
+    bool reads_time = false;    ///< It reads `t`.
+    bool reads_places = false;  ///< It reads positions.
+    bool is_separable = true;   ///< It consists of sums and products of parts that read either `t`
+                                ///< or positions, not both.
 
     bool reads_both() const { return reads_time && reads_places; }
 };
 
-/// Does a sum, product or quotient leave `t` and places apart?
+/// Whether the node is a sum, product or quotient that is separable if its operands are. At most
+/// one factor of a product may read both `t` and positions, and a divisor may not.
 bool keeps_apart(const Node& node, const IdVector<NodeId, TimeFacts>& before) {
     const auto reads_both = [&](std::size_t operand) {
         return before[node.reads()[operand]].reads_both();
@@ -68,7 +71,7 @@ TimeFacts time_facts_of(const Node& node, const IdVector<NodeId, TimeFacts>& bef
     return facts;
 }
 
-/// Parts that were found, each once.
+/// The parts that were found, without duplicates.
 class Found {
 public:
     void add(NodeId id) {

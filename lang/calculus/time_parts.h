@@ -1,5 +1,5 @@
-// The parts of a stage's rates and of the rules at its sides that change by themselves, whatever
-// the species do.
+// Finds the parts of a stage's rates, and of the rules at its sides, that change with time even if
+// no species changes.
 #pragma once
 
 #include "lang/program/program.h"
@@ -11,10 +11,11 @@ namespace cascade {
 
 struct TimeParts {
     /// The largest parts that read `t` and otherwise only constants. They are the same in all
-    /// cells. In u' = exp(-(t - 50)^2) * sx - u this is the exponential.
+    /// cells. In u' = exp(-(t - 50)^2) * sx - u the only such part is the exponential.
     std::vector<Formula> of_time;
-    /// The largest parts that read `t` and places and are no sums and products of parts that read
-    /// one of both: what moves, such as exp(-(x - 5 * t)^2).
+    /// The largest parts that read both `t` and positions, such as exp(-(x - 5 * t)^2), a pulse
+    /// that moves. A sum or product of a part that reads only `t` and a part that reads only
+    /// positions is left out.
     std::vector<Formula> of_places;
 };
 

@@ -1,5 +1,5 @@
-// Finds calls that draw random numbers, and warns where a draw per step meets steps of unknown
-// length.
+// Finds calls that draw random numbers. Warns if numbers are drawn in each step while the lengths
+// of steps are unknown.
 #include "lang/check/chance.h"
 
 #include "lang/check/expressions/setting_words.h"
@@ -31,7 +31,8 @@ bool draws_random_numbers(const Program& program) {
 void warn_of_idle_seed(const ast::Script& script, const Program& program,
                        Diagnostics& diagnostics) {
     const ast::Statement* const seed = checking::find_option(script, "seed");
-    // The cells of a model are placed at random, too.
+    // On a model, the seed has an effect even without draws, because the cells are placed at
+    // random.
     if (seed == nullptr || program.stages.empty() || program.domain.model ||
         draws_random_numbers(program)) {
         return;

@@ -7,11 +7,11 @@
 
 namespace cascade {
 
-/// Warns of --seed if neither a stage nor the domain draws random numbers.
+/// Warns if --seed is given although neither a stage nor the domain draws random numbers.
 void warn_of_idle_seed(const ast::Script& script, const Program& program, Diagnostics& diagnostics);
 
-/// Warns of draws at each step in stages that choose their steps: the shorter the steps, the weaker
-/// the noise. `white` compensates for that.
+/// Warns if random numbers are drawn at each step in a stage that chooses the lengths of its steps.
+/// Noise is weaker if steps are shorter, unless `white` compensates for this.
 void warn_of_draws_by_step(const Program& program, Diagnostics& diagnostics);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// The checker: systems first, then stages in order, then the domain and the picture.
+// The checker. Checks systems first, then stages in order, then the domain and the picture.
 #include "lang/check/check.h"
 
 #include "lang/program/models.h"
@@ -24,8 +24,8 @@ namespace {
 
 using checking::Workspace;
 
-/// The systems of the library are sound, but not in every domain: a curl, say, is one of vectors
-/// in volumes.
+/// Reports library systems that have no meaning in this domain. Even a correct system may have no
+/// meaning in a domain: for example, a curl is a number in the plane but a vector in volumes.
 void report_unfit(Workspace& work, const ast::Script& script, const ast::Block& system) {
     const auto report = [&](const ast::Word& base) {
         if (base.text != system.name.text) return;
@@ -39,9 +39,9 @@ void report_unfit(Workspace& work, const ast::Script& script, const ast::Block& 
     }
 }
 
-/// Checks the script's own systems and those of the library that it names. `library` owns the
-/// parsed library scripts, which must outlive the workspace. Cells come after systems of fields,
-/// because they read stages of these by name.
+/// Checks the script's own systems and the library systems that the script names. `library` owns
+/// the parsed scripts of the library, which must outlive the workspace. Blocks of cells are checked
+/// after systems of fields, because they read stages of fields by name.
 void check_systems(Workspace& work, const ast::Script& script,
                    const std::vector<LibraryScript>& library) {
     std::vector<checking::SystemBlock> blocks;
@@ -57,7 +57,8 @@ void check_systems(Workspace& work, const ast::Script& script,
             return each.from.block->name.text == name && each.from.block->is_cells;
         });
     });
-    std::vector<SystemId> numbers(systems.size());  // The id of each system in the program.
+    std::vector<SystemId> numbers(systems.size());  // For each entry of `systems`, its id in the
+                                                    // program.
     for (const bool is_of_cells : {false, true}) {
         for (std::size_t k = 0; k < systems.size(); ++k) {
             const checking::DerivedSystem& each = systems[k];
@@ -121,12 +122,13 @@ std::optional<Program> check(const ast::Script& script, Sources& sources, Diagno
         checking::check_domain(work, script);
         work.on_surface = measures_on_surface(program.domain);
         check_systems(work, script, library);
-        checking::functions_of(work, script);  // Functions that are never called are checked, too.
+        checking::functions_of(work, script);  // Also checks functions that are never called.
         checking::check_names_of_constants(work, script);
         checking::check_stages(work, script);
         checking::check_stage_sides(work, script);
         checking::check_picture(work, script, checking::check_shapes(work, script, sources));
-        // With errors, what reads a parameter may be missing from the program.
+        // Warnings about unread names would be wrong after errors, because expressions that read a
+        // name may be missing from the program.
         if (!own.has_errors() && !diagnostics.has_errors()) {
             checking::warn_unread(work);
             checking::check_side_values(program, own);
@@ -149,7 +151,8 @@ std::optional<Formula> check_view(const ast::Script& script, ast::Expression exp
                                   const Program& program, const Sources& sources,
                                   Diagnostics& diagnostics) {
     Workspace work = workspace_of(program, diagnostics);
-    // Searched for among the sources of all strokes of a session, of which there may be many.
+    // The functions of cells are read only if there are cells, because reading them searches the
+    // sources of all brush strokes of a session, which may be many.
     const bool has_cells = std::ranges::any_of(program.systems, [](const System& system) {
         return system.cells.has_value();
     });

@@ -1,4 +1,4 @@
-// The checker: syntax tree to checked program.
+// The checker: turns a syntax tree into a checked program.
 #pragma once
 
 #include "core/diagnostics.h"
@@ -11,18 +11,18 @@
 
 namespace cascade {
 
-/// Resolves and checks a script; systems of the library that it names are added to `sources` and to
-/// the program (lang/library/library.h). Returns nothing if there are errors, which are then in
-/// `diagnostics`; warnings may come with a result. Does not touch files: the paths in
-/// `field("a.npy")` are only collected. Accepts a script without stages, as `systems` and the
-/// prompt need; `run` refuses it.
-/// `uses` receives what names refer to, also of a script with errors; null if nobody asks.
+/// Resolves and checks a script. If it has syntax errors, they must be in `diagnostics`. The
+/// library systems that the script names are added to `sources` and to the program
+/// (lang/library/library.h). Errors and warnings are added to `diagnostics`. Returns nothing if
+/// there are errors. Reads no files: the paths in `field("a.npy")` are only collected. A script
+/// without stages is accepted, because `cascade systems` and the prompt check such scripts. `uses`
+/// receives the uses of names, also for a script with errors. It may be null.
 std::optional<Program> check(const ast::Script& script, Sources& sources, Diagnostics& diagnostics,
                              NameUses* uses = nullptr);
 
-/// Checks an expression for a picture (`--show`, `picture { color: … }`): bare names and `[p]` are
-/// items of `stage`, `other.p` one of any stage up to `last_stage`. Strings that it refers to by
-/// number are added to the literals of the program.
+/// Checks an expression for a picture (`--show`, `picture { color: … }`). Bare names and `[p]` mean
+/// items of `stage`; `other.p` means an item of any stage up to `last_stage`. The formula refers to
+/// strings by their index in the program's literals, to which strings of the expression are added.
 std::optional<Formula> check_view(const ast::Script& script, ast::Expression expression,
                                   std::uint32_t stage, std::uint32_t last_stage,
                                   const Program& program, const Sources& sources,

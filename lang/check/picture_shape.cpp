@@ -13,7 +13,7 @@ PictureShape picture_shape(const ast::Script& script, Sources& sources) {
     PictureShape shape;
     std::string_view name = usual_shape;
     Program program;
-    Diagnostics unspoken;  // Errors were reported on loading.
+    Diagnostics unspoken;  // Not printed, because errors were reported when the script was loaded.
     checking::Workspace work{program, unspoken, {}, {}, {}, {}, {}, 0};
     if (const auto detail = picture_expression(script, "detail")) {
         shape.detail =

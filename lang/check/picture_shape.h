@@ -1,4 +1,4 @@
-// The shape of the cells in pictures (spec/shapes.md).
+// Finds the shape of cells in pictures (spec/shapes.md).
 #pragma once
 
 #include "core/source.h"
@@ -11,20 +11,20 @@
 
 namespace cascade {
 
-/// The shape without a picture block that says another.
+/// The shape of cells if the picture block names none.
 inline constexpr const char* usual_shape = "ball";
 
-/// The shape that the picture block of a checked script names, else the usual one; of a file its
-/// path. Adds nothing to `sources` that the check has not.
+/// The shape that the picture block of a checked script names, or the usual shape. If the picture
+/// block names a file, only its path is given.
 struct PictureShape {
     std::optional<ShapeForm> form;
-    std::string path;     ///< As written; empty if there is a form.
-    Span span;            ///< Where it was written; empty for the usual shape.
-    double detail = 0.5;  ///< How far facets may be from the shape, in pixels.
+    std::string path;     ///< The path of the file as it is written. Empty if `form` is given.
+    Span span;            ///< Where the script names it; empty for the usual shape.
+    double detail = 0.5;  ///< How far facets may deviate from the shape, in pixels.
 };
 PictureShape picture_shape(const ast::Script& script, Sources& sources);
 
-/// A shape of the library.
+/// The shape of this name in the library.
 ShapeForm library_shape(std::string_view name);
 
 }  // namespace cascade

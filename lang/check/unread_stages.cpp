@@ -1,4 +1,4 @@
-// Marks the stages that formulas and the picture read, and warns of the others.
+// Marks the stages that formulas and the picture read, and warns of all others.
 #include "lang/check/unread_stages.h"
 #include "lang/program/stage_kinds.h"
 
@@ -27,17 +27,17 @@ std::vector<std::string> species_of(const System& system) {
     return names;
 }
 
-/// A hint how the next stage can continue from a stage.
+/// A hint that shows how the next stage can continue from this stage.
 std::string how_to_go_on(const Program& program, std::uint32_t stage) {
     const Stage& next = program.stages[stage + 1];
     const bool has_cells = is_of_cells(program, stage);
     if (has_cells != is_of_cells(program, stage + 1)) {
         return has_cells ? ""
-                         : fmt::format("cells read fields at their places: {}.{}",
+                         : fmt::format("cells read fields at their positions: {}.{}",
                                        program.stages[stage].name,
                                        species_of(program.system_of(stage)).front());
     }
-    if (has_cells) return "without 'founders' the next stage would go on with its cells";
+    if (has_cells) return "without 'founders' the next stage would continue with its cells";
     const std::vector<std::string> species = species_of(program.system_of(stage));
     const bool is_alike = species == species_of(program.system_of(stage + 1));
     const bool is_family = std::any_of(species.begin(), species.end(), [](const std::string& name) {
@@ -50,7 +50,7 @@ std::string how_to_go_on(const Program& program, std::uint32_t stage) {
     }
     std::vector<std::string> statements;
     for (const std::string& name : species) statements.push_back(fmt::format("{}: {}", name, name));
-    return fmt::format("'{}' in stage '{}' goes on from it", fmt::join(statements, "; "),
+    return fmt::format("'{}' in stage '{}' continues from it", fmt::join(statements, "; "),
                        next.name);
 }
 

@@ -12,12 +12,12 @@ namespace cascade {
 
 /// A formula of the picture.
 struct PictureView {
-    std::uint32_t stage = 0;  ///< Whose names it reads; it counts as read.
+    std::uint32_t stage = 0;  ///< The stage to which names in the formula refer. This stage counts
+                              ///< as read.
     std::optional<Formula> formula;
 };
 
-/// Warns of every stage that nothing reads. A stage that reads nothing is not reported if it is
-/// read itself.
+/// Warns of every stage that neither a later stage nor a picture reads.
 void warn_of_unread_stages(const Program& program, std::span<const PictureView> views,
                            Diagnostics& diagnostics);
 

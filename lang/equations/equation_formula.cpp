@@ -1,5 +1,5 @@
-// Writes an expression from left to right with a stack of the pieces still to write, so that
-// neither its depth nor its length matters.
+// Writes an expression from left to right. A stack contains the pieces that still have to be
+// written, so expressions may be of any depth and length.
 #include "lang/equations/equation_formula.h"
 
 #include "core/utf8.h"
@@ -23,7 +23,7 @@ namespace {
 
 constexpr int a_negation = 3, a_comparison = 4, a_sign = 7, a_power = 8, an_atom = 9;
 
-/// An operand to write, in brackets if it binds more loosely than `least`.
+/// An operand to write. It gets brackets if it binds more loosely than `least`.
 struct Operand {
     ast::ExprId id = 0;
     int least = 0;
@@ -65,9 +65,10 @@ private:
             stack_.push_back(std::move(*piece));
         }
     }
-    /// Pushes an operator's pieces, in brackets if `own` binds more loosely than `least`.
+    /// Pushes the pieces of an operator. They get brackets if `own` binds more loosely than
+    /// `least`.
     void push_operator(std::vector<Piece> pieces, int own, int least) {
-        // The last piece pushed comes first.
+        // The piece that is pushed last is written first.
         if (own < least) stack_.emplace_back(both(")", "\\right)"));
         push(std::move(pieces));
         if (own < least) stack_.emplace_back(both("(", "\\left("));
@@ -148,7 +149,7 @@ private:
             return push_operator({both("not ", "\\lnot "), Operand{node.operand, a_comparison}},
                                  a_negation, least);
         }
-        // A second sign would merge with the first.
+        // Two signs in a row would be read as one.
         push_operator({both("−", "-"), Operand{node.operand, a_power}}, a_sign, least);
     }
 
@@ -165,18 +166,20 @@ private:
                        Operand{node.right, right}},
                       own, least);
     }
-    /// A sign directly after `+` or `−` is put in brackets.
+    /// The precedence needed to the right of `+` or `−`. An operand that begins with a sign gets
+    /// brackets.
     int right_of_sum(ast::ExprId right, int least) const {
         return as<ast::Unary>(right) != nullptr ? a_power : least;
     }
 
-    /// A sum over an index would include the factors after it.
+    /// The precedence that a factor needs. Without brackets, a sum over an index would seem to
+    /// include the factors after the sum.
     int factor(ast::ExprId id, int least) const {
         const auto* const over = as<ast::Over>(id);
         return over && (over->function.text == "sum" || over->function.text == "product") ? a_sign
                                                                                           : least;
     }
-    /// Juxtaposes the factors, with a dot between two numbers.
+    /// Writes the factors side by side, with a dot between two numbers.
     void write_product(const ast::Binary& node, int least) {
         const auto* const left = as<ast::Binary>(node.left);
         const auto* const right = as<ast::Binary>(node.right);
@@ -184,7 +187,7 @@ private:
         const bool right_is_product = right && right->op == Function::multiply;
         const ast::ExprId first = right_is_power || right_is_product ? right->left : node.right;
         const bool meets_number = as<ast::Number>(first) != nullptr;
-        // On one line `a / b c` would be read as a / (b c).
+        // In Unicode, which has no fraction lines, `a / b c` would be read as a / (b c).
         const bool left_is_quotient = !tex_ && left && left->op == Function::divide;
         push_operator({Operand{node.left, left_is_quotient ? a_sign : factor(node.left, a_product)},
                        meets_number ? both(" · ", " \\cdot ") : both(" ", " \\, "),
@@ -194,7 +197,7 @@ private:
     }
     void write_quotient(const ast::Binary& node, int least) {
         if (tex_) {
-            // A fraction line needs no brackets.
+            // A fraction line makes brackets unnecessary.
             return push_operator({"\\frac{", Operand{node.left, anything}, "}{",
                                   Operand{node.right, anything}, "}"},
                                  a_power, least);
@@ -225,7 +228,7 @@ private:
         push_operator({Operand{base, an_atom}, "^", Operand{exponent, an_atom}}, a_power, least);
     }
 
-    /// TeX draws the root over its operand.
+    /// Writes a root. TeX draws the root over its operand.
     void write_root(const std::string& sign, const std::string& tex, ast::ExprId operand,
                     int least) {
         if (tex_) return push({tex + "{", Operand{operand, anything}, "}"});
@@ -305,7 +308,7 @@ private:
         push({"{", Operand{operands[1], anything}, " if ", Operand{operands[0], anything},
               ", else ", Operand{operands[2], anything}, "}"});
     }
-    /// v · ∇e
+    /// Writes advection: v · ∇e.
     void write_advection(std::span<const ast::ExprId> operands, int least) {
         std::vector<Piece> pieces;
         if (operands.size() == 2) {
@@ -322,7 +325,7 @@ private:
         pieces.emplace_back(Operand{operands.back(), an_atom});
         push_operator(std::move(pieces), a_product, least);
     }
-    /// `directions` is x, or xx, or xy, …
+    /// Writes a derivative. `directions` is x, xx, xy, …
     void write_derivative(std::string_view directions, ast::ExprId operand, int least) {
         const bool is_second = directions.size() == 2;
         if (tex_) {
@@ -337,11 +340,11 @@ private:
         push_operator({is_second ? "∂²" : "∂", Operand{operand, an_atom}, below}, a_power, least);
     }
 
-    /// sum(e over i), mean(e over domain), …
+    /// Writes an aggregate: sum(e over i), mean(e over domain), …
     void write_over(const ast::Over& node, int least) {
         const std::string_view function = node.function.text;
         const bool of_domain = node.index.text == "domain";
-        // `sum`, the text below it, and the operand in brackets.
+        // Writes the function's name with a text below the name, and the operand in brackets.
         const auto with_under = [&](std::vector<Piece> pieces, std::vector<Piece> after) {
             for (Piece& piece : under(node)) pieces.push_back(std::move(piece));
             for (Piece& piece : after) pieces.push_back(std::move(piece));
@@ -363,7 +366,7 @@ private:
                         {both("(", "\\left("), Operand{node.operand, anything},
                          both(")", "\\right)")}));
     }
-    /// The domain, neighbours or index of an aggregate.
+    /// The text below an aggregate: the domain, neighbours or an index.
     std::vector<Piece> under(const ast::Over& node) const {
         const std::string over(node.index.text);
         if (over == "domain") return {both("_Ω", "_{\\Omega}")};

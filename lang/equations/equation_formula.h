@@ -1,4 +1,4 @@
-// Typesets one expression (internal to the printing of equations).
+// Typesets one expression (internal to printing equations).
 #pragma once
 
 #include "core/source.h"
@@ -9,11 +9,11 @@
 
 namespace cascade {
 
-/// Precedences, as in the grammar: 1 `or`, 2 `and`, 3 `not`, 4 comparisons, 5 sums, 6 products, 7
+/// The precedences of the grammar: 1 `or`, 2 `and`, 3 `not`, 4 comparisons, 5 sums, 6 products, 7
 /// signs, 8 powers, 9 names and brackets.
 inline constexpr int anything = 0, a_sum = 5, a_product = 6;
 
-/// The expression, in brackets if it binds more loosely than `least`.
+/// Typesets the expression. Puts it in brackets if its precedence is below `least`.
 std::string typeset(const ast::Script& script, const Sources& sources, const Symbols& symbols,
                     ast::ExprId root, int least);
 

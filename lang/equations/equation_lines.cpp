@@ -1,5 +1,5 @@
-// Breaks sums at their top-level terms and fills lines up to an estimated width. Breaks the
-// numerator of a fraction if it is long.
+// Breaks sums between their top-level terms, and fills lines up to an estimated width. Breaks the
+// numerator if the formula is a long fraction.
 #include "lang/equations/equation_lines.h"
 
 #include <algorithm>
@@ -13,14 +13,14 @@ namespace {
 
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 
-/// The command that begins at a backslash: `\frac`, `\,`.
+/// The command that begins at a backslash, such as `\frac` or `\,`.
 std::string_view command_at(std::string_view formula, std::size_t at) {
     std::size_t end = at + 1;
     while (end < formula.size() && is_letter(formula[end])) ++end;
     return formula.substr(at, std::max(end, at + 2) - at);
 }
 
-/// The change of nesting depth by a command: brackets, groups or environments.
+/// The change of the nesting depth of brackets, groups or environments after a command: 1, 0 or −1.
 int deeper_after(std::string_view command) {
     if (command == "\\left" || command == "\\begin" || command == "\\lfloor" ||
         command == "\\lceil") {
@@ -31,7 +31,7 @@ int deeper_after(std::string_view command) {
     return closes ? -1 : 0;
 }
 
-/// The terms of a sum, each but the first with its sign.
+/// The terms of a sum. Each but the first begins with its sign.
 std::vector<std::string_view> terms_of(std::string_view formula) {
     std::vector<std::string_view> terms;
     std::size_t begin = 0;
@@ -56,7 +56,7 @@ std::vector<std::string_view> terms_of(std::string_view formula) {
     return terms;
 }
 
-/// The end of the group whose `{` is at `at`.
+/// The end of the group that begins with the `{` at `at`.
 std::size_t end_of_group(std::string_view formula, std::size_t at) {
     int depth = 0;
     for (; at < formula.size(); ++at) {
@@ -75,7 +75,7 @@ struct Fraction {
     std::string_view above, below;
 };
 
-/// A formula that consists of one fraction.
+/// The fraction, if the whole formula is a fraction.
 std::optional<Fraction> whole_fraction(std::string_view formula) {
     constexpr std::string_view command = "\\frac";
     if (!formula.starts_with("\\frac{")) return std::nullopt;

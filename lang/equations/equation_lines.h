@@ -7,16 +7,17 @@
 
 namespace cascade {
 
-/// The largest number of signs of a formula on a line of a page.
+/// The largest width of a formula that is printed on one line, in the unit of width_in_signs().
 inline constexpr int signs_of_a_line = 60;
 
-/// The approximate width of a TeX formula: the number of its letters, digits and signs. Both parts
-/// of a fraction count.
+/// The approximate width of a TeX formula: the number of its letters, digits and signs. Numerators
+/// and denominators of fractions both count.
 int width_in_signs(std::string_view formula);
 
-/// A sum in pieces that fit on a line each, as far as its terms do. All pieces but the first begin
-/// with their sign. Sums in brackets, fractions and roots stay whole, unless a long fraction is the
-/// whole formula: it becomes 1 / denominator times a sum in brackets.
+/// A sum broken into pieces, each of which fits on a line unless a single term is longer. All
+/// pieces but the first begin with a plus or minus sign. Sums in brackets, fractions and roots are
+/// not broken, with one exception: if the whole formula is a long fraction, it becomes 1 /
+/// denominator times a sum in brackets.
 std::vector<std::string> broken_sum(std::string_view formula);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// The marks of functions in equations (internal to the printing of equations).
+// The marks of functions in equations (internal to printing equations).
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace cascade {
 
-/// The marks around the only operand of a call. In TeX brackets grow with their contents.
+/// The marks around the only operand of a call. In TeX, brackets grow with their contents.
 struct Around {
     std::string_view function, unicode_open, unicode_close, tex_open, tex_close;
 };
@@ -48,7 +48,7 @@ inline constexpr Prefix prefixes[] = {
     {"curl", "∇×", "\\nabla \\times "},
 };
 
-/// The row of a function by its spelling. Null if there is none.
+/// The row of the function with this spelling; null if there is none.
 template <typename Row, std::size_t count>
 const Row* find(const Row (&rows)[count], std::string_view function) {
     const auto* const end = rows + count;

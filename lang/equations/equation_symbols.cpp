@@ -1,4 +1,4 @@
-// Splits a name into stem, digits and subscript. Names of Greek letters become those letters.
+// Splits a name into stem, digits and subscript. A name of a Greek letter becomes the letter.
 #include "lang/equations/equation_symbols.h"
 
 #include "lang/vocabulary/greek_letters.h"
@@ -48,10 +48,10 @@ std::optional<std::string> replaced(const SmallLetter (&letters)[count], std::st
     return result;
 }
 
-/// A name is a stem, the digits after it, and a subscript after the first `_`.
+/// The parts of a name: a stem, digits after it, and a subscript after the first `_`.
 struct NameParts {
     std::string_view stem, below;
-    bool has_bar = false;  ///< True if there is a `_`.
+    bool has_bar = false;  ///< Whether the name contains a `_`.
 };
 
 NameParts parts_of(std::string_view name) {
@@ -79,7 +79,7 @@ std::string tex_word(std::string_view word) {
     return text + "}";
 }
 
-/// A subscript: the words between `_`, separated by commas.
+/// A subscript in TeX: the words between `_`, separated by commas.
 std::string tex_below(std::string_view words) {
     std::string text;
     while (true) {

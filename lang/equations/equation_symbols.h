@@ -1,4 +1,4 @@
-// Names and numbers in mathematical notation (internal to the printing of equations).
+// Names and numbers in mathematical notation (internal to printing equations).
 #pragma once
 
 #include "lang/equations/equations.h"
@@ -14,27 +14,32 @@ namespace cascade {
 /// The notation for the names of one system.
 struct Symbols {
     Notation notation = Notation::unicode;
-    /// Unicode has few subscript letters: names get subscripts only if all names of the system can.
+    /// Whether parts of names are written as subscripts. Unicode has few subscript letters, so in
+    /// Unicode this is true only if all names of the system can be written so.
     bool subscripts = true;
     std::set<std::string, std::less<>> vectors;  ///< Names that TeX writes in bold.
 
-    /// diff_u: diffᵤ, \mathrm{diff}_{u}; beta: β, \beta; p1: p₁, p_{1}.
+    /// A name in this notation. Examples in Unicode and TeX: diff_u gives diffᵤ, \mathrm{diff}_{u};
+    /// beta gives β, \beta; p1 gives p₁, p_{1}.
     std::string name(std::string_view name) const;
-    /// u[i+1], where `index` is the index as written: uᵢ₊₁. In TeX `index` is one word: u_{i}.
+    /// A member of a family. `index` is written as in the script: i+1 gives uᵢ₊₁. For TeX, `index`
+    /// must be one word: u_{i}.
     std::string member(std::string_view family, std::string_view index) const;
-    /// The name in TeX, in a form that can take an index as subscript.
+    /// The name of a family in TeX, in a form to which an index can be added as a subscript.
     std::string family_in_tex(std::string_view family) const;
-    /// 1e-3: 10⁻³, 10^{-3}. Other numbers as written.
+    /// A number in this notation: 1e-3 gives 10⁻³ or 10^{-3}. Numbers without an exponent are
+    /// unchanged.
     std::string number(std::string_view digits) const;
 };
 
 /// Escapes a text for TeX's text mode.
 std::string tex_text(std::string_view text);
 
-/// True if Unicode can write the part of a name after its first `_` as a subscript.
+/// Whether Unicode has all characters of the name after its first `_` as subscripts.
 bool has_subscript(std::string_view name);
 
-/// The text in Unicode's superscripts or subscripts. Empty if a character has no such form.
+/// The text in Unicode superscripts or subscripts. Empty if Unicode lacks such a form of a
+/// character.
 std::optional<std::string> superscript(std::string_view text);
 std::optional<std::string> subscript(std::string_view text);
 

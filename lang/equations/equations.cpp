@@ -1,5 +1,5 @@
-// Sorts a system's statements by kind (rates, definitions, bounds, starting values, parameters) and
-// prints one kind after the other.
+// Sorts a system's statements by kind (rates, definitions, bounds, starting values, parameters),
+// and prints one kind after another.
 #include "lang/equations/equations.h"
 
 #include "lang/library/system_statements.h"
@@ -24,12 +24,12 @@ namespace cascade {
 
 namespace {
 
-// Finds the vectors among a system's definitions, as far as their texts tell (internal to the
-// printing of equations, which does not check the script).
+// Finds the vectors among a system's definitions in the syntax tree alone, because scripts are
+// printed without a check (internal to printing equations).
 
 using Names = std::set<std::string, std::less<>>;
 
-/// Whether the expression is a vector if these names are.
+/// Whether the expression is a vector. `names` are the names that are vectors.
 bool is_vector(const ast::Script& script, ast::Expression expression, const Names& names) {
     std::vector<bool> known(expression.root - expression.first + 1, false);
     const auto of = [&](ast::ExprId id) { return bool(known[id - expression.first]); };
@@ -58,7 +58,8 @@ bool is_vector(const ast::Script& script, ast::Expression expression, const Name
     return known.back();
 }
 
-/// The names of definitions, and families of them, made of gradients and other vectors.
+/// The names of definitions, and of families of definitions, that are made of gradients and other
+/// vectors.
 Names vector_names(const SystemStatements& system) {
     Names names;
     for (bool grows = true; grows;) {
@@ -99,16 +100,16 @@ public:
         return symbols_.notation == Notation::tex ? run_tex(all) : run_unicode(all);
     }
 
-    /// The MathML of an equation in TeX.
+    /// The MathML of one name's equation, converted from TeX.
     std::string mathml(std::string_view name) const {
-        const std::string symbol = symbols_.name(name);
-        for (const auto* lines : {&rates_, &definitions_, &parameters_}) {
-            for (const Line& line : *lines) {
-                const bool is_wanted = line.left == symbol || line.left == rate_of(symbol);
-                if (is_wanted) return mathml(line);
-            }
-        }
-        return "";
+        const Line* const line = line_of(name);
+        return line != nullptr ? mathml(*line) : "";
+    }
+    /// The equation of one name as text.
+    std::string unicode(std::string_view name) const {
+        const Line* const line = line_of(name);
+        if (line == nullptr) return "";
+        return fmt::format("{} {} {}", line->left, line->relation, line->right);
     }
 
 private:
@@ -117,6 +118,16 @@ private:
                reserved(statement.name.text) != Reserved::no;
     }
     bool is_tex() const { return symbols_.notation == Notation::tex; }
+    /// The rate, definition or value of a name. Null if the system has none.
+    const Line* line_of(std::string_view name) const {
+        const std::string symbol = symbols_.name(name);
+        for (const auto* lines : {&rates_, &definitions_, &parameters_}) {
+            for (const Line& line : *lines) {
+                if (line.left == symbol || line.left == rate_of(symbol)) return &line;
+            }
+        }
+        return nullptr;
+    }
     std::string typeset_value(const SaidStatement& said, const ast::Expression& value,
                               int least = anything) const {
         return typeset(*said.script, *said.sources, symbols_, value.root, least);
@@ -163,13 +174,14 @@ private:
     }
 
     std::string rate_of(const std::string& symbol) const {
-        // Cells turn by an angular velocity.
+        // The rate of the frame is printed as an angular velocity.
         if (system_.is_cells() && symbol == symbols_.name("turn"))
             return is_tex() ? "\\omega" : "ω";
         return is_tex() ? "\\partial_t " + symbol : "∂" + symbol + "/∂t";
     }
 
-    /// Takes statements that only cells have: divide, die, reach, restarted values.
+    /// Handles statements that only cells have: divide, die, reach, restarted values. Returns false
+    /// for other statements.
     bool take_of_cells(const SaidStatement& said, const std::string& symbol) {
         const ast::Statement& statement = *said.statement;
         if (statement.kind != ast::StatementKind::value) return false;
@@ -190,7 +202,8 @@ private:
         return !statement.after.empty() && is_start;
     }
 
-    /// All terms of one rate become one sum, wherever they were written.
+    /// Adds a term of a rate. All terms of a rate become one sum, in whatever order the statements
+    /// are written.
     void add_rate(const SaidStatement& said, const std::string& symbol) {
         const ast::Statement& statement = *said.statement;
         const auto& value = statement.values.front();
@@ -207,13 +220,13 @@ private:
         sum += is_negative ? term.substr(sign.size()) : term;
     }
 
-    /// Adds the script's own functions and constants that are read, each once, in the order of
-    /// first use.
+    /// Adds the script's own functions and constants that the system reads, each once, in the order
+    /// of their first use.
     void add_functions() {
         for (const SaidStatement& said : system_.all()) {
             for (const ast::Expression& value : said.statement->values) note_calls(said, value);
         }
-        for (std::size_t k = 0; k < called_.size(); ++k) {  // The list grows.
+        for (std::size_t k = 0; k < called_.size(); ++k) {  // The list grows inside the loop.
             const auto [said, function] = called_[k];
             definitions_.push_back({call_of(*function), "=", typeset_value(said, function->body)});
             note_calls(said, function->body);
@@ -295,7 +308,8 @@ private:
         }
         text += fmt::format("\\end{{{}}}\n", environment);
     }
-    /// A row for each part of a sum that is too long for a line.
+    /// The rows of an equation in MathML. A sum that is too long for a line gets a row for each
+    /// part.
     static std::string mathml(const Line& line) {
         std::string rows, left = line.left + " " + line.relation;
         for (const std::string& piece : broken_sum(line.right)) {
@@ -317,11 +331,11 @@ private:
     const SystemStatements& system_;
     std::string_view name_;
     Symbols symbols_;
-    std::unordered_map<std::string, std::size_t> rate_lines_;  ///< By species.
+    std::unordered_map<std::string, std::size_t> rate_lines_;  ///< The index of each species' line.
     std::vector<std::pair<SaidStatement, const ast::FunctionDefinition*>> called_;
     std::unordered_set<std::string_view> called_names_;
     std::vector<Line> rates_, indices_, definitions_, bounds_, parameters_, starts_;
-    std::vector<Line> events_, restarts_;  ///< For cells.
+    std::vector<Line> events_, restarts_;  ///< Only for cells that crawl.
 };
 
 }  // namespace
@@ -350,6 +364,14 @@ std::string equation_in_mathml(const ast::Script& script, const Sources& sources
     const SystemStatements statements(script, sources, blocks, system);
     if (!statements.found()) return "";
     return EquationPrinter(statements, Notation::tex, system).mathml(name);
+}
+
+std::string equation_in_unicode(const ast::Script& script, const Sources& sources,
+                                std::string_view system, std::string_view name) {
+    const SystemBlocks blocks = system_blocks(script);
+    const SystemStatements statements(script, sources, blocks, system);
+    if (!statements.found()) return "";
+    return EquationPrinter(statements, Notation::unicode, system).unicode(name);
 }
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
-// Systems as equations like those in papers, in Unicode for a terminal or in TeX. spec/equations.md
-// has the table of notations.
+// Prints the equations of systems in the notation of papers, in Unicode for a terminal or in TeX.
+// spec/equations.md has the table of notations.
 #pragma once
 
 #include "core/source.h"
@@ -18,26 +18,31 @@ enum class Notation : std::uint8_t {
     tex,      ///< Align environments of the package amsmath.
 };
 
-/// The parts of a system to print.
+/// Which parts of a system to print.
 enum class EquationParts : std::uint8_t {
     rates,  ///< Rates, definitions and invariants.
     all,    ///< Also parameters and starting values.
 };
 
-/// The equations of a system of the script or else of the library, including everything inherited.
-/// Lines end with a newline. Empty if there is no such system. The script must be free of errors.
+/// The equations of a system, including everything that it inherits. The system is searched for in
+/// the script and, if the script has no system of this name, in the library. Lines end with a
+/// newline. Empty if there is no such system. The script must be free of errors.
 std::string print_equations(const ast::Script& script, const Sources& sources,
                             std::string_view system, Notation notation, EquationParts parts);
 
-/// The equations of several systems.
+/// The equations of several systems, in the order of `systems`.
 std::vector<std::string> print_equations(const ast::Script& script, const Sources& sources,
                                          std::span<const std::string_view> systems,
                                          Notation notation, EquationParts parts);
 
-/// The equation or value of one name in a system of the script or else of the library, in MathML:
-/// the rate of a species, a definition, or the value of a parameter. Empty if the system does not
-/// set it.
+/// The equation or value of one name in a system, in MathML: the rate of a species, a definition,
+/// or the value of a parameter. Systems are found as by print_equations(). Empty if the system has
+/// no statement for the name.
 std::string equation_in_mathml(const ast::Script& script, const Sources& sources,
                                std::string_view system, std::string_view name);
+
+/// The same as a line of text, such as "∂u/∂t = D ∇²u", without a line end.
+std::string equation_in_unicode(const ast::Script& script, const Sources& sources,
+                                std::string_view system, std::string_view name);
 
 }  // namespace cascade

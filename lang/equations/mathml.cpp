@@ -1,5 +1,5 @@
-// Reads TeX from left to right. A stack of incomplete rows holds the state of open braces,
-// fractions and brackets, so that depth does not matter.
+// Converts TeX to MathML from left to right. A stack contains a row for each open brace, fraction
+// and bracket, so formulas may be of any depth.
 #include "lang/equations/mathml.h"
 
 #include "lang/equations/equation_symbols.h"
@@ -82,7 +82,7 @@ private:
         return parts.size() == 1 ? parts.front() : element("mrow", joined(parts));
     }
 
-    /// Completes the last row and gives it to the row around.
+    /// Completes the innermost row and appends it to the row around it.
     void close() {
         const Row row = std::move(rows_.back());
         rows_.pop_back();
@@ -113,7 +113,7 @@ private:
         const bool is_above = row.use == Use::superscript;
         add(element(is_above ? "msup" : is_under ? "munder" : "msub", base + one));
     }
-    /// Completes a row that takes a single sign.
+    /// Adds `part`, and completes the row if it takes only one sign.
     void add_and_close(std::string part) {
         add(std::move(part));
         if (is_single_) {
@@ -134,7 +134,7 @@ private:
         at_ = std::min(at_, tex_.size());
         return tex_.substr(begin, at_ - begin);
     }
-    /// The plain text of a group such as {diff\_u}.
+    /// The plain text of a group, such as diff_u for {diff\_u}.
     std::string plain() {
         std::string text;
         skip("{");
@@ -229,7 +229,7 @@ private:
         if (const std::string_view sign = sign_of(word); !sign.empty()) {
             return add_and_close(element("mo", sign));
         }
-        // \alpha, \varphi; \ln, \max.
+        // Commands that are names: \alpha, \varphi; \ln, \max.
         std::string_view name = word.substr(1);
         if (name == "varepsilon" || name == "varphi") name.remove_prefix(3);
         add_and_close(element("mi", escaped_markup(Symbols().name(name))));
@@ -249,7 +249,7 @@ private:
     std::string_view tex_;
     std::size_t at_ = 0;
     std::vector<Row> rows_;
-    bool is_single_ = false;  ///< The last row ends after one sign, unless a brace follows.
+    bool is_single_ = false;  ///< Whether the last row ends after one sign, unless a brace follows.
 };
 
 }  // namespace

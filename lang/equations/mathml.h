@@ -1,4 +1,4 @@
-// Formulas in MathML, which browsers draw.
+// Formulas in MathML, which browsers can draw.
 #pragma once
 
 #include <string>
@@ -6,11 +6,11 @@
 
 namespace cascade {
 
-/// The longest formula in TeX that becomes MathML, in bytes.
+/// The longest TeX formula that is converted to MathML, in bytes.
 inline constexpr std::size_t longest_mathml_source = 20'000;
 
-/// The contents of a `math` element for a formula in the TeX of printed equations. Empty if the
-/// formula is too long to be read as one.
+/// The contents of a `math` element for a TeX formula as equations.h prints it. Empty if the
+/// formula is longer than the limit.
 std::string mathml_of(std::string_view tex);
 
 }  // namespace cascade

@@ -1,8 +1,9 @@
-// Places words on their lines. Columns aligned by an author (`=` and `+` of neighbouring equations,
-// comments after statements) stay aligned. All other extra blanks are removed.
+// Sets the columns of words. Columns that an author has aligned (`=` and `+` of neighbouring
+// equations, comments after statements) stay aligned. All other extra blanks are removed.
 //
-// An aligned column is never to the left of its widest line's minimum, and otherwise stays at the
-// author's distance from the words before it, so that formatting the result again changes nothing.
+// An aligned column is moved to the right if the words before it need more room. Otherwise the
+// distance between the column and these words stays as the author wrote it, so formatting the
+// result again changes nothing.
 #include "lang/format/format_lines.h"
 
 #include <algorithm>
@@ -12,30 +13,32 @@ namespace cascade {
 
 namespace {
 
-constexpr std::size_t before_comment = 2;   // In blanks, at least.
-constexpr std::size_t goes_on_by = 4;       // Blanks after its statement, if no bracket decides.
-constexpr std::size_t furthest_start = 60;  // Deep brackets must not push lines out of sight.
+constexpr std::size_t before_comment = 2;   // The least number of blanks before a comment.
+constexpr std::size_t goes_on_by = 4;       // The indentation of a line that continues a statement,
+                                            // unless a column aligns the line.
+constexpr std::size_t furthest_start = 60;  // The largest indentation, so that lines stay visible
+                                            // if brackets are deeply nested.
 constexpr std::size_t no_column = std::numeric_limits<std::size_t>::max();
 
 enum class Alignment { free, relation, sum };
 
-/// Words of neighbouring lines in the same column.
+/// Words of neighbouring lines that are in the same column.
 struct Column {
     struct Member {
         std::size_t line, cell;
     };
     std::vector<Member> members;
     std::size_t source_column = 0;
-    bool was_stretched = false;  ///< One of them had more than one blank before it.
+    bool was_stretched = false;  ///< Whether a word had more than one blank before it.
 };
 
-/// The position of a column of words, from the words before them.
+/// Finds the position of a column from the words before it.
 class Place {
 public:
     explicit Place(bool respelled) : respelled_(respelled) {}
 
-    /// Adds a word of the column: the end of the word before it, the blanks between them in the
-    /// source, and the blanks required.
+    /// Adds a word of the column. `end_before` is where the word before it ends, `blanks` the
+    /// number of blanks between the two words in the source, and `gap` the required number.
     void add(std::size_t end_before, std::size_t blanks, std::size_t gap) {
         kept_ = std::min(kept_, end_before + blanks);
         needed_ = std::max(needed_, end_before + gap);
@@ -69,7 +72,7 @@ private:
     const FormatWord& word(std::size_t line, std::size_t cell) const {
         return words_[lines_[line].cells[cell].word];
     }
-    /// True if words of the line may be aligned with words of the line above.
+    /// Whether words of the line may be aligned with words of the line above.
     bool is_below(std::size_t line) const {
         return !lines_[line].blank_line_before && begins_statement(line) &&
                begins_statement(line - 1);
@@ -100,12 +103,12 @@ private:
         }
     }
 
-    /// The aligned columns of the consecutive lines [begin, end).
+    /// The aligned columns in the lines [begin, end), which must be consecutive.
     std::vector<Column> columns_of(std::size_t begin, std::size_t end) {
         struct Candidate {
             std::size_t cell = 0;
             Alignment alignment = Alignment::free;
-            std::size_t column = no_column;  ///< Index into `columns`.
+            std::size_t column = no_column;  ///< An index into `columns`.
         };
         std::vector<Column> columns;
         std::vector<Candidate> above;
@@ -164,7 +167,7 @@ private:
     std::size_t end_of(std::size_t line, std::size_t cell) const {
         return lines_[line].cells[cell].column + width_of(word(line, cell).text);
     }
-    /// Places the cells of a line before `end`, from the first one not yet placed.
+    /// Sets the columns of the cells of a line from the first one without a column up to `end`.
     void place_up_to(std::size_t line, std::size_t end) {
         for (std::size_t& cell = placed_[line]; cell < end; ++cell) {
             lines_[line].cells[cell].column =
@@ -172,11 +175,11 @@ private:
         }
     }
 
-    // Lines inside a statement begin below the first word after the innermost open bracket or, if
-    // none is open, below the beginning of the statement's value.
+    // Inside a statement, lines begin below the first word after the innermost open bracket. If no
+    // bracket is open, they begin below the start of the statement's value.
     struct Bracket {
-        std::size_t inside = 0;  ///< Column of lines inside it.
-        std::size_t close = 0;   ///< Column of a closing bracket at the beginning of a line.
+        std::size_t inside = 0;  ///< The column at which lines inside the bracket begin.
+        std::size_t close = 0;   ///< The column of the closing bracket, if it begins a line.
     };
 
     void place_continued(std::size_t line) {
@@ -252,7 +255,7 @@ private:
             begin = end - 1;
         }
     }
-    /// True if the comment of `line` belongs to the column of comments that begins at `first`.
+    /// Whether the comment of `line` belongs to the column of comments that begins in line `first`.
     bool is_in_column(std::size_t first, std::size_t line) const {
         const FormatLine& here = lines_[line];
         if (line == first) return true;
@@ -262,7 +265,8 @@ private:
 
     const std::vector<FormatWord>& words_;
     std::vector<FormatLine>& lines_;
-    std::vector<std::size_t> placed_;  ///< By line: the number of cells placed.
+    std::vector<std::size_t> placed_;  ///< For each line, the number of its cells whose column has
+                                       ///< been set.
     bool respelled_;
     std::vector<Bracket> brackets_;
     std::size_t value_column_ = no_column;

@@ -1,4 +1,5 @@
-// Decides which words share a line: line breaks of the author stay, unless the style has a rule.
+// Decides which words share a line. The author's line breaks stay, unless the style prescribes
+// others.
 #include "lang/format/format_lines.h"
 
 #include "lang/format/format_script.h"
@@ -22,7 +23,7 @@ public:
             breaks_ = std::max(breaks_, word.breaks);
             if (word.kind == TokenKind::semicolon) {
                 semicolon_ = k;
-                continue;  // It is written only if a statement follows on the line.
+                continue;  // A `;` is written only if a statement follows on the line.
             }
             if (word.is_comment()) add_comment(k);
             else if (word.kind == TokenKind::open_curly) open_block(k);
@@ -107,7 +108,8 @@ private:
         open_brackets_ = 0;
     }
 
-    /// True if the block is on one line and fits there. Looks ahead one line at most.
+    /// Whether the block is written on one line and is not wider than a line may be. Reads at most
+    /// one line ahead.
     bool is_one_line_block(std::size_t open) const {
         std::size_t width = width_ + 2;
         for (std::size_t k = open + 1; k < words_.size(); ++k) {
@@ -120,7 +122,8 @@ private:
         return false;
     }
 
-    /// True if the rest of the author's line fits on one line.
+    /// Whether the rest of the author's line, after `width` columns, is not wider than a line may
+    /// be.
     bool fits(std::size_t first, std::size_t width) const {
         for (std::size_t k = first; k < words_.size(); ++k) {
             const FormatWord& word = words_[k];
@@ -137,14 +140,17 @@ private:
     const std::vector<FormatWord>& words_;
     std::vector<FormatLine> lines_;
     const FormatWord* before_ = nullptr;       ///< The last word that is not a comment.
-    const FormatWord* line_before_ = nullptr;  ///< The same, on this line.
-    std::optional<std::size_t> semicolon_;     ///< Between the last word and the next.
-    std::size_t breaks_ = 0;                   ///< Line breaks since the last word.
-    std::size_t width_ = 0;                    ///< Least width of the line so far.
+    const FormatWord* line_before_ = nullptr;  ///< The last word on this line that is not a
+                                               ///< comment.
+    std::optional<std::size_t> semicolon_;     ///< The `;` between the last word and the next, if
+                                               ///< there is one.
+    std::size_t breaks_ = 0;                   ///< The number of line breaks since the last word.
+    std::size_t width_ = 0;                    ///< The least width of the line so far.
     std::size_t open_brackets_ = 0;
     bool in_block_ = false;
     bool in_one_line_block_ = false;
-    bool block_begins_ = false;  ///< Only `{` and its comment have been written so far.
+    bool block_begins_ = false;  ///< Whether only the `{` of a block, and a comment after it, have
+                                 ///< been written so far.
     bool needs_line_ = false;
     bool splits_at_semicolons_ = false;
 };

@@ -1,5 +1,5 @@
-// Respells words in ASCII or in the notation of papers. Words that a notation omits become empty:
-// brackets after ∇, the sign of a product, the ^ of a superscript.
+// Respells words in ASCII or in the notation of papers. Words that a notation omits become empty
+// texts: brackets after ∇, the sign of a product, the ^ of a superscript.
 #include "lang/format/format_notation.h"
 
 #include "lang/syntax/kept_spellings.h"
@@ -36,7 +36,7 @@ private:
     TokenKind kind(std::size_t k) const {
         return k < words_.size() ? words_[k].kind : TokenKind::end_of_text;
     }
-    /// True if there is no line end and no comment before any of the words [first, last].
+    /// Whether the words [first, last] are on one line, without comments.
     bool is_on_one_line(std::size_t first, std::size_t last) const {
         for (std::size_t k = first; k <= last; ++k) {
             if (k >= words_.size() || words_[k].breaks > 0 || words_[k].is_comment()) return false;
@@ -71,7 +71,8 @@ private:
             default: break;
         }
     }
-    /// u' = … becomes ∂u/∂t = …, and u'' = … becomes ∂²u/∂t² = …. Other primes become ′.
+    /// Respells a prime. u' = … becomes ∂u/∂t = …, and u'' = … becomes ∂²u/∂t² = …. Other primes
+    /// become ′.
     void write_prime(std::size_t k) {
         words_[k].text = "′";
         const TokenKind next = kind(k + 1);
@@ -88,7 +89,7 @@ private:
         if (is_second) words_[k - 1].text = "";
     }
 
-    /// The sign of a function with one operand. Empty for other words.
+    /// The sign of a function with one operand, such as ∇² for lap. Empty for other words.
     static std::string_view sign_of(std::string_view function) {
         constexpr std::array<std::pair<std::string_view, std::string_view>, 4> signs{
             {{"lap", "∇²"}, {"div", "∇·"}, {"grad", "∇"}, {"sqrt", "√"}}};
@@ -96,7 +97,7 @@ private:
                                         [&](const auto& row) { return row.first == function; });
         return found == signs.end() ? std::string_view() : found->second;
     }
-    /// True if the words from `name` on are a call that can be written with a sign.
+    /// Whether the words from `name` on are a call that can be written with a sign.
     bool is_application(std::size_t name) const {
         const bool is_call =
             kind(name) == TokenKind::name && kind(name + 1) == TokenKind::open_round;
@@ -115,7 +116,8 @@ private:
         }
         return is_on_one_line(open, open + 1);
     }
-    /// True for operands that need no brackets after a sign: u, u[i], u' and another application.
+    /// Whether an operand needs no brackets after a sign. This is true of u, u[i], u', and of a
+    /// call that is written with a sign, too.
     bool is_plain_operand(std::size_t first, std::size_t end) const {
         if (kind(first) == TokenKind::number) return first + 1 == end;
         if (kind(first) != TokenKind::name) return false;
@@ -149,7 +151,7 @@ private:
         if (is_plain) words_[open].text = words_[close].text = {};
     }
 
-    /// (1 + lap)^2 u becomes (1 + ∇²)² u, unless the script gives the name lap a value.
+    /// Turns (1 + lap)^2 u into (1 + ∇²)² u, unless the script gives the name lap a value.
     void write_bare_laplacians() {
         const auto is_bare = [&](std::size_t k) {
             return kind(k) == TokenKind::name && words_[k].spelling == "lap" &&
@@ -167,7 +169,7 @@ private:
         }
     }
 
-    /// u^2 becomes u², u^-1 becomes u⁻¹.
+    /// Turns u^2 into u² and u^-1 into u⁻¹.
     void write_power(std::size_t caret) {
         if (kind(caret) != TokenKind::caret || caret == 0) return;
         const bool is_negative = kind(caret + 1) == TokenKind::minus;
@@ -186,7 +188,7 @@ private:
         if (is_negative) words_[caret + 1].text = "⁻";
     }
 
-    /// A product before ∇ or √, or after a superscript, needs no sign.
+    /// Removes the sign of products before ∇ or √ and after a superscript.
     void leave_out_products() {
         std::vector<bool> divisors;
         bool is_divisor = false;
@@ -214,7 +216,7 @@ private:
                 case TokenKind::caret:
                 case TokenKind::prime:
                 case TokenKind::dot:
-                case TokenKind::newline: break;  // A comment. A line end would continue, too.
+                case TokenKind::newline: break;  // A comment.
                 default: is_divisor = false;
             }
         }
@@ -230,7 +232,8 @@ private:
     }
 
     std::vector<FormatWord>& words_;
-    std::vector<std::size_t> partner_;  ///< By bracket: its partner.
+    std::vector<std::size_t> partner_;  ///< For each opening or closing bracket, the index of the
+                                        ///< matching bracket.
     std::vector<bool> is_operator_, ends_application_;
 };
 

@@ -1,4 +1,4 @@
-// The notation of a formatted script (internal to the formatter): the spelling of its words.
+// Spells the words of a formatted script in the requested notation (internal to the formatter).
 #pragma once
 
 #include "lang/format/format_script.h"
@@ -8,7 +8,7 @@
 
 namespace cascade {
 
-/// The words to write, with their texts in this notation.
+/// The words of the formatted script, spelled in this notation.
 std::vector<FormatWord> written_words(std::vector<FormatWord> words, ScriptNotation notation);
 
 }  // namespace cascade

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t tab_width = 8;
 
-/// Splits the text between two tokens into comments.
+/// Collects tokens, and splits the text between two tokens into comments.
 class WordList {
 public:
     explicit WordList(std::string_view text) : text_(text) {
@@ -24,7 +24,7 @@ public:
         add(token.kind, text_.substr(token.span.begin, token.span.end - token.span.begin));
         words_.back().spelling = token.text;
     }
-    /// Skips line breaks and blanks, and adds the comments up to `end`.
+    /// Adds the comments between the last word and `end`, and skips line breaks and blanks.
     void pass_over_gap(std::size_t end) {
         while (offset_ < end) {
             const char c = text_[offset_];
@@ -81,8 +81,8 @@ bool ends_operand(TokenKind kind) {
            kind == TokenKind::close_square;
 }
 
-/// True for operators whose blanks, or their absence, show what belongs together: `a*b + 1/8`,
-/// `1..n`.
+/// Whether the word is an operator around which the author's blanks stay, because the blanks show
+/// which operands belong together: `a*b + 1/8`, `1..n`.
 bool is_author_spaced(const FormatWord& word) {
     return word.kind == TokenKind::star || word.kind == TokenKind::slash ||
            word.kind == TokenKind::dots;
@@ -90,10 +90,10 @@ bool is_author_spaced(const FormatWord& word) {
 
 bool is_apart(const FormatWord& word) { return word.blanks > 0 || word.breaks > 0; }
 
-/// Sets the roles of words from their neighbours.
+/// Finds out from neighbouring words which words are signs, infix names and operators with blanks.
 void find_roles(std::vector<FormatWord>& words) {
     const FormatWord* before = nullptr;  // The last word that is not a comment.
-    FormatWord* waiting = nullptr;       // An operator that waits for its right side.
+    FormatWord* waiting = nullptr;       // An operator whose right side comes next.
     for (FormatWord& word : words) {
         if (waiting != nullptr) waiting->is_spaced = waiting->is_spaced || is_apart(word);
         waiting = nullptr;

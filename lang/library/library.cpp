@@ -1,4 +1,5 @@
-// Finds the systems and shapes named in a script and their bases, and parses only those texts.
+// Finds the library systems and shapes that a script names, and their bases. Parses no other texts
+// of the library.
 #include "lang/library/library.h"
 
 #include "core/check.h"
@@ -14,7 +15,7 @@ namespace cascade {
 
 namespace {
 
-/// The source of a library text added by an earlier check.
+/// The source of a library's text, if an earlier check has added it.
 std::optional<SourceId> find_source(const LibraryText& text, const Sources& sources) {
     for (SourceId id = 0; id < sources.size(); ++id) {
         if (sources[id].name() == text.file_name && sources[id].text() == text.text) return id;
@@ -22,7 +23,7 @@ std::optional<SourceId> find_source(const LibraryText& text, const Sources& sour
     return std::nullopt;
 }
 
-/// The source of a library text. Reuses one added by an earlier check.
+/// The source of a library's text. Adds the source if no earlier check has added it.
 SourceId source_of(const LibraryText& text, Sources& sources) {
     if (const auto known = find_source(text, sources)) return *known;
     return sources.add(std::string(text.file_name), std::string(text.text));
@@ -45,7 +46,7 @@ bool is_stage(const ast::Block& block) {
     return block.kind == ast::BlockKind::stage || block.kind == ast::BlockKind::classic_stage;
 }
 
-/// The names that a script may look up in the library, each once.
+/// The names that the script may take from the library, without duplicates.
 std::vector<std::string_view> names_wanted(const ast::Script& script) {
     std::unordered_set<std::string_view> own;
     for (const ast::Block& block : script.blocks) {
@@ -55,7 +56,8 @@ std::vector<std::string_view> names_wanted(const ast::Script& script) {
     for (const ast::Block& block : script.blocks) {
         const bool is_derived = block.kind == ast::BlockKind::system;
         if (!is_derived && (!is_stage(block) || own.contains(block.base.text))) continue;
-        // `system a: a { … }` changes the library's a. Any other base may be the script's own.
+        // In `system a: a { … }` the base is the library's a. Any other base may be one of the
+        // script's own systems.
         if (is_derived && block.base.text != block.name.text && own.contains(block.base.text)) {
             continue;
         }
@@ -67,20 +69,22 @@ std::vector<std::string_view> names_wanted(const ast::Script& script) {
     return wanted;
 }
 
-/// A text of a list in alphabetical order.
+/// The text with this name. The list must be in alphabetical order.
 const LibraryText* text_of(std::span<const LibraryText> texts, std::string_view name) {
     const auto found = std::ranges::lower_bound(texts, name, {}, &LibraryText::system_name);
     return found != texts.end() && found->system_name() == name ? &*found : nullptr;
 }
 
-/// The texts of these names and of their bases, each after its base. `find` looks one up.
+/// The texts with these names, and of their bases. Each comes after its base. `find` returns the
+/// text of a name.
 template <typename Find>
 std::vector<LibraryScript> read_texts(const std::vector<std::string_view>& names, const Find& find,
                                       Sources& sources, Diagnostics& diagnostics) {
     std::vector<LibraryScript> result;
     std::unordered_set<std::string_view> read;
     for (const std::string_view name : names) {
-        // Visits a text twice: first adds its bases to the list, then the text itself.
+        // Visits each text twice: the first visit adds the text's bases to the list, the second the
+        // text itself.
         std::vector<std::string_view> open{name};
         std::unordered_map<std::string_view, LibraryScript> waiting;
         while (!open.empty()) {

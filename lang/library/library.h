@@ -1,9 +1,9 @@
-// The library of systems and shapes: Cascade texts that are embedded in the binary
-// (lang/systems/*.cascade).
+// The library of systems, cells and shapes: Cascade texts that are embedded in the program
+// (lang/systems/*.cascade and others).
 //
-// A text NAME.cascade holds the system or the cells NAME and usually a stage, a domain and a
-// picture that show it. Scripts use only its system. Texts that a script does not need are not
-// parsed.
+// A text NAME.cascade contains the system, cells or shape NAME, and usually a stage, a domain and a
+// picture that show it. A script that names NAME uses only the system, cells or shape. Texts that a
+// script does not need are not parsed.
 #pragma once
 
 #include "core/diagnostics.h"
@@ -27,23 +27,26 @@ struct LibraryText {
 
 /// All texts of the library, in alphabetical order.
 std::span<const LibraryText> library_texts();
-/// The texts of crawling cells (lang/cells/*.cascade), likewise.
+/// The texts of crawling cells (lang/cells/*.cascade), in alphabetical order.
 std::span<const LibraryText> library_cells();
 
-/// The texts of cell shapes (lang/shapes/*.cascade), likewise.
+/// The texts of shapes of cells (lang/shapes/*.cascade), in alphabetical order.
 std::span<const LibraryText> library_shapes();
 
-/// The text of the library's shape of this name. Null if there is none.
+/// The text of the library's shape with this name; null if there is none.
 const LibraryText* find_shape_text(std::string_view name);
-/// The text of the library's system, or cells, of this name. Null if there is none.
+/// The text of the library's system or cells with this name; null if there is none.
 const LibraryText* find_library_text(std::string_view system_name);
 
-/// The functions that scripts with cells can call, such as push(k): `fn` statements with docs.
+/// The functions that scripts with cells can call, such as push(k): `fn` statements with doc
+/// comments.
 const LibraryText& cell_functions();
 
-/// These functions, parsed. Adds the text to `sources`, or reuses one added by an earlier call.
+/// The functions of cells, parsed. Adds the text to `sources`, or reuses the text that an earlier
+/// call has added.
 ast::Script read_cell_functions(Sources& sources, Diagnostics& diagnostics);
-/// These functions from sources to which a check of the script has added the text. Otherwise none.
+/// The functions of cells, parsed, if the check of a script has added their text to `sources`.
+/// Otherwise an empty script.
 ast::Script cell_functions_of(const Sources& sources);
 
 /// A text of the library, parsed for a check.
@@ -52,14 +55,16 @@ struct LibraryScript {
     std::size_t block = 0;  ///< The index of the system or the shape in script.blocks.
 };
 
-/// The systems of the library that a script needs, named by its stages and derived systems, and
-/// their bases, each after its base. A system declared in the script is not looked up, unless it is
-/// derived from one of the same name. Adds the texts to `sources`, or reuses those added by an
-/// earlier call.
+/// The systems of the library that a script needs: those named by its stages and derived systems,
+/// and their bases. Each comes after its base. A system that the script declares is not looked up,
+/// unless it is derived from a system of the same name. Adds the texts to `sources`, or reuses the
+/// texts that an earlier call has added.
 std::vector<LibraryScript> read_library(const ast::Script& script, Sources& sources,
                                         Diagnostics& diagnostics);
 
-/// The shapes of the library among these names, and their bases, likewise.
+/// The library shapes with these names, and their bases. Each comes after its base. Names of other
+/// shapes are ignored. Adds the texts to `sources`, or reuses the texts that an earlier call has
+/// added.
 std::vector<LibraryScript> read_library_shapes(const std::vector<std::string_view>& names,
                                                Sources& sources, Diagnostics& diagnostics);
 

@@ -1,5 +1,5 @@
-// Follows the chain of bases on the syntax tree alone, so that the equations of any script can be
-// printed.
+// Collects statements by following the bases in the syntax tree. Needs no checked script, so the
+// equations of any script can be printed.
 #include "lang/library/system_statements.h"
 
 #include "lang/library/library.h"
@@ -21,7 +21,8 @@ bool is_rate(const ast::Statement& statement) {
            statement.kind == ast::StatementKind::rate_term;
 }
 
-/// "[2]" for a statement about one member of a family, "[i,2]" for one about some, else "".
+/// "[2]" for a statement about one member of a family, "[i,2]" for a statement about some members,
+/// else "".
 std::string member_of(const ast::Statement& statement) {
     if (!is_of_some_members(statement.index)) return "";
     return fmt::format("[{}]", statement.index.text);
@@ -65,7 +66,7 @@ SystemStatements::SystemStatements(const ast::Script& script, const Sources& sou
         doc_ = first.block->doc;
         is_cells_ = first.block->is_cells;
     }
-    // Depth first: a block comes when its bases have come, and each once.
+    // Depth first: a block is added after all its bases, and only once.
     struct Open {
         FoundBlock found;
         std::size_t bases_taken = 0;
@@ -83,7 +84,7 @@ SystemStatements::SystemStatements(const ast::Script& script, const Sources& sou
             continue;
         }
         const ast::Word& base = next == 0 ? found.block->base : joined[next - 1];
-        // `system a: a { … }` changes the library's a.
+        // In `system a: a { … }` the base is the library's a.
         const bool is_own_name = base.text == found.block->name.text;
         FoundBlock other = is_own_name ? FoundBlock{} : find_block(found, base.text);
         if (other.block == nullptr) other = find_in_library(base.text);
@@ -94,10 +95,10 @@ SystemStatements::SystemStatements(const ast::Script& script, const Sources& sou
     }
 }
 
-/// Adds the statements of a block to the inherited ones, or replaces those.
+/// Adds the statements of a block to the inherited statements. Some replace inherited statements.
 void SystemStatements::derive(const FoundBlock& found) {
     struct Change {
-        std::size_t first = SIZE_MAX;  ///< The first inherited statement that is replaced.
+        std::size_t first = SIZE_MAX;  ///< The first inherited statement that it replaces.
         bool is_used = false;
     };
     std::unordered_map<std::string, Change> changes;
@@ -108,7 +109,7 @@ void SystemStatements::derive(const FoundBlock& found) {
     std::vector<bool> dropped(statements_.size(), false);
     for (std::size_t k = 0; k < statements_.size(); ++k) {
         const ast::Statement& inherited = *statements_[k].statement;
-        // A statement about all members applies to each.
+        // A statement about all members of a family changes each member.
         for (const std::string& member : {std::string(), member_of(inherited)}) {
             const auto change = changes.find(subject_of(inherited) + member);
             if (change == changes.end()) continue;

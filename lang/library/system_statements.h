@@ -1,4 +1,5 @@
-// The statements of a system together with those that it inherits (for printing equations).
+// The statements of a system together with the statements that it inherits. Used to print
+// equations.
 #pragma once
 
 #include "core/source.h"
@@ -13,43 +14,44 @@
 
 namespace cascade {
 
-/// A statement and the script that its expressions are in.
+/// A statement and the script that contains its expressions.
 struct SaidStatement {
     const ast::Script* script = nullptr;
     const Sources* sources = nullptr;
     const ast::Statement* statement = nullptr;
-    /// The statement whose doc comment applies, and the one whose range does: where it has none
-    /// itself, the one it has replaced. Null if there is none.
+    /// The statement that gives the doc comment, and the statement that gives the range: the
+    /// statement itself or, if it has none, the inherited statement that it replaces. Null if there
+    /// is none.
     const ast::Statement* doc = nullptr;
     const ast::Statement* range = nullptr;
     const ast::Script* range_script = nullptr;
     const Sources* range_sources = nullptr;
 };
 
-/// The subject of a statement. In a derived system a statement replaces the inherited one with the
-/// same subject, unless it is a term to be added.
+/// The subject of a statement. In a derived system, a statement replaces the inherited statement
+/// with the same subject, unless it is a term that is added to a rate.
 std::string subject_of(const ast::Statement& statement);
 
-/// The `system` blocks of a script by name.
+/// The `system` blocks of a script, by name.
 using SystemBlocks = std::unordered_map<std::string_view, const ast::Block*>;
 SystemBlocks system_blocks(const ast::Script& script);
 
-/// The statements of a system of a checked script or of the library: those of its bases first,
-/// changed as `system b: a { … }` says.
+/// The statements of a system of a checked script or of the library. Statements of its bases come
+/// first. If a derived system replaces a statement of its base, only the replacement is included.
 class SystemStatements {
 public:
-    /// `blocks` must be those of `script`.
+    /// `blocks` must be system_blocks(script).
     SystemStatements(const ast::Script& script, const Sources& sources, const SystemBlocks& blocks,
                      std::string_view system);
 
-    /// False if there is no such system.
+    /// Whether the system exists.
     bool found() const { return found_; }
     const std::vector<SaidStatement>& all() const { return statements_; }
-    /// Is it a block of cells?
+    /// Whether the system is a block of cells.
     bool is_cells() const { return is_cells_; }
     /// The doc comment of the system itself; may be empty.
     const std::string& doc() const { return doc_; }
-    /// True if the name, without index, has a rate.
+    /// Whether the name has a rate. `name` has no index.
     bool is_species(std::string_view name) const { return species_.contains(name); }
 
 private:
@@ -61,10 +63,10 @@ private:
     struct FoundBlock {
         const ast::Script* script = nullptr;
         const Sources* sources = nullptr;
-        const SystemBlocks* blocks = nullptr;  ///< Of that script.
+        const SystemBlocks* blocks = nullptr;  ///< The blocks of `script`.
         const ast::Block* block = nullptr;
     };
-    /// Finds a block in the script of `beside`.
+    /// Finds the block of a system in the script `beside.script`.
     static FoundBlock find_block(FoundBlock beside, std::string_view system);
     FoundBlock find_in_library(std::string_view system);
     void derive(const FoundBlock& found);

@@ -1,11 +1,11 @@
-// Gives operators the values beyond the border of a mask, where they are not those of the cell
-// beside it.
+// Gives operators the values beyond the border of a mask, if these values differ from the value in
+// the cell beside the border.
 //
-// The rules are those of the sides of the grid (spec/domain.md, "Beyond the sides"): a species, or
-// a definition with a border of its own, has the value that its border says, and a function is
-// computed from such operands; operators, shapes, draws and files are mirrored. But there is no
-// halo between cells, so these values are expressions of the cell beside the border, which every
-// neighbour outside of it has in common.
+// The rules are the same as at the sides of the grid (spec/domain.md, "Beyond the sides"). A
+// species, or a definition with its own rule for the border, has the value that this rule gives. A
+// function is computed from such operands. Operators, shapes, draws and files are mirrored. At the
+// border there is no halo, so these values are expressions of values in the cell beside the border.
+// They are the same for all neighbours of this cell outside the mask.
 #include "lang/calculus/side_values.h"
 #include "lang/lower/graph_passes.h"
 
@@ -28,7 +28,8 @@ public:
           flattening_(graph()) {}
 
 private:
-    /// Beyond the border, and beyond it a second time, where it turns a corner.
+    /// Two values: beyond the border, and beyond two borders. The second is used for a diagonal
+    /// neighbour if both cells between are outside.
     using Beyond = std::array<NodeId, 2>;
 
     NodeId image_of(const Node& node) override {
@@ -52,7 +53,7 @@ private:
         return bordered(term(operand), term(once), term(twice));
     }
 
-    /// Nothing if it is mirrored.
+    /// The values of a node beyond the border. Empty if the node is mirrored.
     std::optional<Beyond> beyond_of(NodeId id, const Node& node) {
         const SideSetting* const rule = rule_of(node);
         if (rule != nullptr) {
@@ -78,7 +79,7 @@ private:
         return Beyond{graph().add(once), graph().add(twice)};
     }
 
-    /// The border rule of a species, or of a definition with sides of its own; null for others.
+    /// The border rule of a species, or of a definition with its own rules; null for other nodes.
     const SideSetting* rule_of(const Node& node) const {
         constexpr auto border = static_cast<std::size_t>(Side::border);
         if (const auto wall = definitions_.find(at()); wall != definitions_.end()) {
@@ -90,7 +91,8 @@ private:
         return species && !species_.empty() ? &species_[*species][border] : nullptr;
     }
 
-    /// 2e − c or c + h e, rounded as in halos.
+    /// The value beyond the border: 2e − c for a value e, or c + h e for a slope e, where c is
+    /// `cell`. Rounded in the same way as in halos.
     NodeId across(const SideSetting& rule, NodeId value, NodeId cell) {
         if (rule.kind == SideKind::fixed) return leaf(2.0) * term(value) - term(cell);
         const Term spacing = leaf(context().grid().spacing);
@@ -99,9 +101,9 @@ private:
 
     const System& system_;
     IdVector<SpeciesId, SideSettings> species_;
-    std::unordered_map<NodeId, std::size_t> definitions_;  ///< By their nodes in the old graph.
+    std::unordered_map<NodeId, std::size_t> definitions_;  ///< For nodes of the old graph.
     Flattening flattening_;
-    std::unordered_map<NodeId, Beyond> beyond_;  ///< By node of the new graph.
+    std::unordered_map<NodeId, Beyond> beyond_;  ///< For nodes of the new graph.
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Elimination column by column, then substitution from the last unknown to the first.
+// Eliminates column by column, then substitutes from the last unknown to the first.
 #include "lang/lower/cell_equations.h"
 
 #include <utility>
@@ -9,7 +9,7 @@ namespace {
 
 using Row = std::vector<ValueId>;
 
-/// Exchanges two rows from a column on where the second one has the larger number there.
+/// Exchanges two rows, from `column` on, if the second row has the larger magnitude in this column.
 void put_larger_first(KernelBuilder& builder, Row& first, Row& second, std::size_t column) {
     if (is_zero(builder, second[column])) return;
     if (is_zero(builder, first[column])) return std::swap(first, second);

@@ -1,4 +1,5 @@
-// Linear equations of a cell as instructions of its kernel (internal to lowering).
+// Solves linear equations in each cell, as instructions of the cell's kernel (internal to
+// lowering).
 #pragma once
 
 #include "ir/builder.h"
@@ -7,12 +8,13 @@
 
 namespace cascade::lowering {
 
-/// Is it known to be 0 whatever the cell is?
+/// Whether the value is known to be 0 in all cells.
 bool is_zero(const KernelBuilder& builder, ValueId value);
 
-/// The x of n equations Σ_j rows[i][j] x_j = rows[i][n], by Gaussian elimination with partial
-/// pivoting: straight-line code, in which rows are exchanged by choices. What is known to be 0
-/// costs no instruction. The result is not finite if the equations are singular.
+/// Solves n equations Σ_j rows[i][j] x_j = rows[i][n] by Gaussian elimination with partial
+/// pivoting. Returns x. The code has no branches: rows are exchanged by select instructions.
+/// Coefficients that are known to be 0 need no instructions. If the equations are singular, the
+/// result is not finite.
 std::vector<ValueId> solve_equations(KernelBuilder& builder,
                                      std::vector<std::vector<ValueId>> rows);
 

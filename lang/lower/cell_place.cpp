@@ -1,5 +1,5 @@
-// Places are computed from the numbers of columns, rows and slices. The cells of a model have
-// theirs in planes.
+// Computes positions from the numbers of columns, rows and slices. The positions of a model's cells
+// are in planes.
 #include "lang/lower/cell_place.h"
 
 #include "core/check.h"
@@ -9,8 +9,8 @@
 
 namespace cascade::lowering {
 
-/// The number of the column, row or slice; beyond a side, that of the opposite cell or of the cell
-/// at the side.
+/// The number of the column, row or slice. Beyond a periodic side it is the number of the opposite
+/// cell, beyond other sides that of the cell beside the side.
 ValueId CellPlace::number(int axis) {
     const Grid& grid = assembly_.program().domain.grid;
     const std::array sides{grid.width, grid.height, grid.depth};
@@ -32,12 +32,12 @@ ValueId CellPlace::number(int axis) {
     return builder_.select(is_at_side, builder_.word(static_cast<std::uint32_t>(beyond)), moved);
 }
 
-/// Cell centres: (i + 1/2) / side.
+/// The coordinate of the cell's centre: (i + 1/2) / side.
 ValueId CellPlace::coordinate(int axis, std::int64_t side) {
     const ValueId number = builder_.apply(Op::bits_to_number, this->number(axis));
     const ValueId centre = builder_.add(number, builder_.number(0.5));
     const ValueId place = builder_.divide(centre, builder_.number(static_cast<double>(side)));
-    builder_.keep(place);  // Not contracted, so the place is the same in all formulas.
+    builder_.keep(place);  // Not contracted, so that positions are the same in all formulas.
     return place;
 }
 
@@ -65,7 +65,7 @@ ValueId CellPlace::builtin(Builtin builtin) {
     CHECK(false, "lowering: every built-in value has a meaning");
 }
 
-/// A cell that crawls is where its species say.
+/// The position of a cell that crawls, which is stored in species.
 Space CellPlace::space_of_tissue() {
     const DomainSettings& domain = assembly_.program().domain;
     const Grid& grid = domain.grid;
@@ -102,7 +102,8 @@ Space CellPlace::space() {
 ValueId CellPlace::content() {
     if (assembly_.context().is_tissue()) return builder_.number(1);
     if (assembly_.program().domain.model) {
-        // The copies of a cell that fill the last row have no area, which nothing may divide by.
+        // The copies of a cell that fill up the last row have area 0, which is replaced because
+        // formulas may divide by the area.
         const ValueId area = of_model(ModelPlane::area);
         const ValueId is_copy = builder_.apply(Op::equal, area, builder_.number(0));
         return builder_.select(is_copy, builder_.number(1), area);
@@ -111,7 +112,8 @@ ValueId CellPlace::content() {
     return builder_.number(std::pow(domain.grid.spacing, axes_of(domain)));
 }
 
-/// The hash of a draw takes column and row; slices other than the first modify the result.
+/// The draw word of the cell. The hash takes column and row separately. In slices other than the
+/// first, the slice changes the word.
 ValueId CellPlace::draw(ValueId draw) {
     if (assembly_.context().has_links()) {
         builder_.set_cell(of_model(ModelPlane::number));

@@ -1,4 +1,5 @@
-// The place of a cell, from which functions of the place are computed (internal to lowering).
+// Values that describe the position of a cell. Functions of position are computed from them
+// (internal to lowering).
 #pragma once
 
 #include "ir/space.h"
@@ -6,7 +7,7 @@
 
 namespace cascade::lowering {
 
-/// The place of the cell at an offset.
+/// The position of the cell at an offset from the present cell.
 class CellPlace {
 public:
     CellPlace(KernelAssembly& assembly, Offset at)
@@ -15,9 +16,10 @@ public:
     ValueId builtin(Builtin builtin);
     ValueId of_model(ModelPlane plane) { return assembly_.field(plane, at_); }
     Space space();
-    /// The length, area or volume of the cell in units; 1 of one that crawls.
+    /// The length, area or volume of the cell in the script's units; 1 for a cell that crawls.
     ValueId content();
-    /// The draw of the cell, a word of 32 bits.
+    /// The draw word of the cell's random numbers. `draw` is the step's word, which cells outside
+    /// the first slice change.
     ValueId draw(ValueId draw);
 
 private:

@@ -1,5 +1,6 @@
-// The linear part of an expression is found node by node: a sum of linear parts, or an operator of
-// one. What remains of it without the unknown is computed once for each solution.
+// Finds the linear part of an expression node by node. The linear part is a sum of linear parts, or
+// an operator applied to a linear part. Values that do not depend on the unknown are computed once
+// for each solution.
 #include "lang/lower/constraint_plan.h"
 
 #include "lang/lower/plan_builder.h"
@@ -14,7 +15,7 @@ namespace {
 
 using LinearParts = IdVector<NodeId, std::optional<NodeId>>;
 
-/// Adds the linear part of a node to the graph; nothing if the node does not depend on the unknown.
+/// Adds the linear part of a node to the graph. Empty if the node does not depend on the unknown.
 std::optional<NodeId> linear_part(ExpressionGraph& graph, NodeId id, const LinearParts& parts) {
     Node node = graph[id];
     if (node.is<Unknown>()) return id;
@@ -34,13 +35,13 @@ std::optional<NodeId> linear_part(ExpressionGraph& graph, NodeId id, const Linea
             operand = *parts[operand];
         } else if (is_jointly_linear(node.function) &&
                    is_linear_in(node.function, k, node.operand_count)) {
-            operand = zero;  // What does not depend on the unknown adds nothing.
+            operand = zero;  // Terms without the unknown do not contribute.
         }
     }
     return graph.add(node);
 }
 
-/// The linear part of `root` as an expression of its own.
+/// The linear part of `root`, as a separate graph.
 Expressions linear_part(const Expressions& from, NodeId root) {
     Expressions linear = from;
     LinearParts parts;
@@ -51,7 +52,7 @@ Expressions linear_part(const Expressions& from, NodeId root) {
     return linear;
 }
 
-/// The largest nodes that do not depend on the unknown, vary, and are in no plane.
+/// The largest nodes that vary, do not depend on the unknown, and are not in a plane.
 std::vector<NodeId> constant_parts(const PlanGraph& graph) {
     IdVector<NodeId, bool> depends, needed(graph.size(), false);
     for (const NodeId id : graph.ids()) {
@@ -72,7 +73,7 @@ std::vector<NodeId> constant_parts(const PlanGraph& graph) {
     return parts;
 }
 
-/// A plan for values that are 0 outside of the mask.
+/// A plan for values that are 0 outside the mask.
 std::shared_ptr<const StepPlan> plan_of(const PlanGraph& graph, std::span<const NodeId> wanted,
                                         std::span<const NodeId> known) {
     PlanBuilder builder({graph, wanted, {}, false, {}, known});

@@ -1,4 +1,4 @@
-// The plans from which the field of a constraint is found (internal to lowering).
+// Plans for finding the field that a constraint determines (internal to lowering).
 #pragma once
 
 #include "lang/lower/plan_graph.h"
@@ -6,8 +6,8 @@
 
 namespace cascade::lowering {
 
-/// `solved` is a node of Function::solved, whose operand is linear in its unknown, as the checker
-/// has made sure.
+/// `solved` is a node of Function::solved. The checker ensures that the operand of this node is
+/// linear in the unknown field.
 Solve plan_of_constraint(const PlanGraph& graph, NodeId solved, TemporaryId target);
 
 }  // namespace cascade::lowering

@@ -1,4 +1,4 @@
-// Plans in words, for `--dump plan`.
+// Describes plans in words, for `--dump plan`.
 #include "core/counted.h"
 #include "lang/lower/plan_builder.h"
 #include "lang/print/print_formula.h"
@@ -14,10 +14,10 @@ namespace cascade::lowering {
 
 namespace {
 
-/// Parts of a formula after this node are not shown.
+/// A formula with more nodes than this is cut in descriptions.
 constexpr NodeId longest_shown{60};
 
-/// The value that this one continues beyond the border of a mask; nothing for others.
+/// The node whose value beyond the border of a mask is the node `beyond`. Empty if there is none.
 std::optional<NodeId> inside_of(const PlanGraph& graph, NodeId beyond) {
     for (const NodeId id : ids_below<NodeId>(graph.size())) {
         const Node& node = graph[id];
@@ -27,8 +27,8 @@ std::optional<NodeId> inside_of(const PlanGraph& graph, NodeId beyond) {
     return std::nullopt;
 }
 
-/// Nodes that the script does not contain: entries of a tensor, and the parts of operators on a
-/// surface or a model.
+/// Describes a node that is not written in the script, such as an entry of a tensor, or a part of
+/// an operator on a surface or a model.
 std::string describe_made(const PlanGraph& graph, const Node& node) {
     if (graph.context().is_tissue()) return "a component of a vector";
     const bool is_sine = node.calls(Function::sin);
@@ -38,7 +38,7 @@ std::string describe_made(const PlanGraph& graph, const Node& node) {
     return graph.is_linked() ? "a part of a flow" : "an entry of a tensor";
 }
 
-/// The text of a node, or its name.
+/// The name of a node, or its text if it has no name.
 std::string name_of(const PlanGraph& graph, NodeId id) {
     const std::string& name = graph.name(id);
     if (!name.empty()) return name;
@@ -113,7 +113,8 @@ std::string describe(const PlanGraph& graph, const PassPlanner& planner, const S
         text += ": ";
         for (std::size_t k = 0; k < results.size(); ++k) text += (k > 0 ? ", " : "") + results[k];
     }
-    std::vector<std::pair<std::string, std::size_t>> step_invariants;  // By name, with its number.
+    std::vector<std::pair<std::string, std::size_t>> step_invariants;  // The name and the index of
+                                                                       // each.
     for (const NodeId id : graph.ids()) {
         if (!planner.is_needed(id) || !planner.is_step_invariant(id)) continue;
         std::string words = describe_step_invariant(graph, id);

@@ -1,6 +1,6 @@
-// Sums with a product on one side become multiply-adds, and divisions by what is the same in all
-// cells products with a reciprocal. What is fused depends on the expressions alone, and not on what
-// is in planes later, so that every plan of a step computes the same bits.
+// Turns sums in which an operand is a product into multiply-adds, and divisions by a uniform value
+// into products with a reciprocal. Whether a sum is fused depends only on the expressions, not on
+// the planes to which nodes are written later. So every plan of a step computes the same bits.
 #include "lang/lower/graph_passes.h"
 #include "lang/lower/plan_graph.h"
 
@@ -16,13 +16,14 @@ public:
         : GraphPass(from, context), facts_(from, context) {}
 
 private:
-    /// A product that may stay unrounded; a uniform factor comes first.
+    /// A product that may be fused. A uniform factor comes first.
     struct Product {
         NodeId first, second;
         bool has_coefficient = false;
     };
 
-    /// What no step changes is computed once, and rounded.
+    /// Whether the value may change during a stage. A value that cannot change is computed once,
+    /// and rounded.
     bool may_change(NodeId old) const {
         return !facts_.is_uniform(old) && !facts_.is_step_invariant(old) &&
                facts_.sides(old) == nullptr && facts_[old].type == ValueType::number;
@@ -54,13 +55,15 @@ private:
         if ((!node.calls(Function::add) && !is_difference) || a == b) return keep(node);
         const auto left = product(a), right = product(b);
         if (!left && !right) return keep(node);
-        // Of two, the one with a coefficient is fused, else the second.
+        // If both operands are products, the first is fused if only it has a uniform factor,
+        // otherwise the second.
         const bool fuses_left =
             left && (!right || (left->has_coefficient && !right->has_coefficient));
         auto [first, second, has_coefficient] = fuses_left ? *left : *right;
         NodeId added = image(fuses_left ? b : a);
         if (is_difference) {
-            // The varying factor, because a negated coefficient would need another register.
+            // Negates the varying factor, because a negated uniform factor would need another
+            // register.
             NodeId& turned = fuses_left ? added : second;
             turned = -term(turned);
         }
@@ -71,7 +74,7 @@ private:
         return keep(sum);
     }
 
-    PlanGraph facts_;  ///< Of the old graph.
+    PlanGraph facts_;  ///< Facts about the old graph.
 };
 
 }  // namespace

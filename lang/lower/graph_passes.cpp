@@ -1,4 +1,4 @@
-// The traversal that all passes share, and the small passes.
+// The traversal that all passes share, and the short passes.
 #include "lang/lower/graph_passes.h"
 
 #include "lang/program/models.h"
@@ -11,7 +11,8 @@ namespace cascade::lowering {
 
 namespace {
 
-/// Replaces tensor(a1, a2, theta) and symmetric(…) by a tensor of entries; diffuse takes a tensor.
+/// Replaces tensor(a1, a2, theta) and symmetric(…) by a tensor node whose operands are the tensor's
+/// entries. The operands of `diffuse` become such a tensor and the value that diffuses.
 class Tensors : public GraphPass {
     using GraphPass::GraphPass;
 
@@ -33,9 +34,9 @@ class Tensors : public GraphPass {
     }
 };
 
-/// Writes transport out: along each axis the upwind difference of e, and half of that of the slopes
-/// of e between cells, which are limited. The values at faces are thus those of the scheme MUSCL, e
-/// plus or minus half of the slope on the side where it flows from.
+/// Writes out transport(v, e). Along each axis it is the upwind difference of e plus half of the
+/// upwind difference of limited slopes. So the values at faces are those of the scheme MUSCL: e
+/// plus or minus half of the limited slope, both from the cell from which the flow comes.
 class Limiters : public GraphPass {
     using GraphPass::GraphPass;
 
@@ -99,8 +100,8 @@ class Areas : public GraphPass {
     }
 };
 
-/// Replaces the operand of an aggregate or a convolution outside of the mask by a value without
-/// effect.
+/// Outside the mask, replaces the operand of an aggregate or a convolution by a value that does not
+/// change the result.
 class MaskedAggregates : public GraphPass {
     using GraphPass::GraphPass;
 
@@ -113,7 +114,7 @@ class MaskedAggregates : public GraphPass {
                                                                        : 0;
         const Node& of = graph()[node.operands[0]];
         const bool is_item = of.is<ItemId>() || of.is<StageItem>();
-        // Items that vary are 0 outside.
+        // Items that vary are 0 outside the mask.
         if (without_effect == 0 && is_item &&
             differs_by_cell(of, false, context().program, context().stage)) {
             return keep(node);

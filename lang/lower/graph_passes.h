@@ -1,8 +1,8 @@
-// The passes of lowering, each of which turns one expression graph into another (internal to
-// lowering).
+// The passes of lowering (internal to lowering). Each turns one expression graph into another.
 //
-// lower_expressions.cpp has the list. After the last pass a graph contains only cells, planes and
-// links: the effects of a surface, a model or a mask on operators are written out.
+// lower_expressions.cpp lists the passes. After the last one, a graph refers only to cells, planes
+// and links. The effects of a surface, a model or a mask on operators have been written out as
+// formulas.
 #pragma once
 
 #include "lang/program/flatten.h"
@@ -14,21 +14,22 @@
 
 namespace cascade::lowering {
 
-/// The expressions of a plan between passes.
+/// The expressions of a plan, between two passes.
 struct Expressions {
     ExpressionGraph graph;
     std::vector<NodeId> roots;  ///< The requested values.
     std::vector<Origin> origins;
-    /// The names of definitions and rates; the first name of a node counts.
+    /// The names of definitions and rates. If a node has several, the first is used.
     std::vector<std::pair<NodeId, std::string>> names;
-    /// The definitions that have sides of their own, by their number in Stage::definition_sides.
+    /// The definitions that have their own rules at sides, and the index of these rules in
+    /// Stage::definition_sides.
     std::vector<std::pair<NodeId, std::size_t>> walls;
 };
 
-/// The cells to which expressions apply.
+/// In which cells expressions are computed.
 enum class Extent : std::uint8_t {
-    domain,  ///< Those inside the mask, if there is one.
-    grid,    ///< All, even with a mask.
+    domain,  ///< In the cells inside the mask. In all cells if there is no mask.
+    grid,    ///< In all cells of the grid, also outside the mask.
 };
 
 /// Further arguments of passes.
@@ -36,34 +37,35 @@ struct PassContext {
     const Program& program;
     std::uint32_t stage = 0;
     Extent extent = Extent::domain;
-    bool has_fewer_roundings = false;  ///< Of steps with --fast.
-    bool is_start = false;             ///< Of starting values, before there are values at borders.
+    bool has_fewer_roundings = false;  ///< True for steps with --fast.
+    bool is_start = false;  ///< Whether these are starting values. They are computed before there
+                            ///< are values at borders.
 
-    /// Do the cells crawl?
+    /// Whether the cells crawl.
     bool is_tissue() const {
         return extent == Extent::domain && program.system_of(stage).cells.has_value();
     }
     bool has_metric() const {
         return program.domain.surface && program.domain.surface->has_metric && !is_tissue();
     }
-    /// Do cells read neighbours over links?
+    /// Whether cells read neighbours over links.
     bool has_links() const { return program.domain.model || is_tissue(); }
-    /// Are there cells of the grid outside of the domain?
+    /// Whether some cells of the grid are outside of the domain.
     bool has_mask() const {
         return program.domain.mask && extent == Extent::domain && !is_tissue();
     }
-    /// Has something values, slopes or fluxes at the border of the mask?
+    /// Whether there are rules for values, slopes or fluxes at the border of the mask.
     bool has_values_at_border() const;
-    /// The grid of the cells; of cells that crawl one whose size does not matter.
+    /// The grid of the cells. For cells that crawl, it is a grid of arbitrary size.
     const Grid& grid() const;
 };
 
-/// That of a stage's starting values, and of its steps.
+/// The context of a stage's starting values, and the context of its steps.
 PassContext context_of_start(const Program& program, std::uint32_t stage);
 PassContext context_of_steps(const Program& program, std::uint32_t stage);
 
-/// A pass goes through the nodes that roots need, operands first, and replaces each by nodes of a
-/// new graph.
+/// A pass goes through the nodes that `roots` need, operands first. It replaces each node by nodes
+/// of a new graph.
 class GraphPass {
 public:
     GraphPass(const Expressions& from, const PassContext& context)
@@ -73,9 +75,9 @@ public:
     Expressions run();
 
 protected:
-    /// Replaces a node whose operands are nodes of the new graph already.
+    /// The replacement of a node whose operands are already nodes of the new graph.
     virtual NodeId image_of(const Node& node) = 0;
-    /// Copies the node, with the place where it was written.
+    /// Copies a node, together with the position at which it is written in the script.
     NodeId keep(const Node& node) { return graph().add(node, from_.graph.written(at_)); }
 
     ExpressionGraph& graph() { return to_.graph; }
@@ -96,7 +98,7 @@ private:
     IdVector<NodeId, NodeId> images_;
 };
 
-// The passes, in order; see lower_expressions.cpp.
+// The passes. lower_expressions.cpp lists them in order.
 Expressions lay_on_tissue(const Expressions& from, const PassContext& context);
 Expressions write_out_tensors(const Expressions& from, const PassContext& context);
 Expressions lay_on_surface(const Expressions& from, const PassContext& context);
@@ -113,8 +115,9 @@ Expressions fuse_products(const Expressions& from, const PassContext& context);
 IdVector<NodeId, bool> uniform_nodes(const ExpressionGraph& graph, const PassContext& context);
 
 /// Turns `value`, a derivative along the outward unit normal of a side, into the difference between
-/// the cells on both sides of it. Off surfaces that is `value` itself; on a surface it depends on
-/// the length of the cell, too. Rows and columns must meet at right angles there.
+/// the cells on both sides of the face. On grids without a surface the difference equals the
+/// derivative. On a surface the difference also depends on the length of the cell. Rows and columns
+/// must meet at right angles at the side.
 NodeId across_side(ExpressionGraph& graph, const PassContext& context, NodeId value, Side side);
 
 }  // namespace cascade::lowering

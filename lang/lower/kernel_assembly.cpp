@@ -1,4 +1,4 @@
-// Finds slots by names of their contents.
+// Finds slots by the names of their contents.
 #include "lang/lower/kernel_assembly.h"
 
 #include "core/overloaded.h"
@@ -15,8 +15,8 @@ std::string KernelAssembly::name_of(StageItem item) const {
     return fmt::format("{}.{}", program_.stages[item.stage].name, name);
 }
 
-/// No name of the language contains a dot or begins with a bracket, so different kinds of names
-/// cannot collide.
+/// A name for a source. No name of the language contains a dot or begins with a bracket, so names
+/// of different kinds cannot collide.
 template <typename... Sources>
 std::string KernelAssembly::name_of(const std::variant<Sources...>& source) const {
     const auto of = [](const auto& names, auto key) {
@@ -32,13 +32,15 @@ std::string KernelAssembly::name_of(const std::variant<Sources...>& source) cons
             return fmt::format("{} (input {})", name_of(StageItem{stage_, each.item}), each.input);
         },
         [&](NamedPlane each) {
-            // What is read of it may be long; its number is just as distinct.
+            // The arguments may be long, so the name contains the unique index of the reading
+            // instead.
             const std::string read = fmt::format("{}(\"{}\")", info(each.function).spelling,
                                                  program_.literals->text(each.text));
             return each.reading == 0 ? read : fmt::format("{} (reading {})", read, each.reading);
         },
         [&](SurfaceValueId id) {
-            // A long list of numbers would not fit into a name; this one is just as distinct.
+            // A long list of numbers would not fit into a name, so the name contains the unique
+            // index of the value instead.
             const SurfaceValue& value = program_.literals->surface_value(id);
             return numbered(info(value.function).spelling, id);
         },
@@ -83,7 +85,7 @@ ValueId KernelAssembly::item(StageItem item, Offset at) {
     return builder_.mask(slot);
 }
 
-/// The stage's speed, unless the time loop chooses the length of steps.
+/// The length of the step: the stage's speed, unless the time loop chooses it.
 ValueId KernelAssembly::time_step(Offset at) {
     const StageTime& time = stage().time;
     if (!time.has_duration() && !time.chooses_steps())
@@ -91,14 +93,15 @@ ValueId KernelAssembly::time_step(Offset at) {
     return uniform(TimeValue::length);
 }
 
-/// A time that is the same in all cells comes from the time loop.
+/// The time. If the time is the same in all cells, the time loop provides it.
 ValueId KernelAssembly::time(Offset at) {
     const ItemId speed = system().speed_item();
     if (stage().uniform[speed]) return uniform(TimeValue::time);
     return builder_.multiply(step(), time_step(at));
 }
 
-/// A word has one bit for each of the cells around and for the cell itself, by their offsets.
+/// Tests whether the cell at an offset is inside. The word (Neighbourhood) has one bit for the cell
+/// itself and one for each neighbour, in the order of the numbers of offsets.
 ValueId KernelAssembly::inside(Offset at) {
     const ValueId bit = builder_.word(only(at));
     const ValueId around = field(Neighbourhood{});

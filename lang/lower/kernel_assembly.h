@@ -1,4 +1,5 @@
-// Assembles one kernel and records where the values of its slots come from (internal to lowering).
+// Assembles one kernel, and records the sources from which its slots get their values (internal to
+// lowering).
 #pragma once
 
 #include "ir/builder.h"
@@ -9,10 +10,11 @@
 
 namespace cascade::lowering {
 
-/// The kernel computes the cells of a stage.
+/// Assembles a kernel for the cells of a stage.
 class KernelAssembly {
 public:
-    /// If `frozen` varies, it is read as a mask, or as a plane like other items.
+    /// If `frozen` varies by cell, it is read as a mask if `frozen_is_mask`, otherwise as a plane
+    /// of numbers like other items.
     KernelAssembly(const PassContext& context, bool frozen_is_mask, EqualProducts products)
         : context_(context),
           program_(context.program),
@@ -31,20 +33,20 @@ public:
     ValueId field(const PlaneSource& source, Offset at = {});
     ValueId uniform(const UniformSource& source);
 
-    /// The value of an item of any stage, and of one of this stage.
+    /// The value of an item of any stage (StageItem) or of this stage (ItemId).
     ValueId item(StageItem item, Offset at = {});
     ValueId item(ItemId item) { return this->item({stage_, item}); }
-    /// Complete steps when the step begins.
+    /// The number of steps completed before the current step.
     ValueId step() { return uniform(TimeValue::step); }
-    /// The number of that step as a word for draws.
+    /// The word that identifies the current step in random numbers.
     ValueId draw_word() { return builder_.draw_word(uniform(TimeValue::draw)); }
     /// The length of the current step.
     ValueId time_step(Offset at);
-    /// The time when rates are evaluated.
+    /// The time at which rates are evaluated.
     ValueId time(Offset at);
-    /// Not 0 if the cell at an offset is inside the mask.
+    /// A number other than 0 if the cell at an offset is inside the mask.
     ValueId inside(Offset at);
-    /// A value inside the mask, and another one outside of it.
+    /// `value` inside the mask, and `outside` elsewhere.
     ValueId within_mask(ValueId value, float outside);
 
     BoundKernel finish() &&;

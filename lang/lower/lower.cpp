@@ -1,4 +1,4 @@
-// The plans of a stage: its start, its rates, its sides, its views.
+// Makes the plans of a stage: for starting values, rates, sides and views.
 #include "lang/lower/lower.h"
 
 #include "core/check.h"
@@ -39,14 +39,15 @@ namespace {
 /// The value of views outside of the mask.
 constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
 
-/// Is the item a component of the place of a cell that crawls, which is known before its values?
+/// Whether the item is a component of the position of a cell that crawls. Positions are known
+/// before all other values.
 bool is_of_place(const System& system, ItemId item) {
     return system.cells && item >= system.cells->place &&
            item.index() < system.cells->place.index() + 3;
 }
 
-/// The starting values of the items that are computed before there are cells, or of the others.
-/// Items that are computed elsewhere are read.
+/// Plans the starting values of some items: of the items that are computed before there are cells,
+/// or of all others. The plan reads the items that other plans compute.
 StepPlan plan_items(const Program& program, std::uint32_t stage, const PlanOptions& options,
                     bool before_cells) {
     const Stage& source = program.stages[stage];

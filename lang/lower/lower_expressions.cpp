@@ -1,4 +1,4 @@
-// The list of passes from flat formulas to the expressions that cells compute.
+// The list of passes, from formulas to the expressions that cells compute.
 #include "lang/lower/lower_expressions.h"
 
 #include "core/check.h"
@@ -40,44 +40,44 @@ bool is_sum_or_quotient(const Node& node) {
 bool is_of_cell(const Node& node) { return is_operator(node) || node.is<Builtin>(); }
 
 /// Before the first pass, definitions and rates have been replaced by their expressions
-/// (lang/program/flatten.h), and equal expressions are one node.
+/// (lang/program/flatten.h), and equal expressions have become one node.
 constexpr std::array passes{
-    // After this pass there are no vectors, and sums over neighbours are sums over links of
-    // numbers:
-    // the operands of `theirs` are in planes.
+    // After this pass there are no vectors. Sums over neighbours are sums over links of numbers,
+    // and the operands of `theirs` are in planes.
     PassInfo{"tissue", is_tissue, any_node, lay_on_tissue},
-    // Not on models. After this pass a tensor's operands are its entries, a11, a12 and a22 or in
-    // space a11, a12,
-    // a13, a22, a23 and a33; diffuse has two operands, a tensor and the value to differentiate.
+    // Not used on models. After this pass the operands of a tensor are its entries: a11, a12 and
+    // a22, or in space a11, a12, a13, a22, a23 and a33. diffuse has two operands: a tensor and the
+    // value to differentiate.
     PassInfo{"tensors", has_faces, is_tensor, write_out_tensors},
     // After this pass lap, grad2 and derivatives along the surface are differences along columns
-    // and rows times planes of the metric. Vectors are fluxes through faces, not directions along
-    // the surface.
+    // and rows, multiplied by planes of the metric. Vectors are fluxes through faces, not
+    // directions along the surface.
     PassInfo{"surface", has_metric, is_operator, lay_on_surface},
-    // Not on surfaces. After this pass lap is (isotropic), and derivatives of fourth order are
-    // written out
-    // by those of second order, some of them of planes of others.
+    // Not used on surfaces. After this pass lap is the operator (isotropic), or derivatives of
+    // fourth order are combinations of derivatives of second order, some of which read planes of
+    // others.
     PassInfo{"stencils", has_other_stencil, is_operator, write_out_stencils},
-    // After this pass there are no limiters but slopes along an axis, in planes of their own.
+    // After this pass the only limiters are slopes along an axis, which are in separate planes.
     PassInfo{"limiters", has_faces, is_transport, write_out_limiters},
-    // After this pass an operand that operators read in the cells around is (bordered) if it has
-    // other values beyond the border of the mask than in the cell beside it.
+    // After this pass an operand that operators read at neighbours is a node (bordered) if its
+    // values beyond the border of the mask differ from its value in the cell beside the border.
     PassInfo{"border", has_border, is_operator, find_beyond_border},
-    // After this pass places and normals are planes of the model. There are no vectors: the operand
-    // of div has become a sum of lap(weight, e).
+    // After this pass positions and normals are planes of the model. There are no vectors: the
+    // operand of div has become a sum of lap(weight, e).
     PassInfo{"links", is_on_model, is_of_cell, spread_over_links},
-    // After this pass the weight of each lap(weight, e) differs from cell to cell.
+    // After this pass the weight of each lap(weight, e) varies by cell.
     PassInfo{"weights", is_on_model, is_operator, take_out_even_weights},
-    // After this pass sums over the domain weight cells by area, and a mean is a quotient of sums.
+    // After this pass sums over the domain are weighted by the area of cells, and means are
+    // quotients of sums.
     PassInfo{"areas", has_areas, is_aggregate, weigh_by_areas},
-    // After this pass the operands of aggregates and convolutions have no effect outside of the
-    // mask.
+    // After this pass operands of aggregates and convolutions have no effect outside the mask.
     PassInfo{"mask", has_mask, is_of_whole_planes, leave_out_masked_cells},
-    // After this pass sums with a product on one side are computed with one rounding.
+    // After this pass a sum with a product on one side is rounded once.
     PassInfo{"products", has_fewer_roundings, is_sum_or_quotient, fuse_products},
 };
 
-/// Gives the fields of constraints the sides that the stage says of their definitions.
+/// Gives the field of each constraint the rules at sides that the stage has for the constraint's
+/// definition.
 void add_walls_of_constraints(Expressions& expressions, const PassContext& context) {
     const System& system = context.program.system_of(context.stage);
     const auto& sides = context.program.stages[context.stage].definition_sides;
@@ -94,9 +94,9 @@ void add_walls_of_constraints(Expressions& expressions, const PassContext& conte
     }
 }
 
-/// Copies the derivatives of the rates by the species of the cell into the graph of the rates,
-/// which has the nodes that both have in common. They were written in the same formulas of it, so
-/// that random numbers are those of the rates.
+/// Copies the derivatives of the rates with respect to the cell's species into the graph of the
+/// rates. Nodes that both graphs contain are not duplicated. Copied nodes have the origins of the
+/// original formulas, so derivatives draw the same random numbers as the rates.
 void add_derivatives(ExpressionGraph& graph, const Program& program, std::uint32_t stage,
                      std::vector<NodeId>& roots) {
     const auto jacobian = local_jacobian(program, stage);
@@ -116,7 +116,8 @@ void add_derivatives(ExpressionGraph& graph, const Program& program, std::uint32
     for (const NodeId id : derivatives) roots.push_back(images[id]);
 }
 
-/// The flattening refers to the graph, so that the expressions move last.
+/// Adds the roots to the expressions. `flattening` refers to the graph in `expressions`, so the
+/// expressions are moved last.
 Expressions with_roots(Expressions&& expressions, const Flattening& flattening,
                        std::vector<NodeId> roots) {
     expressions.roots = std::move(roots);

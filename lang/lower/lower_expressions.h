@@ -12,17 +12,19 @@
 
 namespace cascade::lowering {
 
-/// The starting values of items of a stage. Each may read those before it.
+/// The starting values of items of a stage. Each item may read items that come before it in
+/// `items`.
 Expressions flat_start(const Program& program, std::uint32_t stage, std::span<const ItemId> items);
-/// The rates of a stage's species, in the order of System::rate_order, then the bounds of its
-/// invariants, then for a solver that is implicit in each cell their derivatives by its species,
-/// row by row. All plans of a step thus number their nodes alike.
+/// The rates of a stage's species, in the order of System::rate_order. Then the bounds of its
+/// invariants. Then, if the solver is implicit in each cell, the derivatives of the rates with
+/// respect to the species, row by row. All plans of a step use this function, so they number nodes
+/// in the same way.
 Expressions flat_step(const Program& program, std::uint32_t stage);
-/// The values of formulas.
+/// The values of the given formulas.
 Expressions flat_formulas(std::span<const Formula* const> formulas, const PassContext& context,
                           const Noise& noise = {});
 
-/// A pass of lowering: the domains on which it is needed, the nodes that it changes, and the
+/// A pass of lowering. Describes the domains that need the pass, the nodes that it changes, and the
 /// function that turns one graph into another.
 struct PassInfo {
     std::string_view name;
@@ -33,19 +35,21 @@ struct PassInfo {
 /// All passes, in order.
 std::span<const PassInfo> graph_passes();
 
-/// Called with the name of a pass and the expressions after it, and first with "flatten".
+/// Called first with "flatten" and the expressions before all passes, then with the name of each
+/// pass and the expressions after it.
 using PassWatch = std::function<void(std::string_view pass, const Expressions& after)>;
 
-/// Runs the passes.
+/// Runs the passes that the context needs.
 Expressions lower_expressions(Expressions flat, const PassContext& context,
                               const PassWatch& watch = {});
 
-/// Calls watch(stage, what, pass, after) for a program's starting values, steps and pictures.
+/// Calls watch(context, what, pass, after) for a program's starting values, steps and pictures.
+/// `what` names one of these three.
 using LoweringWatch = std::function<void(const PassContext& context, std::string_view what,
                                          std::string_view pass, const Expressions& after)>;
 void watch_lowering(const Program& program, const LoweringWatch& watch);
 
-/// Prints a line for each node.
+/// The expressions as text, with a line for each node.
 std::string print(const Expressions& expressions, const PassContext& context);
 
 }  // namespace cascade::lowering

@@ -1,18 +1,20 @@
-// Reads values around a cell if not all cells of the grid belong to the domain.
+// Reads values at neighbours of a cell if some cells of the grid are outside the domain.
 //
-// A neighbour outside is replaced by what lies beyond the border from the cell: by the cell itself,
-// as beyond a `noflux` side, or by what (bordered) has for it (border_pass.cpp). A diagonal
-// neighbour is replaced by what the small grid of a rectangle would have there: by what lies beyond
-// the one inside of the two cells in between; by the mean of both if both are inside, where the
-// border turns a corner; by what lies beyond the border twice if neither is. No cell inside depends
-// on the values of cells outside.
+// The value of a neighbour outside the domain is replaced by the cell's value beyond the border: by
+// the cell's own value, as beyond a `noflux` side, or by the value that (bordered) gives
+// (border_pass.cpp). A diagonal neighbour is replaced by the value that a rectangular grid would
+// have there. If exactly one of the two cells between is inside, this is the value beyond the
+// border of that cell. If both are inside, so that the border turns a corner, it is the mean of the
+// values beyond the borders of both. If neither is inside, it is the cell's value beyond two
+// borders. Values of cells outside never affect cells inside.
 #include "lang/lower/lower_pass.h"
 
 namespace cascade::lowering {
 
 namespace {
 
-/// An operand of an operator: its values inside, and those beyond the border once and twice.
+/// An operand of an operator: its node inside the mask, its node beyond the border, and its node
+/// beyond two borders.
 struct Read {
     NodeId inside, beyond, twice;
 };
@@ -29,18 +31,18 @@ ValueId NodeValues::chosen(Offset inside, ValueId value, ValueId otherwise) cons
     return builder_.select(assembly_.inside(inside), value, otherwise);
 }
 
-/// The value of the cell one step along an axis from the cell at `from`, or of its replacement.
+/// The value of the neighbour along an axis of the cell at `from`, or the value that replaces it.
 ValueId NodeValues::beside(NodeId id, Offset from, Offset step) const {
     const auto [inside, beyond, twice] = read_of(graph_, id);
     const ValueId value = number_at(inside, from + step);
     if (!graph_.has_mask() || graph_.is_uniform(id)) return value;
     const ValueId next = chosen(from + step, value, number_at(beyond, from));
     if (from.is_own() || beyond == inside) return next;
-    // The border runs between the cell and the one at `from`.
+    // The border is between the cell and the cell at `from`.
     return chosen(from, next, beside(id, from + step));
 }
 
-/// The value at an offset from the cell itself, or its replacement.
+/// The value at an offset from the present cell, or the value that replaces it.
 ValueId NodeValues::beside(NodeId id, Offset offset) const {
     const auto [inside, beyond, twice] = read_of(graph_, id);
     const ValueId value = number_at(inside, offset);

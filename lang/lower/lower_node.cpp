@@ -43,7 +43,7 @@ Value lower_call(KernelAssembly& assembly, const NodeInCell& in) {
             return {in.number(0), in.number(1), in.number(2)};
         default: break;
     }
-    if (node.function == Function::tensor) {  // It is its entries.
+    if (node.function == Function::tensor) {  // The operands are its entries.
         Value entries{};
         for (std::size_t k = 0; k < node.operand_count; ++k) entries[k] = in.number(k);
         return entries;
@@ -67,13 +67,14 @@ Value lower_call(KernelAssembly& assembly, const NodeInCell& in) {
 Value lower_node(KernelAssembly& assembly, const NodeInCell& in) {
     const Overloaded value{
         [&](double number) -> Value { return {assembly.builder().number(number)}; },
-        [](TextId) -> Value { return {}; },  // Its reader uses the node itself.
+        [](TextId) -> Value { return {}; },  // The node that reads the text has no need for its
+                                             // value.
         [&](ItemId item) -> Value {
             return {assembly.item({in.graph.stage(), item}, in.at)};
         },
         [&](StageItem item) -> Value { return {assembly.item(item, in.at)}; },
         [&](SensedItem sensed) -> Value {
-            // A number of an earlier stage is the same wherever a cell is.
+            // A uniform item of an earlier stage has the same value at the positions of all cells.
             const bool is_number = in.graph.is_uniform(in.id);
             return {is_number ? assembly.item(sensed.item, in.at) : assembly.field(sensed, in.at)};
         },

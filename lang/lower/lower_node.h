@@ -9,28 +9,29 @@
 
 namespace cascade::lowering {
 
-/// A value in a cell: one number, the three of a colour, or the three or six of a tensor.
+/// A value in a cell: one number, the three numbers of a colour, or the three or six of a tensor.
 using Value = std::array<ValueId, 6>;
 
-/// A node in the cell at an offset.
+/// A node to evaluate in the cell at an offset from the present cell.
 struct NodeInCell {
     const PlanGraph& graph;
     NodeId id;
     Offset at;
-    std::array<Value, most_operands> values{};  ///< Of its operands.
+    std::array<Value, most_operands> values{};  ///< The values of the node's operands.
 
     const Node& node() const { return graph[id]; }
     const Node& operand(std::size_t k) const { return graph[node().operands[k]]; }
     ValueId number(std::size_t k) const { return values[k][0]; }
 };
 
-/// The value of a node that is neither an operator nor a vector.
+/// The value of a node. The node must be neither an operator nor a vector.
 Value lower_node(KernelAssembly& assembly, const NodeInCell& node);
 
-/// The plane of a node that is in one from the start (PlanGraph::is_plane).
+/// The plane from which a node is read that is already in a plane before the first pass
+/// (PlanGraph::is_plane).
 PlaneSource plane_source(const PlanGraph& graph, NodeId id);
 
-// Kinds of calls.
+// The values of single kinds of calls.
 Value lower_palette(KernelAssembly& assembly, const NodeInCell& node);
 ValueId lower_shape(KernelAssembly& assembly, const NodeInCell& node);
 ValueId lower_draw(KernelAssembly& assembly, const NodeInCell& node);

@@ -1,5 +1,6 @@
-// Operators as differences between values of neighbouring cells. c is the cell itself; N, S, E, W,
-// U and D are its neighbours; h is the side of a cell. Spec/numerics.md has the same formulas.
+// Computes operators as differences between values of neighbouring cells. The value in the cell
+// itself is c. The values of its neighbours are N, S, E, W, U and D. The side of a cell is h.
+// spec/numerics.md has the same formulas.
 #include "lang/lower/lower_pass.h"
 
 #include "core/check.h"
@@ -68,7 +69,8 @@ ValueId Stencils::stencil(const Node& node) {
     CHECK(false, "lowering: every operator has its differences");
 }
 
-/// Sums over the links of a cell. |∇e|² is half of the Laplacian of e² minus e times that of e.
+/// Sums over the links of a cell. |∇e|² is computed as (L(e²) − 2 e L(e)) / 2, where L is the
+/// Laplacian.
 ValueId Stencils::over_links(const Node& node) {
     const NodeId operand = node.reads().back();
     const FieldSlot slot = slot_of_plane(operand);
@@ -84,7 +86,8 @@ ValueId Stencils::over_links(const Node& node) {
     return scaled(builder_.link_flow({slot_of_plane(node.operands[0]), slot}), 0.5);
 }
 
-/// By its row in lang/program/stencils.cpp; 0 along an axis that the grid does not have.
+/// The difference that a row of lang/program/stencils.cpp describes; 0 along an axis that the grid
+/// does not have.
 ValueId Stencils::difference(NodeId operand, Difference kind, int first, int second) {
     const Taps taps = taps_of(kind, axes_, first, second);
     const double factor = 1 / taps.size(grid_.spacing);
@@ -106,7 +109,7 @@ ValueId Stencils::squared_gradient(NodeId operand) {
     return sum.value_or(builder_.number(0));
 }
 
-/// Σ v · (v > 0 ? c − W : E − c) / h.
+/// Σ v · (v > 0 ? c − W : E − c) / h over all axes.
 ValueId Stencils::advection(const Node& node) {
     const std::uint32_t velocities = node.operand_count - 1;
     std::optional<ValueId> sum;
@@ -128,8 +131,8 @@ ValueId Stencils::upwind(NodeId velocity, NodeId operand, int axis) {
     return builder_.multiply(v, builder_.select(flows_forwards, backward, forward));
 }
 
-/// The harmonic mean of a = E − c and b = c − W, 2ab / (a + b), if both have the same sign, else 0
-/// (van Leer's limiter).
+/// Van Leer's limiter: with a = E − c and b = c − W, the harmonic mean 2ab / (a + b) if both have
+/// the same sign, else 0.
 ValueId Stencils::limited(NodeId operand, int axis) {
     const ValueId zero = builder_.number(0);
     const ValueId a = summed(operand, Difference::forward, axis);
@@ -140,7 +143,7 @@ ValueId Stencils::limited(NodeId operand, int axis) {
     return builder_.select(is_monotone, mean, zero);
 }
 
-/// a11 ∂²c/∂x² + a22 ∂²c/∂y² + 2 a12 ∂²c/∂x∂y with y down (Witkin & Kass, eq 7).
+/// a11 ∂²c/∂x² + a22 ∂²c/∂y² + 2 a12 ∂²c/∂x∂y, with y pointing down (Witkin & Kass, equation 7).
 ValueId Stencils::anisotropic(const Node& node) {
     const Value& tensor = values_.at(node.operands[0], {});
     const NodeId operand = node.operands[1];

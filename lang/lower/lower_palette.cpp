@@ -1,15 +1,15 @@
-// Palettes as arithmetic operations.
+// Computes palettes by arithmetic operations.
 #include "core/check.h"
 #include "core/palette.h"
 #include "lang/lower/lower_node.h"
 
 namespace cascade::lowering {
 
-/// A palette is a sum of ramps, one for each stretch between two stops:
+/// A palette is a sum of ramps, one for each section between two adjacent stops:
 ///
 ///     colour = c0 + Σ (c[k+1] − c[k]) · clamp(position · (n − 1) − k, 0, 1)
 ///
-/// A NaN as position gives colour_of_nan.
+/// If the position is NaN, the colour is colour_of_nan.
 Value lower_palette(KernelAssembly& assembly, const NodeInCell& in) {
     KernelBuilder& builder = assembly.builder();
     const Palette* palette =

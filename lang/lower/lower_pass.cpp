@@ -60,8 +60,8 @@ std::optional<ValueId> NodeValues::weighted(NodeId id, const Taps& taps, bool ke
         }
         if (std::abs(weight) != 1) {
             part = builder_.multiply(builder_.number(std::abs(weight)), part);
-            // Rounded like the operation on a plane, so that contraction cannot tell which of the
-            // two is in use.
+            // The product is rounded here, as the operation on a plane rounds it. So contraction
+            // gives the same bits for both.
             if (keeps_product) builder_.keep(part);
         }
         if (!sum) sum = weight > 0 ? part : builder_.apply(Op::negate, part);
@@ -92,11 +92,12 @@ void PassLowering::compute(NodeId id) {
         for_each_offset(values_.needs(id), [&](Offset offset) {
             const Value value = compute_at(id, offset);
             values_.slot(id, offset.number()) = value;
-            // Otherwise it is in a plane, or is computed again where it is read.
+            // Excluded from contraction, because the value is in a plane or may be computed again
+            // where it is read. Both must have the same bits.
             builder_.keep(value[0]);
         });
     }
-    // A step-invariant may be computed once, without contraction.
+    // A step-invariant may be computed once by another kernel, so it must not be contracted here.
     if (pass_.graph.is_step_invariant(id)) builder_.keep_from(first);
 }
 

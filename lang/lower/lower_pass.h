@@ -1,8 +1,9 @@
-// Lowers one pass: finds the nodes that it needs, and where, and emits their instructions (internal
+// Lowers one pass: finds at which cells each node is needed, and emits the instructions (internal
 // to lowering).
 //
-// Going backwards through the nodes, it finds the cells or, for vectors, the faces at which each is
-// needed (pass_needs.cpp). Going forwards, each is computed there once (lower_pass.cpp).
+// pass_needs.cpp goes backwards through the nodes and finds the cells (for vectors, the faces) at
+// which each node is needed. lower_pass.cpp goes forwards and computes each node once at each of
+// these cells or faces.
 #pragma once
 
 #include "lang/lower/lower_node.h"
@@ -16,50 +17,53 @@
 
 namespace cascade::lowering {
 
-/// The numbers given to nodes, by node.
+/// Where the result of each node is stored.
 struct Storage {
-    IdVector<NodeId, TemporaryId> temporary;           ///< If it is written.
-    IdVector<NodeId, AggregateId> aggregate;           ///< If it is an aggregate.
-    IdVector<NodeId, StepInvariantId> step_invariant;  ///< If it is known before the first pass.
+    IdVector<NodeId, TemporaryId> temporary;           ///< For nodes that a pass writes to a plane.
+    IdVector<NodeId, AggregateId> aggregate;           ///< For aggregates.
+    IdVector<NodeId, StepInvariantId> step_invariant;  ///< For nodes known before all passes.
 };
 
-/// The decisions of the planner, for one pass.
+/// The planner's decisions, as seen by one pass.
 struct PassView {
     const PlanGraph& graph;
     const PassPlanner& planner;
     const Storage& storage;
     std::uint32_t pass = 0;
 
-    /// Has an earlier pass written it? Planes of open nodes have no halo.
+    /// Whether the node can be read, at the offsets `where`, from a plane that an earlier pass has
+    /// written. Planes of open nodes (PlanGraph::is_open) have no halo, so they can be read only in
+    /// the cell itself.
     bool is_plane_at(NodeId id, Offsets where) const {
         return planner.is_plane_in(id, pass) && (where == own_cell || !graph.is_open(id));
     }
-    /// Is it read from its plane or, for an aggregate, from its number?
+    /// Whether the node is read instead of computed: from its plane or, for an aggregate, as a
+    /// number.
     bool is_source(NodeId id, Offsets where) const {
         return is_aggregate(graph[id]) || planner.is_step_invariant(id) || is_plane_at(id, where);
     }
-    /// Is it a plane that the operation `laplacian` can read directly?
+    /// Whether the node is in a plane that the operation `laplacian` can read directly.
     bool can_read_as_plane(NodeId id) const {
         return !graph.is_uniform(id) && (planner.is_step_invariant(id) || graph.is_plane(id) ||
                                          (planner.is_plane_in(id, pass) && !graph.is_open(id)));
     }
-    /// The source of a node that is a source, or a plane from the start: a plane, if not a number.
+    /// The plane from which a node is read. Only if number() is nullopt.
     PlaneSource plane(NodeId id) const;
     std::optional<UniformSource> number(NodeId id) const;
 };
 
 using Needs = IdVector<NodeId, std::uint32_t>;
-/// The offsets (Offsets) or, for vectors, the faces (by number) at which each node must be computed
-/// to get `wanted` in the cell itself.
+/// For each node, the set of offsets (Offsets) or, for vectors, of faces (by number) at which it
+/// must be computed so that the nodes `wanted` can be computed in the cell itself.
 Needs needs_of(const PassView& pass, std::span<const NodeId> wanted);
 
-/// The values that a pass computes, and access to them around a cell.
+/// The values that a pass computes in and around a cell.
 class NodeValues {
 public:
     NodeValues(const PlanGraph& graph, KernelAssembly& assembly, Needs needs);
 
     std::uint32_t needs(NodeId id) const { return needs_[id]; }
-    /// By the number of the offset or face.
+    /// The memory of a node's value. `where` is the number of an offset or of a face.
     Value& slot(NodeId id, std::uint32_t where) { return values_[place(id, where)]; }
     const Value& at(NodeId id, Offset offset) const {
         return values_[place(id, graph_.is_uniform(id) ? Offset{}.number() : offset.number())];
@@ -67,19 +71,18 @@ public:
     ValueId number_at(NodeId id, Offset offset) const { return at(id, offset)[0]; }
     ValueId face(NodeId id, Face face) const { return values_[place(id, face.number())][0]; }
 
-    // If not all cells of the grid belong to the domain, other cells replace those outside
-    // (lower_mask.cpp).
-    /// The value at an offset from the cell itself.
+    // Outside the domain, values of other cells take the place of missing values (lower_mask.cpp).
     ValueId beside(NodeId id, Offset offset) const;
-    /// The value in the cell one step along an axis from the cell at `from`.
+    /// The value in the neighbour, one cell along an axis (`step`), of the cell at `from`.
     ValueId beside(NodeId id, Offset from, Offset step) const;
     ValueId chosen(Offset inside, ValueId value, ValueId otherwise) const;
 
-    /// The sum of a row of the table of differences, not divided; nothing if it has no taps. Cells
-    /// of a weight are added first. The last product may be kept from contraction.
+    /// The weighted sum of a difference (lang/program/stencils.h), before the division. Empty if
+    /// `taps` is empty. Values with the same weight are added before they are multiplied.
+    /// `keeps_product` excludes the last product from contraction.
     std::optional<ValueId> weighted(NodeId id, const Taps& taps, bool keeps_product = false,
                                     Offset from = {}) const;
-    /// Multiplies unless the factor is 1.
+    /// The value times `factor`. Emits no instruction if `factor` is 1.
     ValueId scaled(ValueId value, double factor) const;
 
 private:
@@ -89,15 +92,15 @@ private:
     KernelAssembly& assembly_;
     KernelBuilder& builder_;
     Needs needs_;
-    IdVector<NodeId, std::uint32_t> first_;  ///< By node: the number of its first value.
+    IdVector<NodeId, std::uint32_t> first_;  ///< The index of each node's first value.
     std::vector<Value> values_;
 };
 
-/// Lowers operators: the value in the cell itself (lower_operators.cpp).
+/// The value of an operator in the present cell (lower_operators.cpp).
 ValueId lower_stencil(const PassView& pass, KernelAssembly& assembly, const NodeValues& values,
                       NodeId id);
 
-/// The number of rows of a tensor whose operands are its entries.
+/// The number of rows of a tensor. The operands of the node are the tensor's entries.
 int tensor_size(const Node& tensor);
 
 /// Lowers vectors at faces, and their divergence (lower_vectors.cpp).
@@ -114,11 +117,13 @@ private:
     struct AtFace;
     ValueId gradient(NodeId operand, Face face) const;
     ValueId through_sides(NodeId flux, Face face, ValueId value);
-    /// Whether a flux passes the sides of the grid.
+    /// Facts about a flux through the sides of the grid.
     struct Crossing {
-        bool goes_across = false;  ///< It may not be 0 even if everything is mirrored.
+        bool goes_across = false;  ///< Whether the flux may differ from 0 even if all fields are
+                                   ///< mirrored.
         bool has_species = false;
-        std::array<bool, wall_count> is_open{};  ///< A species in it is not mirrored at this side.
+        std::array<bool, wall_count> is_open{};  ///< For each side, whether the flux reads a
+                                                 ///< species that is not mirrored there.
     };
     void find_what_crosses_sides();
 
@@ -127,15 +132,15 @@ private:
     KernelBuilder& builder_;
     const NodeValues& values_;
     const Grid& grid_;
-    IdVector<NodeId, Crossing> crossings_;  ///< By node; empty until computed.
+    IdVector<NodeId, Crossing> crossings_;  ///< One for each node, empty until computed.
 };
 
 class PassLowering {
 public:
-    /// Computes these nodes in the cell itself, and everything that they need.
+    /// Computes these nodes in the present cell, and all nodes that they need.
     PassLowering(const PassView& pass, KernelAssembly& assembly, std::span<const NodeId> wanted);
 
-    /// The value, in the cell itself, of a node that was wanted.
+    /// The value of a wanted node in the present cell.
     const Value& value(NodeId id) const { return values_.at(id, Offset{}); }
 
 private:

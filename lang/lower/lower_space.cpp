@@ -1,4 +1,5 @@
-// Functions of a cell's place, and random ones: shapes, lattices of seeds, noise, draws.
+// Lowers functions of a cell's position and random functions: shapes, lattices of seeds, noise,
+// draws.
 #include "core/check.h"
 #include "core/hash.h"
 #include "lang/lower/lower_node.h"
@@ -14,7 +15,8 @@ namespace cascade::lowering {
 namespace {
 
 /// The key of one occurrence of a random function: FNV-1a of the seed, the stage, the formula's
-/// origin and the number of the occurrence in it, each written as text and ended by a line feed.
+/// origin, and the number of the occurrence in the formula. Each of these four is written as text
+/// that ends with a line feed.
 std::uint64_t random_key(std::uint32_t seed, std::string_view stage, std::string_view origin,
                          std::size_t occurrence) {
     std::uint64_t key = fnv1a(fmt::format("{}\n", seed));
@@ -23,7 +25,7 @@ std::uint64_t random_key(std::uint32_t seed, std::string_view stage, std::string
     return fnv1a(fmt::format("{}\n", occurrence), key);
 }
 
-/// Every occurrence of a random function in a formula has its own numbers.
+/// The draw of a node. Every occurrence of a random function in a formula draws its own numbers.
 Draw draw_of(KernelAssembly& assembly, const NodeInCell& in) {
     const auto& [formula, noise] = *in.graph.origin(in.id);
     const auto first = formula->nodes.begin(), last = first + in.graph.position(in.id).index() + 1;
@@ -35,7 +37,8 @@ Draw draw_of(KernelAssembly& assembly, const NodeInCell& in) {
 
 }  // namespace
 
-/// The last operands of a shape are sizes, those before them its position.
+/// Lowers a shape. The last operands are the shape's sizes, and the operands before them are its
+/// position.
 ValueId lower_shape(KernelAssembly& assembly, const NodeInCell& in) {
     KernelBuilder& builder = assembly.builder();
     const Space space = CellPlace(assembly, in.at).space();
@@ -58,8 +61,9 @@ ValueId lower_shape(KernelAssembly& assembly, const NodeInCell& in) {
     CHECK(false, "lowering: every shape has a meaning");
 }
 
-/// White noise in space and time: in a step of length dt, in cells of content h^d, it has the
-/// variance strength² / (dt h^d), so that its integral over a time and an area depends on neither.
+/// Lowers draws. White noise in space and time has the variance strength² / (dt h^d) in a step of
+/// length dt, in cells of content h^d. So the variance of its integral over a given time and area
+/// depends neither on dt nor on h.
 ValueId lower_draw(KernelAssembly& assembly, const NodeInCell& in) {
     KernelBuilder& builder = assembly.builder();
     CellPlace place(assembly, in.at);

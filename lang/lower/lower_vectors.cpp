@@ -1,8 +1,8 @@
-// Vectors at faces, and their divergence.
+// Computes vectors at faces, and their divergence.
 //
-// A face lies between a cell and the next one along an axis. Factors of the flux through it are
-// averaged over the two cells, (c + E) / 2, and differences are taken across it. Both cells thus
-// see the same flux, and sums are conserved to rounding.
+// A face is between a cell and the next cell along an axis. Factors of the flux through the face
+// are averaged over both cells, (c + E) / 2, and differences are taken across the face. So both
+// cells compute the same flux, and sums over all cells are conserved up to rounding.
 #include "lang/lower/lower_pass.h"
 
 #include "lang/program/vector_functions.h"
@@ -15,7 +15,7 @@ namespace cascade::lowering {
 
 namespace {
 
-/// The place of an entry in the list a11, a12, a22 or a11, a12, a13, a22, a23, a33.
+/// The index of an entry in the list a11, a12, a22, or a11, a12, a13, a22, a23, a33.
 std::size_t entry_of(int size, int row, int column) {
     constexpr std::array<std::array<std::size_t, 3>, 3> in_space{{{0, 1, 2}, {1, 3, 4}, {2, 4, 5}}};
     if (size == 2) return static_cast<std::size_t>(row + column);
@@ -44,8 +44,8 @@ ValueId Fluxes::average(NodeId id, Face face) const {
     return difference(id, Difference::average, face);
 }
 
-/// Across the face (E − c) / h; along it the mean of the central differences of both cells,
-/// ((S − N) + (SE − NE)) / 4h.
+/// A component of a gradient at a face. The component across the face is (E − c) / h. A component
+/// along the face is the mean of the central differences of both cells, ((S − N) + (SE − NE)) / 4h.
 ValueId Fluxes::gradient(NodeId operand, Face face) const {
     if (graph_.is_uniform(operand) || !axes_.has(face.component)) {
         return builder_.number(0);
@@ -59,7 +59,7 @@ ValueId Fluxes::gradient(NodeId operand, Face face) const {
                           1 / (4 * grid_.spacing));
 }
 
-/// A component of a vector at a face, from those of its operands.
+/// Computes a component of a vector at a face from components of its operands.
 struct Fluxes::AtFace {
     const Fluxes& own;
     Face where;
@@ -102,9 +102,9 @@ ValueId Fluxes::at_face(NodeId id, Face where) const {
     return vector_by(AtFace{*this, where}, graph_, graph_[id]);
 }
 
-/// Nothing flows through a side, or the border of a mask, at which all species of a flux are
-/// mirrored. Differences across such a side are 0 anyway; other vectors, and components that a
-/// tensor turns towards the side, are set to 0 there.
+/// Finds which fluxes cross the sides. Nothing flows through a side, or the border of a mask, at
+/// which all species of a flux are mirrored. Differences across such a side are 0 by themselves.
+/// Other vectors, and components that a tensor turns towards such a side, are set to 0 at the side.
 void Fluxes::find_what_crosses_sides() {
     const System& system = graph_.program().system_of(graph_.stage());
     IdVector<ItemId, SideKinds> of_item;
@@ -171,7 +171,7 @@ ValueId Fluxes::through_sides(NodeId flux, Face face, ValueId value) {
     return builder_.select(is_side, builder_.number(0), value);
 }
 
-/// Σ (flux after − flux before) / h, x first.
+/// Σ (flux after − flux before) / h over all axes, x first.
 ValueId Fluxes::divergence(const Node& node) {
     const NodeId flux = node.operands[0];
     std::optional<ValueId> sum;

@@ -1,6 +1,6 @@
-// Finds the maximum flow from one needed part after the other. Nodes that a failed search has
-// reached never lead to the sink later, since no later flow can enter them, so no search visits
-// them again.
+// Increases the flow from one needed part after another until it is maximal. Nodes that a failed
+// search has reached do not lead to the sink, and no later flow can change this, because none can
+// enter them. So no search visits them again.
 #include "lang/lower/minimum_cut.h"
 
 #include <algorithm>
@@ -32,8 +32,8 @@ void MinimumCut::want(std::uint32_t part) {
     }
 }
 
-/// Increases the flow from a node to the sink. Returns false, with all nodes marked that it can
-/// reach, if that is impossible.
+/// Increases the flow from a node to the sink. If this is impossible, marks all nodes that can be
+/// reached from the node and returns false.
 bool MinimumCut::augment(std::uint32_t from) {
     std::vector<bool> seen(edges_of_.size(), false);
     std::vector<std::uint32_t> came_by(edges_of_.size());

@@ -1,11 +1,14 @@
-// Decides what to compute in every step and what once, as a minimum cut (internal to lowering).
+// Decides which parts of formulas to compute in every step and which only once. The decision is a
+// minimum cut (internal to lowering).
 //
-// A part that is needed in every step is either kept, which costs reading its plane, or computed,
-// which costs its operations and needs its operands. In the network, an edge of capacity `reading`
-// leads from each needed part to its computation, and from there one edge of capacity `operations`
-// to the sink and unlimited ones to its operands. The cheapest choice is the minimum cut; cut edges
-// of the first kind are parts to keep. The maximum flow finds it (L. R. Ford, D. R. Fulkerson,
-// "Maximal flow through a network", Canadian Journal of Mathematics 8, 1956, 399-404).
+// A part that is needed in every step is either kept, that is, computed once and then read from a
+// plane, or computed again in every step. Keeping a part costs the reading of its plane. Computing
+// it costs its operations, and its operands are needed, too. In the network, an edge of capacity
+// `reading` leads from each needed part to its computation. From the computation, an edge of
+// capacity `operations` leads to the sink, and edges of unlimited capacity lead to the operands.
+// The cheapest choice is the minimum cut: a part is kept if the edge to its computation is cut. The
+// maximum flow gives this cut (L. R. Ford, D. R. Fulkerson, "Maximal flow through a network",
+// Canadian Journal of Mathematics 8, 1956, 399-404).
 #pragma once
 
 #include <cstdint>
@@ -16,15 +19,15 @@ namespace cascade::lowering {
 
 class MinimumCut {
 public:
-    /// More than any sum of costs.
+    /// Larger than any sum of costs.
     static constexpr std::int64_t unlimited = std::int64_t{1} << 40;
 
-    /// Adds a part and returns its number, counted from 0. Its operands must be added first.
+    /// Adds a part and returns its index. The part's operands must have been added before.
     std::uint32_t add(std::int64_t reading, std::int64_t operations,
                       std::span<const std::uint32_t> operands);
     /// Marks the part as needed in every step.
     void want(std::uint32_t part);
-    /// Is it to be kept? To be called after all needed parts are marked.
+    /// Whether the part should be kept. Call this after all needed parts are marked.
     bool is_kept(std::uint32_t part) const {
         return is_reached_[wanted(part)] && !is_reached_[computed(part)];
     }
@@ -32,10 +35,11 @@ public:
 private:
     struct Edge {
         std::uint32_t to = 0;
-        std::int64_t left = 0;  ///< Capacity that is left. The reverse edge is number ^ 1.
+        std::int64_t left = 0;  ///< The remaining capacity. The reverse of edge n is edge n ^ 1.
     };
 
-    // Every part is two nodes.
+    // Every part has two nodes in the network: one for the need of the part, and one for its
+    // computation.
     static std::uint32_t wanted(std::uint32_t part) { return 2 * part; }
     static std::uint32_t computed(std::uint32_t part) { return 2 * part + 1; }
 
@@ -43,10 +47,10 @@ private:
     bool augment(std::uint32_t from);
 
     std::vector<Edge> edges_;
-    std::vector<std::vector<std::uint32_t>> edges_of_;  ///< By node.
-    std::vector<std::int64_t> to_sink_;  ///< By node: remaining capacity to the sink.
-    /// By node: is it reachable from a needed part by edges with remaining capacity, once the flow
-    /// is maximal?
+    std::vector<std::vector<std::uint32_t>> edges_of_;  ///< The edges of each node.
+    std::vector<std::int64_t> to_sink_;  ///< For each node, the remaining capacity to the sink.
+    /// For each node, whether it can be reached from a needed part by edges with remaining
+    /// capacity. Known once the flow is maximal.
     std::vector<bool> is_reached_;
 };
 

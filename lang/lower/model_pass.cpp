@@ -1,12 +1,14 @@
-// Operators on the cells of a model, which have links to their neighbours instead of rows and
-// columns.
+// Rewrites operators for the cells of a model, which have links to their neighbours instead of rows
+// and columns.
 //
-// Operators are sums over links (ir/operations.def). A flux is known as the flow through each link.
-// Vectors are sums of gradients times numbers, and div takes each term by itself: div(a * grad(e))
-// is lap(a, e), the sum over the links of w (a_i + a_j) / 2 (e_j - e_i). A vector of components is
-// such a sum, too, for it is vx grad(x) + vy grad(y) + vz grad(z): through a link flows the mean of
-// both cells along the straight line from one to the other. A tensor leaves a part of a vector as
-// it is and makes components of the rest. Spec/models.md has the formulas.
+// Operators become sums over links (ir/operations.def). A flux is given by the flow through each
+// link. Vectors are sums of gradients, each multiplied by a number, and div takes each term
+// separately: div(a * grad(e)) is lap(a, e), the sum over the links of w (a_i + a_j) / 2 (e_j -
+// e_i). A vector given by components is such a sum, too: vx grad(x) + vy grad(y) + vz grad(z). The
+// flow of this sum through a link is the mean of the vectors in the two cells, in the direction of
+// the straight line between the cells. A tensor times a vector is the sum of a part that is a
+// multiple of the vector and a part that is computed by components. spec/models.md has the
+// formulas.
 #include "lang/lower/graph_passes.h"
 
 #include "core/check.h"
@@ -27,13 +29,15 @@ namespace {
 class ModelOperators : public GraphPass {
     using GraphPass::GraphPass;
 
-    /// A vector as a sum of gradients of numbers, each times a number.
-    using Gradients = std::vector<std::pair<Term, Term>>;  ///< Of, factor.
+    /// A vector as a sum of gradients of numbers, each multiplied by a number.
+    using Gradients = std::vector<std::pair<Term, Term>>;  ///< The number whose gradient it is,
+                                                           ///< then the factor.
 
     static constexpr std::array places{ModelPlane::place_x, ModelPlane::place_y,
                                        ModelPlane::place_z};
 
-    /// A vector as such a sum, from those of its operands, which are nodes of the old graph.
+    /// Computes the gradients of a vector from the gradients of its operands, which are nodes of
+    /// the old graph.
     struct Rules {
         ModelOperators& pass;
 
@@ -104,7 +108,7 @@ class ModelOperators : public GraphPass {
         return {sums[0].value_or(zero), sums[1].value_or(zero), sums[2].value_or(zero)};
     }
 
-    /// A tensor times a vector.
+    /// A tensor multiplied by a vector.
     Gradients turned(NodeId tensor, Gradients vector) {
         const TermVector v = in_cell(vector);
         const ModelTensor by = model_tensor(graph(), tensor);
@@ -123,7 +127,7 @@ class ModelOperators : public GraphPass {
         return vector;
     }
 
-    /// Adds a term to a sum or subtracts it. Gradients of the same value are merged.
+    /// Adds a term to a sum, or subtracts it. Gradients of the same number are merged.
     void add_to(Gradients& sum, const std::pair<Term, Term>& term, Function function) {
         const auto known =
             std::ranges::find(sum, term.first.id, [](const auto& each) { return each.first.id; });
@@ -145,13 +149,13 @@ class ModelOperators : public GraphPass {
         }
         if (node.type == ValueType::vector) {
             gradients_.emplace(at(), vector_by(Rules{*this}, old(), old()[at()]));
-            return NodeId{};  // Only div reads it.
+            return NodeId{};  // Only div reads vectors.
         }
         if (node.calls(Function::div)) return divergence(gradients_.at(old()[at()].operands[0]));
         return keep(node);
     }
 
-    std::unordered_map<NodeId, Gradients> gradients_;  ///< By vector of the old graph.
+    std::unordered_map<NodeId, Gradients> gradients_;  ///< For each vector of the old graph.
 };
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Finds, readers first, where a pass needs the operands of its nodes.
+// Finds the cells and faces at which a pass needs the operands of its nodes. Visits each node
+// before its operands.
 #include "lang/lower/lower_pass.h"
 #include "lang/program/vector_functions.h"
 
@@ -33,7 +34,8 @@ public:
 private:
     void need(NodeId id, std::uint32_t where) { needs_[id] |= where; }
 
-    /// The value at neighbours, with what replaces it outside of the domain.
+    /// Marks a node as needed at neighbours, and at cells that replace neighbours outside the
+    /// domain.
     void need_beside(NodeId id, Offsets offsets) {
         need(id, planner_.reach(offsets));
         const Node& node = graph_[id];
@@ -79,7 +81,7 @@ private:
         need_beside(last, offsets_of(node, planner_.axes()));
     }
 
-    /// What a component of a vector needs at a face: numbers in the two cells beside it, and
+    /// Marks what a component of a vector needs at a face: numbers in the two cells beside it, and
     /// vectors at the face itself.
     struct AtFace {
         NeedFinder& own;

@@ -1,4 +1,4 @@
-// The planner's decisions: one loop over the nodes, operands first.
+// Makes the planner's decisions in one loop over the nodes, operands first.
 #include "lang/lower/pass_planner.h"
 
 #include <algorithm>
@@ -55,8 +55,8 @@ void PassPlanner::mark_needed(std::span<const NodeId> roots) {
     }
 }
 
-/// Would computing the node at this number of places cost more than a plane? Visits no more nodes
-/// than needed to tell.
+/// Whether computing the node at this number of neighbours would cost more than writing and reading
+/// a plane. Stops visiting nodes once the answer is known.
 bool PassPlanner::is_expensive(NodeId id, std::uint32_t places) const {
     std::uint32_t cost = 0;
     std::vector<NodeId> seen, open{id};
@@ -84,7 +84,7 @@ void PassPlanner::decide(NodeId id) {
     }
     const NodeId last = node.reads().back();
     if (node.calls(Function::solved)) {
-        written_[id] = true;  // Before the first pass.
+        written_[id] = true;  // Computed before the first pass.
         return;
     }
     if (is_aggregate(node) || is_nonlocal(node)) {
@@ -100,7 +100,7 @@ void PassPlanner::decide(NodeId id) {
         provide(last, reach(offsets_of(node, axes_)) & ~own_cell, id);
     } else if (differs && (node.type == ValueType::vector || function == Function::div) &&
                !graph_.is_linked()) {
-        // Vectors at faces need their parts in the cells on both sides.
+        // Vectors at faces need their operands in the cells on both sides of a face.
         for (const NodeId operand : node.reads()) {
             if (is_number(graph_[operand])) {
                 provide(operand, crosswise(axes_) & ~own_cell, id);
@@ -114,14 +114,15 @@ void PassPlanner::decide(NodeId id) {
     decide_own(id);
 }
 
-/// Writes what is read as a whole, unless it is in a plane.
+/// Plans to write an operand that is read as a whole plane to a plane, unless it is already in a
+/// plane.
 void PassPlanner::write_whole(NodeId operand, NodeId reader) {
     if (is_plane(operand) || written_[operand]) return;
     choices_.push_back({operand, reader, 0, true, true, false});
     written_[operand] = true;
 }
 
-/// The first pass in which the values of a node that is computed from its operands are known.
+/// Finds the first pass in which the values of a node that is computed from its operands are known.
 void PassPlanner::decide_own(NodeId id) {
     const Node& node = graph_[id];
     const Function function = node.function;
@@ -137,7 +138,8 @@ void PassPlanner::decide_own(NodeId id) {
         const bool is_moved =
             reads_beside && (is_vector || k + 1 == node.operand_count || graph_.is_linked());
         pass_[id] = std::max(pass_[id], pass_[operand]);
-        // Planes of open nodes are found where they are read, since more may be written until then.
+        // The planes for an open node are determined where the node is read, because more nodes may
+        // have been written by then.
         if (!graph_.is_open(id) && !graph_.is_open(operand)) {
             beside_[id] = std::max(beside_[id], pass_beside(operand));
         }
@@ -148,7 +150,7 @@ void PassPlanner::decide_own(NodeId id) {
     if (is_vector) beside_[id] = pass_[id];
 }
 
-/// Calls visit(node) for the nodes, not open, from which an open node is recomputed at neighbours.
+/// Calls visit(node) for the closed nodes from which an open node is recomputed at neighbours.
 template <typename Visit>
 void PassPlanner::for_each_closed(NodeId open, const Visit& visit) const {
     IdVector<NodeId, bool> seen(graph_.size(), false);
@@ -171,7 +173,8 @@ void PassPlanner::for_each_closed(NodeId open, const Visit& visit) const {
 std::uint32_t PassPlanner::pass_beside(NodeId operand) const {
     const Node& node = graph_[operand];
     std::uint32_t pass = 0;
-    if (node.type == ValueType::tensor) {  // Another reader may have had its entries written.
+    if (node.type == ValueType::tensor) {  // The tensor's entries may have been written for another
+                                           // reader.
         for (const NodeId entry : node.reads()) {
             pass = std::max(pass, pass_beside(entry));
         }
@@ -187,13 +190,13 @@ std::uint32_t PassPlanner::pass_beside(NodeId operand) const {
     return written_[operand] ? first_reader(operand) : beside_[operand];
 }
 
-/// Provides an operand at neighbours, by a plane or by computing it there.
+/// Decides how an operand is provided at neighbours: in a plane, or computed at the neighbours.
 void PassPlanner::provide(NodeId operand, Offsets offsets, NodeId reader) {
     const auto places = static_cast<std::uint32_t>(std::popcount(offsets));
     if (places == 0 || graph_.is_uniform(operand) || is_plane(operand)) return;
     if (const Node& node = graph_[operand]; node.calls(Function::bordered)) {
         provide(node.operands[0], offsets, reader);
-        // Differences along a face are taken in the cells on both sides of it.
+        // Differences along a face are taken in the cells on both sides of the face.
         const bool is_at_faces = graph_[reader].type == ValueType::vector;
         provide(node.operands[1], is_at_faces ? offsets : stand_ins(offsets) & ~own_cell, reader);
         return;
@@ -207,14 +210,15 @@ void PassPlanner::provide(NodeId operand, Offsets offsets, NodeId reader) {
     choices_.push_back(choice);
 }
 
-/// Sums over links read planes.
+/// Provides an operand of a sum over links, which reads it from a plane.
 void PassPlanner::provide_over_links(NodeId operand, NodeId reader) {
     if (graph_.is_uniform(operand) || is_plane(operand)) return;
     written_[operand] = true;
     choices_.push_back({operand, reader, 0, true, true, false});
 }
 
-/// Computes an operand at neighbours from nodes that are in planes, or can be.
+/// Provides an open operand at neighbours. At the neighbours it is computed from nodes that are, or
+/// can be, in planes.
 void PassPlanner::provide_open(NodeId operand, Offsets offsets, NodeId reader) {
     const auto places = static_cast<std::uint32_t>(std::popcount(offsets));
     for_each_closed(operand, [&](NodeId id) { provide(id, offsets, reader); });

@@ -1,4 +1,4 @@
-// Decides which nodes of formulas are computed in which pass (internal to lowering).
+// Decides in which pass each node of a formula is computed (internal to lowering).
 #pragma once
 
 #include "lang/lower/plan_graph.h"
@@ -12,12 +12,14 @@
 
 namespace cascade::lowering {
 
-/// The cells that may replace cells at these offsets if those are outside of the domain
-/// (lower_mask.cpp): the cell itself and, for a diagonal neighbour, the two cells in between.
+/// The cells whose values may be read in place of cells at these offsets that are outside the
+/// domain (lower_mask.cpp): the present cell and, for a diagonal neighbour, also the two cells
+/// between them.
 Offsets stand_ins(Offsets offsets);
 
-/// A face between two cells and a component of a vector there. The face lies between cell `cell()`
-/// and the next one along `axis`; `side` 0 is the face after the cell itself, 1 the one before it.
+/// A face between two cells, and a component of a vector at this face. The face is between cell
+/// `cell()` and the next cell along `axis`. It comes after the present cell if `side` is 0, and
+/// before the present cell if `side` is 1.
 struct Face {
     int axis = 0;
     int component = 0;
@@ -35,49 +37,52 @@ struct Face {
     constexpr Offset next() const { return Offset::along(axis, 1 - side); }
 };
 
-/// The approximate number of kernel operations of a node, given its operands.
+/// The approximate number of kernel operations that compute a node from its operands.
 int operations_of(const Node& node);
 
-/// The number of operations on a cell that take a core as long as writing a plane and reading it
-/// back (about twelve bytes a cell).
+/// In the time of this number of operations per cell, a core writes a plane and reads it again,
+/// which moves about twelve bytes per cell.
 inline constexpr int operations_of_writing = 40;
-/// Reading a plane alone is a third of that traffic.
+/// In the time of this number of operations per cell, a core reads a plane, which moves a third of
+/// those bytes.
 inline constexpr int operations_of_reading = operations_of_writing / 3;
 
-/// The decisions about the nodes of a graph.
+/// The decisions about all nodes of a graph.
 class PassPlanner {
 public:
     /// `roots` are needed in the cell itself, in the last pass. The nodes `step_invariants` are
-    /// known before the first pass; those that vary are in planes.
+    /// known before the first pass. Step-invariants that vary by cell are in planes.
     PassPlanner(const PlanGraph& graph, std::span<const NodeId> roots, Materialise materialise,
                 std::span<const NodeId> step_invariants = {});
 
     std::uint32_t pass_count() const { return pass_count_; }
     bool is_needed(NodeId node) const { return needed_[node]; }
-    /// Is it known before the first pass?
+    /// Whether the node is known before the first pass.
     bool is_step_invariant(NodeId node) const { return step_invariant_[node]; }
-    /// Is the node written to a temporary plane?
+    /// Whether the node is written to a temporary plane.
     bool is_written(NodeId node) const { return written_[node]; }
-    /// The first pass in which it can be computed in the cell itself; a node that is written is
-    /// computed then, and a nonlocal one directly before.
+    /// The first pass that can compute the node in the cell itself. A written node is computed in
+    /// this pass, and a nonlocal node directly before this pass.
     std::uint32_t pass_of(NodeId node) const { return pass_[node]; }
-    /// Is it read from a plane in `pass`? A pass writes planes for later ones; what is computed on
-    /// whole planes is there when its pass begins.
+    /// Whether the node is read from a plane in `pass`. Only later passes can read a plane that a
+    /// pass writes. The plane of a nonlocal node is computed directly before a pass, which can
+    /// already read it.
     bool is_plane_in(NodeId node, std::uint32_t pass) const {
         return written_[node] && first_reader(node) <= pass;
     }
-    /// How an operand is provided at the neighbours where its reader needs it.
+    /// How an operand is provided at the neighbours at which its reader needs it.
     struct OperandChoice {
         NodeId operand, reader;
-        std::uint32_t places = 0;  ///< The largest number of neighbours at which it is needed.
-        bool is_written = false;   ///< To a plane; otherwise it is recomputed at the neighbours.
-        bool is_forced = false;    ///< It cannot be recomputed.
-        bool is_open = false;      ///< It must be recomputed: see PlanGraph::is_open.
+        std::uint32_t places = 0;  ///< The largest number of neighbours at which the operand is
+                                   ///< needed.
+        bool is_written = false;  ///< True: read from a plane. False: recomputed at the neighbours.
+        bool is_forced = false;   ///< Whether the operand cannot be recomputed.
+        bool is_open = false;     ///< Whether the operand must be recomputed (PlanGraph::is_open).
     };
-    /// All operands that vary and are not planes, in order of their readers.
+    /// All operands that vary and are not in planes from the start, in the order of their readers.
     const std::vector<OperandChoice>& choices() const { return choices_; }
     const GridAxes& axes() const { return axes_; }
-    /// The offsets at which an operand is needed if its value is read at `offsets`.
+    /// The offsets at which an operand must be available if it is read at `offsets`.
     Offsets reach(Offsets offsets) const {
         return graph_.has_mask() ? offsets | stand_ins(offsets) : offsets;
     }
@@ -87,7 +92,7 @@ private:
     void decide(NodeId id);
     void decide_own(NodeId id);
     std::uint32_t pass_beside(NodeId operand) const;
-    /// The first pass that can read the plane of a node that is written.
+    /// The first pass that can read the plane of a written node.
     std::uint32_t first_reader(NodeId node) const {
         return is_nonlocal(graph_[node]) ? pass_[node] : pass_[node] + 1;
     }
@@ -105,10 +110,11 @@ private:
     Materialise materialise_;
     std::uint32_t pass_count_ = 1;
     IdVector<NodeId, bool> needed_, written_, step_invariant_;
-    IdVector<NodeId, bool> stays_;  ///< By node: it cannot be computed for a neighbour.
-    IdVector<NodeId, std::uint32_t>
-        pass_;  ///< By node: the first pass in which its value in the cell itself is known …
-    IdVector<NodeId, std::uint32_t> beside_;  ///< … and its values at neighbours, read from planes.
+    IdVector<NodeId, bool> stays_;  ///< For each node, whether it cannot be computed at neighbours.
+    /// For each node, the first pass in which its value in the cell itself is known.
+    IdVector<NodeId, std::uint32_t> pass_;
+    /// For each node, the first pass in which its values at neighbours can be read from planes.
+    IdVector<NodeId, std::uint32_t> beside_;
     std::vector<OperandChoice> choices_;
 };
 

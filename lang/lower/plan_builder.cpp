@@ -1,4 +1,4 @@
-// Passes, targets and temporaries of a plan.
+// Builds the passes of a plan, their targets and temporaries.
 #include "lang/lower/plan_builder.h"
 
 #include "ir/contraction.h"
@@ -15,7 +15,7 @@ namespace cascade::lowering {
 
 namespace {
 
-/// A plan for a formula of a kernel, which is computed where its lags are.
+/// The plan for a formula of a convolution's kernel, whose cells represent lags.
 std::shared_ptr<const StepPlan> plan_of_kernel(const PlanGraph& graph, const Formula& formula) {
     const std::array only{&formula};
     const PassContext context{graph.program(), graph.stage(), Extent::grid};
@@ -34,7 +34,7 @@ Convolution convolution(const PlanGraph& graph, NodeId id, const PlaneSource& op
     return made;
 }
 
-/// Calls visit(source) for everything that a pass reads.
+/// Calls visit(source) for every plane and number that a pass reads.
 template <typename Visit>
 void for_each_read(Pass& pass, const Visit& visit) {
     for (Convolution& convolution : pass.convolutions) visit(convolution.operand);
@@ -99,7 +99,7 @@ void PlanBuilder::lower(std::uint32_t pass) {
         result(name.empty() ? fmt::format("(temporary {})", target.index()) : name, value(id)[0]);
         plan_.passes[pass].targets.push_back({target, false, graph_.boundary(id), graph_.wall(id)});
     }
-    // What needs a whole plane reads it, however early the pass that writes it.
+    // Nonlocal nodes may read a whole plane that any earlier pass has written.
     const PassView after{graph_, planner_, storage_, planner_.pass_count()};
     for (const NodeId id : nonlocal_[pass]) {
         if (graph_[id].calls(Function::solved)) {
@@ -139,7 +139,8 @@ StepPlan PlanBuilder::finish() && {
     return std::move(plan_);
 }
 
-/// Numbers the planes of temporaries; a plane is free again after the last pass that reads it.
+/// Numbers the planes of temporaries. After the last pass that reads a temporary, the temporary's
+/// plane is reused.
 void PlanBuilder::share_temporaries() {
     IdVector<TemporaryId, std::size_t> last_read(plan_.temporaries, 0);
     for (std::size_t pass = 0; pass < plan_.passes.size(); ++pass) {

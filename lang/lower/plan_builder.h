@@ -1,4 +1,4 @@
-// Turns a graph of expressions into a plan of passes (internal to lowering).
+// Turns an expression graph into a plan of passes (internal to lowering).
 #pragma once
 
 #include "lang/lower/lower_pass.h"
@@ -13,19 +13,21 @@ namespace cascade::lowering {
 
 struct PlanRequest {
     const PlanGraph& graph;
-    std::span<const NodeId> wanted;  ///< The nodes from which results are made, in the cell itself.
+    std::span<const NodeId> wanted;  ///< The nodes from which the results are computed, in the cell
+                                     ///< itself.
     PlanOptions options;
     bool frozen_is_mask = false;
-    /// The species in the first field slots of the last pass.
+    /// The species that take the first field slots of the last pass.
     std::span<const ItemId> first_slots = {};
-    /// The nodes known before the first pass, in the order of their numbers.
+    /// The nodes that are known before the first pass, in the order of their step-invariant ids.
     std::span<const NodeId> step_invariants = {};
-    /// Compute with fewer roundings inside of nodes, too; see fuse_products().
+    /// Whether products and sums in operators and functions are fused, which takes fewer roundings
+    /// (fuse_products()).
     bool contracts = false;
 };
 
-/// Plans and lowers the passes. The last one stays open until results have been added from the
-/// wanted values; then the plan is finished.
+/// Plans and lowers the passes. The caller computes results from the wanted values and adds them to
+/// the last pass, which stays open until then. finish() completes the plan.
 class PlanBuilder {
 public:
     explicit PlanBuilder(const PlanRequest& request);
@@ -35,7 +37,7 @@ public:
     const Value& value(NodeId id) const { return values_->value(id); }
     void result(const std::string& name, ValueId value) { last_->builder().result(name, value); }
 
-    /// Lets temporaries that live at different times share a plane.
+    /// Completes the plan. Temporaries that are needed at different times share a plane.
     StepPlan finish() &&;
 
 private:
@@ -48,16 +50,17 @@ private:
     const PlanGraph& graph_;
     PassPlanner planner_;
     Storage storage_;
-    std::vector<std::vector<NodeId>> written_;   ///< By pass.
-    std::vector<std::vector<NodeId>> nonlocal_;  ///< By the pass before which they are computed.
+    std::vector<std::vector<NodeId>> written_;   ///< For each pass.
+    std::vector<std::vector<NodeId>> nonlocal_;  ///< For each pass, the nodes that are computed
+                                                 ///< directly before it.
     std::vector<NodeId> aggregates_;
     std::unique_ptr<KernelAssembly> last_;  ///< The kernel of the open pass.
-    std::unique_ptr<PassLowering> values_;  ///< The values of that kernel.
+    std::unique_ptr<PassLowering> values_;  ///< The values in that kernel.
     StepPlan plan_;
 };
 
-/// Describes the passes and the reasons for them: one line for the plan, for each pass and for each
-/// decision.
+/// Describes the passes and the reasons for them: one line for the plan, one for each pass, and one
+/// for each decision.
 std::string describe(const PlanGraph& graph, const PassPlanner& planner, const StepPlan& plan);
 
 }  // namespace cascade::lowering

@@ -1,9 +1,9 @@
-// Facts about a node follow from facts about its operands.
+// Computes the facts about a node from facts about its operands.
 //
-// Values beyond the sides of the grid (spec/domain.md, "Beyond the sides"): a species has the value
-// that its sides say, and a function is computed from the values of its operands there. So
-// lap(f(u)) + lap(g) is lap(f(u) + g) at the sides, too. Values of operators, random numbers,
-// shapes, parameters and files are mirrored.
+// Values beyond the sides of the grid follow spec/domain.md, "Beyond the sides". The value of a
+// species beyond a side follows from the species' rule for this side. The value of a function is
+// computed from its operands' values beyond the side, so lap(f(u)) + lap(g) equals lap(f(u) + g) at
+// the sides, too. Values of operators, random numbers, shapes, parameters and files are mirrored.
 #include "lang/lower/plan_graph.h"
 
 #include <algorithm>
@@ -23,13 +23,14 @@ Axes3 beyond_of(const Boundaries& boundary) {
     return {beyond_of(boundary.x), beyond_of(boundary.y), beyond_of(boundary.z)};
 }
 
-/// Both sides of an axis are periodic or neither is.
+/// How the values beyond the two sides of an axis are found. Either both sides are periodic or
+/// neither is.
 Beyond beyond_of(SideKind first, SideKind second) {
     if (takes_value(first) || takes_value(second)) return Beyond::itself;
     return first == SideKind::periodic ? Beyond::periodic : Beyond::mirrored;
 }
 
-/// For an item of a stage, if it varies.
+/// How the values of an item beyond the sides are found, for each axis. The item varies by cell.
 Axes3 beyond_of_item(const Program& program, std::uint32_t stage, ItemId item) {
     const SideKinds sides = side_kinds(program, stage, item);
     Axes3 beyond{};
@@ -39,7 +40,7 @@ Axes3 beyond_of_item(const Program& program, std::uint32_t stage, ItemId item) {
     return beyond;
 }
 
-/// For a function of two operands.
+/// How the values of a function of two operands beyond the sides of an axis are found.
 Beyond together(Beyond a, Beyond b) {
     if (a == Beyond::anything || a == b) return b;
     return b == Beyond::anything ? a : Beyond::itself;
@@ -72,8 +73,9 @@ PlanGraph::PlanGraph(Expressions expressions, const PassContext& context, Draws 
     names_.insert(expressions_.names.begin(), expressions_.names.end());
 }
 
-/// Parameters keep their starting values, and earlier stages are over. But cells that crawl are
-/// elsewhere in each step, and there are more and more of them.
+/// Whether the node has the same value in all steps. Parameters keep their starting values, and
+/// earlier stages have ended. But cells that crawl change their positions in each step, and their
+/// number changes.
 bool PlanGraph::is_step_invariant(const Node& node, bool is_uniform, Draws draws) const {
     if (context_.is_tissue() && !is_uniform) return false;
     if (const auto* item = node.as<ItemId>()) {
@@ -102,13 +104,13 @@ std::array<Beyond, 3> PlanGraph::beyond(NodeId id, bool is_uniform) const {
             for (const NodeId operand : node.reads()) {
                 beyond[axis] = together(beyond[axis], facts_[operand].beyond[axis]);
             }
-            // Operators, shapes, draws, files: periodic if everything in them is.
+            // Operators, shapes, draws and files are periodic if all their operands are.
             if (!varies_by_cell(node.function)) continue;
             if (beyond[axis] == Beyond::anything) beyond[axis] = usual[axis];
             if (beyond[axis] == Beyond::itself) beyond[axis] = Beyond::mirrored;
         }
     }
-    // A definition with sides of its own is in a plane, like a species.
+    // A definition with its own rules at sides is in a plane, like a species.
     if (const DefinitionSides* own = sides(id)) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             beyond[axis] = beyond_of(own->sides[2 * axis].kind, own->sides[2 * axis + 1].kind);

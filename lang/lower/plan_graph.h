@@ -1,6 +1,6 @@
-// The expressions of a plan, with facts about each (internal to lowering).
+// The expression graph of a plan, with facts about each node (internal to lowering).
 //
-// Where and how often a node is computed is decided later (lang/lower/pass_planner.h).
+// lang/lower/pass_planner.h then decides where and how often each node is computed.
 #pragma once
 
 #include "lang/lower/graph_passes.h"
@@ -14,21 +14,21 @@
 
 namespace cascade::lowering {
 
-/// The value beyond the two sides of an axis, for nodes that are read at neighbours.
+/// Which value a node that is read at neighbours has beyond the two sides of an axis.
 enum class Beyond : std::uint8_t {
-    anything,  ///< The value is the same everywhere, or the axis has one cell.
-    periodic,  ///< The value in the opposite cell.
-    mirrored,  ///< The value in the cell at the side.
-    itself,    ///< For a species, as its sides say; for a function, computed from such operands.
+    anything,  ///< Any: all cells have the same value, or the axis has one cell.
+    periodic,  ///< The value in the opposite cell of the axis.
+    mirrored,  ///< The value in the cell beside the side.
+    itself,    ///< A value of its own: given by the rule of a species, or computed from operands.
 };
 
 using SideKinds = std::array<SideKind, side_count>;
 
-/// The kinds of the sides of an item. A species may have sides of its own; all other items have
-/// those of the domain.
+/// The kinds of rules at the sides of an item. A species may have its own rules. All other items
+/// have the rules of the domain.
 SideKinds side_kinds(const Program& program, std::uint32_t stage, ItemId item);
 
-/// What random numbers are: drawn anew in every step, or once for a side when a stage starts.
+/// When random numbers are drawn: anew in every step, or once, for a side, when a stage starts.
 enum class Draws : std::uint8_t { every_step, once };
 
 class PlanGraph {
@@ -39,27 +39,29 @@ public:
     auto ids() const { return facts_.ids(); }
     auto ids_backwards() const { return facts_.ids_backwards(); }
     std::size_t size() const { return facts_.size(); }
-    /// The requested values, in their order.
+    /// The requested values, in the order in which they were requested.
     const std::vector<NodeId>& roots() const { return expressions_.roots; }
 
-    /// Does it have the same value in all cells?
+    /// Whether the node has the same value in all cells.
     bool is_uniform(NodeId id) const { return facts_[id].is_uniform; }
-    /// Does it have the same value in all steps of the stage?
+    /// Whether the node has the same value in all steps of the stage.
     bool is_step_invariant(NodeId id) const { return facts_[id].is_step_invariant; }
-    /// Is its value beyond some side neither that of the opposite cell nor that of the cell at the
-    /// side? Its plane then has no halo, and it is recomputed there.
+    /// Whether the node's value beyond some side is neither the value of the opposite cell nor the
+    /// value of the cell beside the side. The plane of such an open node has no halo, and its
+    /// values beyond the side are recomputed.
     bool is_open(NodeId id) const;
-    /// How the halo of its plane is filled; not for open nodes.
+    /// How the halo of the node's plane is filled. Not for open nodes.
     Boundaries boundary(NodeId id) const;
-    /// Species, parameters that vary, files and the metric are in planes from the start.
+    /// Whether the node is in a plane from the start: a species, a parameter that varies, a file,
+    /// or the metric.
     bool is_plane(NodeId id) const;
-    /// The name of the definition or rate whose value it is; "" for others.
+    /// The name of the definition or rate whose value this node is; "" for other nodes.
     const std::string& name(NodeId id) const;
-    /// The sides of the definition whose value it is, and their number in Stage::definition_sides;
-    /// nothing for others.
+    /// If the node is the value of a definition that has its own rules at sides: these rules, and
+    /// their index in Stage::definition_sides. Empty for other nodes.
     const DefinitionSides* sides(NodeId id) const;
     std::optional<std::size_t> wall(NodeId id) const;
-    /// Where it was written; null for nodes made by a pass.
+    /// Where the node is written in the script. Null if a pass made the node.
     const Origin* origin(NodeId id) const;
     NodeId position(NodeId id) const { return expressions_.graph.written(id).position; }
 
@@ -67,8 +69,8 @@ public:
     const Program& program() const { return context_.program; }
     std::uint32_t stage() const { return context_.stage; }
     bool has_mask() const { return context_.has_mask(); }
-    /// Do cells read neighbours over links? Operators then read only planes, and `lap` of two
-    /// operands is div(first * grad(second)).
+    /// Whether cells read neighbours over links. Operators then read only planes, and a `lap` with
+    /// two operands means div(first * grad(second)).
     bool is_linked() const { return context_.has_links(); }
     const PassContext& context() const { return context_; }
     const Grid& grid() const { return context_.grid(); }
@@ -76,7 +78,7 @@ public:
 private:
     struct Facts {
         bool is_uniform = false, is_step_invariant = false;
-        std::array<Beyond, 3> beyond{};  ///< By axis.
+        std::array<Beyond, 3> beyond{};  ///< For each axis.
     };
     bool is_step_invariant(const Node& node, bool is_uniform, Draws draws) const;
     std::array<Beyond, 3> beyond(NodeId id, bool is_uniform) const;

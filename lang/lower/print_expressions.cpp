@@ -1,4 +1,5 @@
-// Prints graphs like kernels, one line for each node that is needed.
+// Prints expression graphs in the format of kernels (print() in ir/cell_kernel.h): one line for
+// each node that is needed.
 #include "lang/lower/lower_expressions.h"
 #include "lang/print/print_formula.h"
 

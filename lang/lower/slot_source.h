@@ -1,4 +1,4 @@
-// Where the values of a kernel's slots come from.
+// The sources from which the slots of a kernel get their values.
 #pragma once
 
 #include "core/id.h"
@@ -13,43 +13,43 @@
 
 namespace cascade {
 
-using StepInvariantId = Id<struct StepInvariantTag>;  ///< A result of plan_step_invariants.
+using StepInvariantId = Id<struct StepInvariantTag>;  ///< A result of plan_step_invariants().
 using CoefficientId = Id<struct CoefficientTag>;      ///< A coefficient of a sweep.
 
-/// A species in an input of a sweep other than the first, which holds the items of the stage.
+/// A species in an input of a sweep other than input 0. Input 0 contains the items of the stage.
 struct SweepInput {
     std::uint32_t input = 0;
     ItemId item;
     bool operator==(const SweepInput&) const = default;
 };
 
-/// What a function such as `field` reads by a name.
+/// A plane that a function such as `field` reads by a name.
 struct NamedPlane {
     Function function = Function::field;
     TextId text;
-    std::uint32_t reading = 0;  ///< The number of a FileReading in Literals.
+    std::uint32_t reading = 0;  ///< The index of a FileReading in Literals.
     auto operator<=>(const NamedPlane&) const = default;
 };
 
-/// Which of the cells around are inside the mask, as words.
+/// Words that tell which of the neighbouring cells are inside the mask.
 struct Neighbourhood {
     bool operator==(const Neighbourhood&) const = default;
 };
 
-/// What the time loop knows when it evaluates rates.
+/// Numbers that the time loop provides when it evaluates rates.
 enum class TimeValue : std::uint8_t {
-    step,    ///< Complete steps of the stage when the step begins.
-    draw,    ///< The number of that step as a word for draws (ir/draw_of_step.h).
+    step,    ///< How many steps of the stage have been completed before this step.
+    draw,    ///< The word that identifies the step in random numbers (ir/draw_of_step.h).
     time,    ///< The stage's t.
-    length,  ///< How long the step is.
+    length,  ///< The length of the step.
 };
 inline constexpr std::array<std::string_view, 4> time_value_names{"step", "draw", "t", "time step"};
 
-/// Of a field slot.
+/// The source of a field slot.
 using PlaneSource =
     std::variant<StageItem, SensedItem, SweepInput, NamedPlane, SurfaceValueId, MetricPlane,
                  ModelPlane, Neighbourhood, LagPart, Unknown, StepInvariantId, TemporaryId>;
-/// Of a uniform slot.
+/// The source of a uniform slot.
 using UniformSource =
     std::variant<StageItem, StepInvariantId, AggregateId, TimeValue, CoefficientId>;
 

@@ -1,10 +1,10 @@
-// Writes operators out for the stencils of the domain (spec/domain.md, "Stencils").
+// Writes out operators for the stencils of the domain (spec/domain.md, "Stencils").
 //
-// Both stencils are made of small differences, so that they need no wider halo: with δ² the second
-// difference along an axis over h², the isotropic Laplacian of nine or nineteen cells is
-// lap + h²/6 Σ δ²δ² over the pairs of axes, whose error is h²/12 lap(lap(e)). Without that error it
-// is Σ (δ² − h²/12 δ²δ²), the wide second difference of fourth order along each axis. The first one
-// is (E − W)/2h (1 − h²/6 δ²).
+// The stencils are made of differences between adjacent cells, so they need no wider halo. In this
+// comment, δ² is the second difference along an axis, divided by h². The isotropic Laplacian of
+// nine or nineteen cells is lap + h²/6 Σ δ²δ², where the sum is over the pairs of axes. Its error
+// is h²/12 lap(lap(e)). The Laplacian of fourth order is Σ (δ² − h²/12 δ²δ²), the wide second
+// difference along each axis. The first derivative of fourth order is (E − W)/2h (1 − h²/6 δ²).
 #include "lang/lower/graph_passes.h"
 
 #include "core/check.h"
@@ -16,7 +16,7 @@ namespace cascade::lowering {
 
 namespace {
 
-/// The function that is a difference along axes.
+/// The function that computes a difference along the given axes.
 Function function_of(Difference difference, int first, int second) {
     for (std::size_t k = 0; k < function_count; ++k) {
         const auto own = difference_of(static_cast<Function>(k));
@@ -30,7 +30,7 @@ Function function_of(Difference difference, int first, int second) {
 class StencilPass : public GraphPass {
     using GraphPass::GraphPass;
 
-    /// A difference as the stencil of the domain has it.
+    /// A difference as the domain's stencil computes it.
     Term written(const AppliedDifference& applied, const Node& node) {
         const auto call = [&](Difference difference, Term of) {
             return Term::call(function_of(difference, applied.first, applied.second), of);

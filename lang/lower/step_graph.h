@@ -1,4 +1,4 @@
-// The expressions of a stage's step, lowered (internal to lowering).
+// The lowered expressions of one step of a stage (internal to lowering).
 #pragma once
 
 #include "lang/lower/plan_builder.h"
@@ -8,15 +8,15 @@
 
 namespace cascade::lowering {
 
-/// All formulas of a stage's step. Every plan of the step numbers their nodes alike.
+/// All formulas of a stage's step. Every plan of the step numbers their nodes in the same way.
 struct StepGraph {
     PlanGraph graph;
     IdVector<ItemId, NodeId> rates;
-    std::vector<NodeId> bounds;  ///< By invariant.
-    /// By row and column: the derivative of a species' rate by another species in the cell. Empty
-    /// unless the solver needs them.
+    std::vector<NodeId> bounds;  ///< In the order of System::invariants.
+    /// derivatives[i][j] is the derivative of the rate of species i with respect to the value of
+    /// species j in the same cell. Empty unless the solver needs derivatives.
     IdVector<SpeciesId, std::vector<NodeId>> derivatives;
-    std::vector<NodeId> step_invariants;  ///< The values that are computed once.
+    std::vector<NodeId> step_invariants;  ///< Nodes that are computed once per stage.
 
     StepGraph(const Program& program, std::uint32_t stage, const PlanOptions& options);
 };

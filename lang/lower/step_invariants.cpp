@@ -1,5 +1,7 @@
-// Three walks: readers first to find where nodes are needed, operands first to build the network of
-// costs, and readers first again to find which values a step needs.
+// Walks over the graph three times. The first walk visits readers before operands and finds the
+// cells at which nodes are needed. The second walk visits operands before readers and builds the
+// network of costs (minimum_cut.h). The third visits readers before operands and finds the values
+// that a step needs.
 #include "lang/lower/step_invariants.h"
 
 #include "lang/lower/minimum_cut.h"
@@ -13,12 +15,12 @@ namespace cascade::lowering {
 
 namespace {
 
-/// Does it take operations in each cell that a plane could save?
+/// Whether computing the node takes operations in each cell that a plane could save.
 bool is_costly(const PlanGraph& graph, NodeId id) {
     return graph.is_step_invariant(id) && !graph.is_uniform(id) && !graph.is_plane(id);
 }
 
-/// The first nodes on the way from the roots to operands for which is_chosen(node) holds.
+/// The first nodes, on all paths from the roots to operands, for which is_chosen(node) holds.
 template <typename Chosen>
 std::vector<NodeId> first_reached(const PlanGraph& graph, std::span<const NodeId> roots,
                                   const Chosen& is_chosen) {
@@ -66,19 +68,21 @@ public:
     }
 
 private:
-    /// An operator along an axis of one cell reads nothing, but still has a node as operand.
+    /// Marks a node as needed at this number of cells. The number may be 0: an operator along an
+    /// axis of one cell has the node as an operand but does not read it.
     void need(NodeId id, std::uint32_t places) {
         places_[id] = std::max({places_[id], places, std::uint32_t{1}});
     }
 
-    /// A node that is computed in every step needs its operands in the cell itself, or around it.
+    /// Marks the operands of a node that is computed in every step. The operands are needed in the
+    /// cell itself or at its neighbours.
     void need_operands(NodeId id) {
         const Node& node = graph_[id];
         const bool is_operator = node.is<Call>() && !graph_.is_uniform(id);
         const bool at_faces = is_operator && node.type == ValueType::vector;
         const std::size_t count_of_operands = operands_of(node).size();
         for (std::size_t k = 0; k < count_of_operands; ++k) {
-            // A step-invariant is computed wherever its reader is.
+            // A step-invariant operand is computed at the same cells as its reader.
             std::uint32_t places = graph_.is_step_invariant(id) ? places_[id] : 1;
             if (at_faces) {
                 places = count(crosswise(axes_));
@@ -112,9 +116,9 @@ private:
     std::span<const NodeId> roots_;
     GridAxes axes_;
     MinimumCut cut_;
-    IdVector<NodeId, std::uint32_t>
-        places_;  ///< By node: the approximate number of cells at which it is needed; 0: none.
-    IdVector<NodeId, std::uint32_t> number_;  ///< By expensive node: its number in the network.
+    /// For each node, the approximate number of cells at which it is needed.
+    IdVector<NodeId, std::uint32_t> places_;
+    IdVector<NodeId, std::uint32_t> number_;  ///< For each costly node, its part in the network.
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Step-invariants: nodes of rates that no step changes and that are computed once (internal to
-// lowering).
+// Step-invariants: nodes of rates that have the same value in all steps and are computed once per
+// stage (internal to lowering).
 #pragma once
 
 #include "lang/lower/plan_graph.h"
@@ -9,15 +9,16 @@
 
 namespace cascade::lowering {
 
-/// The nodes, in their order, that a stage computes before its first step and reads in every step.
-/// They depend on nothing that changes while the stage runs: sines of a direction that varies,
-/// entries of its tensor, functions of the place, of files and of the metric. Aggregates become
-/// numbers. Values that vary become planes, chosen to minimise the cost of a step: its remaining
-/// operations plus the reading of the planes. `roots` are needed in every step.
+/// The nodes that a stage should compute before its first step and read in every step, in order.
+/// They do not depend on anything that changes while the stage runs. Examples are sines of a
+/// direction that varies by cell, entries of a tensor with this direction, and functions of
+/// positions, files or the metric. Aggregates become numbers, and values that vary by cell become
+/// planes. The nodes are chosen so that a step costs least: its remaining operations plus the
+/// reading of these planes. `roots` are the nodes needed in every step.
 std::vector<NodeId> step_invariant_nodes(const PlanGraph& graph, std::span<const NodeId> roots);
 
-/// All step-invariant nodes that vary or are aggregates, except planes, and that other nodes read,
-/// so that the remaining nodes do not depend on the place.
+/// All step-invariant nodes that nodes of other kinds read and that vary by cell or are aggregates,
+/// except planes. If these are known, no other node depends on position.
 std::vector<NodeId> largest_step_invariants(const PlanGraph& graph, std::span<const NodeId> roots);
 
 }  // namespace cascade::lowering

@@ -1,9 +1,10 @@
-// Operators on a surface, expressed in columns and rows.
+// Rewrites operators on a surface as operations along columns and rows.
 //
-// p, q and r are the entries 11, 12 and 22 of Ṽ⁻¹, and s is the area of the cell
+// In this file, p, q and r are the entries 11, 12 and 22 of Ṽ⁻¹, and s is the area of the cell
 // (surface/parameter_surface.h). A gradient on the surface is Ṽ⁻ᵀ∇. The flow through the faces of a
-// cell is s Ṽ⁻¹ times the flux. Vectors are kept as such flows, so that their divergence is that of
-// the plane, and a gradient is a tensor times ∇. Spec/surfaces.md has the formulas.
+// cell is s Ṽ⁻¹ times the flux. Vectors are represented by such flows. So their divergence is
+// computed as on a plane, and the flow of a gradient is a tensor times ∇. spec/surfaces.md has the
+// formulas.
 #include "lang/lower/graph_passes.h"
 
 #include <optional>
@@ -30,7 +31,7 @@ class SurfaceOperators : public GraphPass {
         return {entry(0), entry(1), entry(2)};
     }
 
-    /// Ṽ⁻¹ A Ṽ⁻ᵀ: A in terms of columns and rows.
+    /// Ṽ⁻¹ A Ṽ⁻ᵀ, which is A expressed in columns and rows.
     Term in_cells(NodeId of) {
         const auto [a11, a12, a22] = entries(of);
         const Term p = this->p(), q = this->q(), r = this->r();
@@ -41,7 +42,7 @@ class SurfaceOperators : public GraphPass {
         return tensor(along, mixed, square(r) * a22);
     }
 
-    /// s Ṽ⁻¹ A Ṽ⁻ᵀ: times ∇e it is the flow of the flux A grad(e).
+    /// s Ṽ⁻¹ A Ṽ⁻ᵀ. Multiplied by ∇e, it gives the flow of the flux A grad(e).
     Term flow_tensor(NodeId of) {
         const auto [a11, a12, a22] = entries(in_cells(of));
         const Term along = s() * a11, mixed = s() * a12;
@@ -54,7 +55,7 @@ class SurfaceOperators : public GraphPass {
         return tensor(along, mixed, leaf(MetricPlane::flow_22)) * gradient;
     }
 
-    /// The flow of vector(along, across), with both components on the surface.
+    /// The flow of vector(along, across). Both components are along the surface.
     Term flow_of_vector(Term along, Term across) {
         const Term area = s(), column = in_columns(along, across), row = r() * across;
         const Term first = area * column;
@@ -67,8 +68,8 @@ class SurfaceOperators : public GraphPass {
         return sum_of_products(p(), along, q, across);
     }
 
-    /// The flow of A v: applies A to the gradients and vectors that v consists of in the old graph.
-    /// Nodes come before their readers there, so flows are built in ascending order.
+    /// The flow of A v. Applies A to the gradients and vectors of which v consists in the old
+    /// graph. In that graph nodes come before their readers, so flows are built in ascending order.
     NodeId flow_times_tensor(NodeId a, NodeId v) {
         IdVector<NodeId, bool> reached(v.index() + 1, false);
         IdVector<NodeId, NodeId> flows(reached.size());
@@ -105,7 +106,7 @@ class SurfaceOperators : public GraphPass {
         return flows[v];
     }
 
-    /// The derivatives along the two directions of the tangent plane.
+    /// The derivative along each of the two directions of the tangent plane.
     Term along_row(Term of) {
         const Term p = this->p();
         return p * dx(of);
@@ -151,8 +152,9 @@ Expressions lay_on_surface(const Expressions& from, const PassContext& context) 
     return SurfaceOperators(from, context).run();
 }
 
-/// The derivative over √g, where g is the diagonal entry of Ṽ⁻¹Ṽ⁻ᵀ in the cell itself. Coefficients
-/// of flows are mirrored, too, so the flow is the derivative times the length of the face.
+/// The derivative divided by √g, where g is the diagonal entry of Ṽ⁻¹Ṽ⁻ᵀ in the cell itself.
+/// Coefficients of flows are mirrored at sides, too, so the flow is the derivative times the length
+/// of the face.
 NodeId across_side(ExpressionGraph& graph, const PassContext& context, NodeId value, Side side) {
     if (!context.has_metric()) return value;
     const auto leaf = [&](MetricPlane plane) { return Term{&graph, graph.leaf(plane)}; };

@@ -1,4 +1,4 @@
-// The plans of sweeps: the form applied to the rates and inputs of every species.
+// Makes the plans of sweeps.
 #include "core/check.h"
 #include "lang/lower/cell_equations.h"
 #include "lang/lower/lower.h"
@@ -14,7 +14,7 @@ namespace lowering {
 
 namespace {
 
-/// The results of a sweep: the form applied to the rates and inputs of every species.
+/// Emits the results of a sweep: applies the form to the rates and inputs of every species.
 class SweepEmitter {
 public:
     SweepEmitter(const Program& program, std::uint32_t stage, const SweepForm& form)
@@ -65,7 +65,7 @@ private:
         return std::find(species_.begin(), species_.end(), item) != species_.end();
     }
 
-    /// A species in an input, in the cell itself. Formulas read input 0.
+    /// The value of a species in an input, in the cell itself. Formulas read input 0.
     ValueId input(PlanBuilder& plan, std::uint32_t input, ItemId item) const {
         if (input == 0) return plan.last_pass().field(StageItem{stage_, item});
         return plan.last_pass().field(SweepInput{input, item});
@@ -86,8 +86,8 @@ private:
                 break;
             case SweepTerm::Source::rate:
                 value = plan.value(rates_[item])[0];
-                // Otherwise a method that combines or filters rates would let a cell at its bound
-                // affect others.
+                // Without this, a cell whose value is at a bound would affect other cells in
+                // methods that combine or filter rates.
                 if (kind != SweepOutput::Kind::change && !form_.ignores_held_rates) break;
                 if (const auto held = is_held(plan, item)) {
                     value = builder.select(*held, builder.number(0), value);
@@ -117,7 +117,7 @@ private:
         return *sum;
     }
 
-    /// Solves the form's equations; all species are written.
+    /// Solves the form's equations, in which all species are unknown.
     void solve(PlanBuilder& plan) {
         KernelBuilder& builder = plan.last_pass().builder();
         const SweepForm::Equations& equations = *form_.equations;
@@ -174,7 +174,7 @@ private:
         }
     }
 
-    /// Invariants in order of writing.
+    /// Clamps the values by the bounds, in the order in which these are written.
     void clamp(PlanBuilder& plan, IdVector<ItemId, ValueId>& next) const {
         KernelBuilder& builder = plan.last_pass().builder();
         for (const auto& [invariant, part] : bounds_) {
@@ -185,8 +185,8 @@ private:
         }
     }
 
-    /// Is a value in input 0 at a bound that its rate would carry it across? Empty if there is no
-    /// bound.
+    /// Whether the value in input 0 is at a bound and its rate points beyond the bound. Empty if
+    /// the species has no bound.
     std::optional<ValueId> is_held(PlanBuilder& plan, ItemId item) const {
         KernelBuilder& builder = plan.last_pass().builder();
         const ValueId zero = builder.number(0);
@@ -211,11 +211,11 @@ private:
     std::uint32_t stage_;
     const SweepForm& form_;
     const System& system_;
-    std::vector<ItemId> species_;  ///< Items that are written.
+    std::vector<ItemId> species_;  ///< The species that are written.
     IdVector<ItemId, NodeId> rates_;
-    IdVector<SpeciesId, std::vector<NodeId>> derivatives_;     ///< For equations.
-    IdVector<ItemId, ValueId> solution_;                       ///< Of them.
-    std::vector<std::pair<const Invariant*, NodeId>> bounds_;  ///< Of species that are written.
+    IdVector<SpeciesId, std::vector<NodeId>> derivatives_;     ///< For `equations`.
+    IdVector<ItemId, ValueId> solution_;                       ///< The solution of `equations`.
+    std::vector<std::pair<const Invariant*, NodeId>> bounds_;  ///< The bounds of `species_`.
 };
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Equal expressions become one node of the graph, so each value may be asked for again and again.
+// Builds vectors, frames and values of links from nodes. Equal expressions become one node, so a
+// value may be requested any number of times.
 #include "lang/lower/tissue_numbers.h"
 
 #include <array>
@@ -10,8 +11,9 @@ TermVector TissueNumbers::items(ItemId first) {
     return {item(0), item(1), item(2)};
 }
 
-/// A column of the rotation matrix of the quaternion q = (w, x, y, z), divided by |q|²: for ex
-/// (1 − 2 (y² + z²)/|q|², 2 (xy + wz)/|q|², 2 (xz − wy)/|q|²), and so on in turn.
+/// Column `axis` of the rotation matrix of the quaternion q = (w, x, y, z), divided by |q|². For ex
+/// it is (1 − 2 (y² + z²)/|q|², 2 (xy + wz)/|q|², 2 (xz − wy)/|q|²). The other axes follow by
+/// cyclic exchange.
 TermVector TissueNumbers::axis(std::size_t axis) {
     std::array<Term, 4> q;
     for (std::size_t k = 0; k < 4; ++k) q[k] = leaf(ItemId(rules_.frame.index() + k));
@@ -40,7 +42,7 @@ TermVector TissueNumbers::apart() {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         apart[axis] = theirs(apart[axis]) - apart[axis];
         if (domain.model || sides[axis] == 1 || boundaries[axis] != Boundary::periodic) continue;
-        // Less the nearest whole number of periods.
+        // Subtracts the nearest multiple of the period.
         const auto period =
             static_cast<double>(sides[axis]) / static_cast<double>(grid.longest_side());
         const Term periods = period == 1 ? apart[axis] : apart[axis] / leaf(period);
@@ -50,7 +52,7 @@ TermVector TissueNumbers::apart() {
     return apart;
 }
 
-/// r + r'.
+/// The sum r + r' of both radii.
 Term TissueNumbers::radii() {
     const Term radius = leaf(rules_.radius);
     return radius + theirs(radius);

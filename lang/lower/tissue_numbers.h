@@ -1,5 +1,5 @@
-// Vectors, frames and links of cells that crawl as numbers of an expression graph (internal to
-// lowering).
+// Expresses vectors, frames and links of cells that crawl by numbers in an expression graph
+// (internal to lowering).
 #pragma once
 
 #include "lang/lower/graph_passes.h"
@@ -9,7 +9,7 @@
 
 namespace cascade::lowering {
 
-/// Adds nodes to a graph of a stage of cells that crawl.
+/// Adds nodes to the graph of a stage of cells that crawl.
 class TissueNumbers {
 public:
     TissueNumbers(ExpressionGraph& graph, const PassContext& context)
@@ -19,16 +19,18 @@ public:
 
     Term term(NodeId id) { return {&graph_, id}; }
     Term leaf(const NodeKind& kind) { return term(graph_.leaf(kind)); }
-    /// Three items that follow each other.
+    /// The vector of three consecutive items.
     TermVector items(ItemId first);
     TermVector place() { return items(rules_.place); }
     /// An axis of the cell's frame: 0 is ex, 1 ey, 2 ez.
     TermVector axis(std::size_t axis);
 
-    // Of a link.
-    /// The value of a plane at the other end; a number is the same there.
+    // Values of a link.
+    /// The value of a plane at the other end of the link. A number that is not a plane has the same
+    /// value there.
     Term theirs(Term plane);
-    /// From the cell to its neighbour, on periodic planes to the nearest image of it.
+    /// The vector from the cell to its neighbour. On periodic planes it leads to the neighbour's
+    /// nearest image.
     TermVector apart();
     Term distance() { return length(apart()); }
     TermVector direction() { return unit(apart()); }

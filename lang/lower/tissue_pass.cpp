@@ -1,13 +1,13 @@
-// Formulas of cells that crawl: vectors become three numbers each, and sums over neighbours become
-// sums over links.
+// Rewrites formulas of cells that crawl: vectors become three numbers each, and sums over
+// neighbours become sums over links.
 //
-// Inside of a sum over neighbours names are the neighbour's, so a node has up to two images: its
-// value in the cell (`here`) and its value at the other end of a link (`there`). There, a node that
-// reads no value of the link is the neighbour's alone: either `theirs` of its plane, which an
-// earlier pass writes, or computed for each link from the planes it is made of, if that is cheap. A
-// sum is canonical: the link_sum of a choice between the value and 0 by whether the cells touch.
-// Distances and choices are equal nodes of all sums, and kernels compute all sums in one loop over
-// links.
+// Inside a sum over neighbours, names mean the neighbour's values. So a node has up to two images:
+// its value in the cell (`here`), and its value at the other end of a link (`there`). A node that
+// reads no value of the link depends only on the neighbour. Its image `there` is either read from a
+// plane that an earlier pass writes (`theirs`), or, if that is cheap, computed for each link from
+// the planes that the node reads. All sums have the same form: link_sum of the value if the cells
+// touch, else of 0. All sums share the nodes of distances and of the conditions for touching, and
+// kernels compute all sums in one loop over links.
 #include "lang/lower/graph_passes.h"
 
 #include "core/check.h"
@@ -25,7 +25,7 @@ namespace cascade::lowering {
 
 namespace {
 
-/// A number, or the three components of a vector.
+/// A number (as x), or the three components of a vector.
 using Parts = TermVector;
 
 /// The approximate number of neighbours.
@@ -50,9 +50,9 @@ public:
 
 private:
     struct Facts {
-        bool is_of_link = false;  ///< It reads a value of the link, or own(e).
-        bool stays = false;       ///< It cannot be computed for a neighbour.
-        int operations = 0;       ///< That compute it from planes.
+        bool is_of_link = false;  ///< Whether it reads a value of the link, or own(e).
+        bool stays = false;       ///< Whether it cannot be computed for a neighbour.
+        int operations = 0;       ///< How many operations compute the node from planes.
         bool read_here = false, read_there = false;
     };
 
@@ -128,9 +128,10 @@ void TissuePass::find_facts() {
     }
 }
 
-/// Is the neighbour's value read from a plane, and not computed for each link? For nodes that vary
-/// and are not of the link. Axes of frames are, too: combing six neighbours takes 22 ns per cell by
-/// planes of ez, with the pass that writes them, and 26 ns by gathering quaternions.
+/// Whether the neighbour's value is read from a plane instead of being computed for each link. Only
+/// for nodes that vary and do not depend on the link. Axes of frames are read from planes: combing
+/// with six neighbours takes 22 ns per cell with planes of ez, including the pass that writes them,
+/// and 26 ns if the quaternions are read at the neighbours instead.
 bool TissuePass::is_gathered(NodeId id) const {
     const Facts& facts = facts_[id];
     return facts.stays || facts.operations == 0 ||
@@ -235,7 +236,7 @@ Parts TissuePass::value_of_link(CellValue value) {
     CHECK(false, "lowering: other values are gathered from planes");
 }
 
-/// A function of values at the same end.
+/// The result of a function whose operands are all taken at the same end of the link.
 Parts TissuePass::combined(NodeId id, std::span<const Parts> operands) {
     const Node& node = from_.graph[id];
     return of_components<Term>(from_.graph, node, operands, [&](const auto& numbers) {
@@ -273,7 +274,7 @@ Parts TissuePass::over_neighbours(const Node& node) {
     return parts;
 }
 
-/// sum(contact * (e - own(e)) over touching).
+/// Rewrites lap(e) as sum(contact * (e - own(e)) over touching).
 Parts TissuePass::laplacian(const Node& node) {
     const NodeId of = node.operands[0];
     if (is_uniform_[of]) return {numbers_.leaf(0.0)};

@@ -1,5 +1,5 @@
-// Takes the comments at the top of a text as its description, found among its words without a
-// syntax tree.
+// Takes the comments at the top of a text as its description. The comments are found among the
+// text's words, without a syntax tree.
 #include "lang/print/library_note.h"
 
 #include "lang/format/format_words.h"
@@ -21,13 +21,14 @@ std::string in_small_letters(std::string_view text) {
     return result;
 }
 
-/// A comment without its `#` signs.
+/// The text of a comment without its `#` signs.
 std::string_view said_in(std::string_view comment) {
     comment.remove_prefix(std::min(comment.find_first_not_of("# \t"), comment.size()));
     return comment;
 }
 
-/// The parts that a text without a stage needs besides its first block to be run and drawn.
+/// The blocks to add after the first block of a text without a stage, so that the text can be run
+/// and drawn.
 std::string rest_of_script(const ast::Block& block, std::string_view name) {
     if (block.kind == ast::BlockKind::shape) {
         return fmt::format(

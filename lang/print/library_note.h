@@ -1,4 +1,4 @@
-// The description of a text of the library, to read and to search.
+// Descriptions of the texts of the library, for readers and for searches.
 #pragma once
 
 #include "lang/library/library.h"
@@ -10,19 +10,20 @@
 namespace cascade {
 
 struct LibraryNote {
-    std::string about;               ///< The first sentence of the head, on one line.
-    std::vector<std::string> lines;  ///< The lines of the head: description and sources.
-    std::string words;               ///< Its name, comments and strings, in lower case.
+    std::string about;               ///< The first sentence of the comment at the top.
+    std::vector<std::string> lines;  ///< The lines of the comment at the top, with the description
+                                     ///< and the sources.
+    std::string words;               ///< The name, comments and strings of the text, in lower case.
 
-    /// True if the word occurs in the name, the comments or the strings, regardless of case.
+    /// Whether the word occurs in the name, the comments or the strings, regardless of case.
     bool mentions(std::string_view word) const;
 };
 
-/// Reads the description of a text. Its head is the comment at its top.
+/// Reads the description of a text from the comment at its top.
 LibraryNote note_of(const LibraryText& text);
 
-/// A script to start from: the library's text of a system, of cells or of a shape, completed to run
-/// if it has no stage.
+/// A script with which users can begin: the text of a library system, of cells or of a shape. If
+/// the text has no stage, a stage is added, so that the script can run.
 std::string starting_script(const LibraryText& text);
 
 }  // namespace cascade

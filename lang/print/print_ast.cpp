@@ -1,5 +1,5 @@
-// The syntax tree as text, for `--dump ast`: blocks and statements indented, expressions in prefix
-// form, `(+ a (* 2 b))`, which shows how operators bind.
+// Prints the syntax tree for `--dump ast`. Blocks and statements are indented. Expressions are in
+// prefix form, `(+ a (* 2 b))`, which shows how operators bind.
 #include "lang/syntax/parse.h"
 
 #include <fmt/core.h>
@@ -20,7 +20,7 @@ std::string print_number(double value) {
     return {buffer.data(), end};
 }
 
-/// Prints expressions with an explicit stack, so that they may be arbitrarily deep.
+/// Prints expressions. Its stack is explicit, so expressions may be arbitrarily deep.
 class ExpressionPrinter {
 public:
     explicit ExpressionPrinter(const ast::Script& script) : script_(script) {}
@@ -43,7 +43,7 @@ public:
     }
 
 private:
-    /// An operator whose operands are being printed.
+    /// An operator, some of whose operands have not been printed yet.
     struct Work {
         std::vector<ast::ExprId> operands;
         std::size_t next = 0;

@@ -1,4 +1,5 @@
-// Formulas as text, without recursion: a stack holds the nodes and strings still to be written.
+// Prints formulas without recursion. A stack contains the nodes and strings that still have to be
+// written.
 #include "lang/print/print_formula.h"
 
 #include "core/overloaded.h"
@@ -13,7 +14,8 @@ namespace cascade {
 
 namespace {
 
-/// A node to write inside an operator that needs at least this precedence.
+/// A node to write inside an operator. The node gets brackets if its precedence is below the
+/// precedence needed.
 struct Part {
     NodeId node;
     int least = 0;
@@ -44,8 +46,8 @@ private:
     void push(Item item) { stack_.push_back(item); }
 
     void write(const Part& part) {
-        // Writes a node with several users, such as the argument of a function, once for each, up
-        // to a limit.
+        // A node that several nodes read, such as the argument of a function, is written for each
+        // of them, up to a limit.
         if (++written_ > formula_.nodes.size() + most_repeated) {
             text_ += "…";
             return;
@@ -141,7 +143,7 @@ private:
             [](double number) { return fmt::format("{}", number); },
             [&](TextId id) { return fmt::format("\"{}\"", program_.literals->text(id)); },
             [&](ItemId item) {
-                // The position is the only vector among the items.
+                // Of all items, only the position is a vector.
                 const std::string_view name =
                     node.type == ValueType::vector ? "p" : system_.item_name(item);
                 return fmt::format(fmt::runtime(stage_ ? "[{}]" : "{}"), name);

@@ -1,4 +1,5 @@
-// Formulas as text (internal to lang/): resolved names, as few brackets as the precedences allow.
+// Formulas as text (internal to lang/), with resolved names and as few brackets as precedences
+// allow.
 #pragma once
 
 #include "lang/program/program.h"
@@ -8,11 +9,12 @@
 
 namespace cascade {
 
-/// A value of a model's surface, as written in a script.
+/// A value of a model's surface, in the notation of scripts.
 std::string text_of(const SurfaceValue& value);
 
-/// The formula in the language itself. With a `stage`, its own items are [p], as in its statements,
-/// and items of other stages are stage.p. Without one, names of the system are bare.
+/// The formula in the notation of scripts. If `stage` is given, items of this stage are written [p]
+/// and items of other stages stage.p, as in statements of this stage. Otherwise names of the system
+/// are written without brackets or prefix.
 std::string print_formula(const Program& program, const System& system, const Formula& formula,
                           std::optional<std::uint32_t> stage = {});
 

@@ -1,4 +1,4 @@
-// The checked program as text, for `--dump program`.
+// Prints the checked program for `--dump program`.
 #include "lang/print/print_formula.h"
 #include "lang/program/models.h"
 #include "lang/program/program.h"
@@ -29,7 +29,8 @@ void print_settings(const Program& program, const System& system, Output out) {
     print("show", settings.show);
 }
 
-/// The starting value of an item. A frame's would fill pages: its two axes are named instead.
+/// The starting value of an item. For a frame, prints the two axes that determine it, because its
+/// formulas would fill pages.
 std::string print_start(const Program& program, const System& system, ItemId item,
                         const Formula& start, std::optional<std::uint32_t> stage) {
     const bool is_of_axes = system.cells && system.cells->has_component(item) &&
@@ -100,6 +101,7 @@ void print_time(const Program& program, const System& system, const Stage& stage
     if (time.duration_in_steps) {
         fmt::format_to(out, "  duration: {} * [speed]\n", *time.duration_in_steps);
     }
+    if (time.every > 0) fmt::format_to(out, "  every: {}\n", time.every);
     if (time.automatic_speed) fmt::format_to(out, "  speed: auto\n");
     if (time.steady) fmt::format_to(out, "  until: steady({})\n", *time.steady);
     if (time.until) {
@@ -135,7 +137,7 @@ void print_sides(const Program& program, std::uint32_t index, std::string_view n
     const System& system = program.system_of(index);
     for (std::size_t side = 0; side < wall_count; ++side) {
         const SideSetting& setting = sides[side];
-        if (setting.span.end == 0) continue;  // Same as the boundary.
+        if (setting.span.end == 0) continue;  // The rule comes from the boundary.
         fmt::format_to(out, "  {}.{}: {}", name, side_names[side],
                        side_kind_words[static_cast<std::size_t>(setting.kind)]);
         if (takes_value(setting.kind)) {
@@ -152,6 +154,7 @@ void print_stage(const Program& program, std::uint32_t index, Output out) {
     fmt::format_to(out, "  iterations: {}\n  interval: {}\n", stage.iterations, stage.interval);
     print_time(program, system, stage, index, out);
     if (stage.size) fmt::format_to(out, "  size: {}\n", stage.size->wanted);
+    if (stage.cell_size > 0) fmt::format_to(out, "  size: {}\n", stage.cell_size);
     if (system.cells) print_start_of_cells(program, system, stage, index, out);
     for (const ItemId item : stage.order) {
         fmt::format_to(out, "  {}: {}  # {}\n", system.item_name(item),

@@ -1,4 +1,4 @@
-// Tokens as text, for `--dump tokens`.
+// Prints tokens for `--dump tokens`.
 #include "core/utf8.h"
 #include "lang/syntax/token.h"
 
@@ -10,13 +10,13 @@ namespace cascade {
 
 namespace {
 
-/// True for tokens printed with their text.
+/// Whether a token of this kind is printed with its text.
 bool has_own_text(TokenKind kind) {
     return kind == TokenKind::name || kind == TokenKind::number || kind == TokenKind::text ||
            kind == TokenKind::garbage;
 }
 
-/// A string on one line, whatever its bytes.
+/// A string on one line, with unprintable bytes escaped.
 std::string quoted(std::string_view text) {
     std::string result = "\"";
     for (std::size_t offset = 0; offset < text.size();) {
@@ -46,7 +46,8 @@ std::string_view spelling(TokenKind kind) {
 
 std::string print_tokens(const std::vector<Token>& tokens, const Sources& sources) {
     std::string result;
-    // Counts columns from the previous token, so that the time is linear in the length of a line.
+    // Counts columns from the previous token on, so that the time grows only linearly with the
+    // length of a line.
     Location last{1, 1};
     std::uint32_t last_offset = 0;
     for (const Token& token : tokens) {

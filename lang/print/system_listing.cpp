@@ -1,4 +1,5 @@
-// Reads the statements of the syntax tree, so that values are printed as they were written.
+// Lists the values of a system. Reads them from the syntax tree, so values are printed as their
+// author wrote them.
 #include "lang/print/system_listing.h"
 
 #include "lang/library/system_statements.h"
@@ -94,7 +95,7 @@ std::vector<std::string> system_words(const ast::Script& script, const Sources& 
 
 std::string print_system_listing(const ast::Script& script, const Sources& sources,
                                  std::string_view system) {
-    constexpr std::size_t widest_value = 24;  // A longer one shifts the columns after it.
+    constexpr std::size_t widest_value = 24;  // A longer value shifts the columns after it.
     const SystemStatements statements(script, sources, system_blocks(script), system);
     std::vector<Row> rows;
     std::size_t name_width = 0, value_width = 0, range_width = 0;

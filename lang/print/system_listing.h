@@ -1,5 +1,5 @@
-// A list of a system's settable values: species, parameters and settings with their defaults as the
-// author wrote them, ranges and doc comments.
+// Lists the values of a system that users can set: species, parameters and settings, with defaults
+// as their author wrote them, ranges and doc comments.
 #pragma once
 
 #include "core/source.h"
@@ -11,8 +11,8 @@
 
 namespace cascade {
 
-/// The description of a system: its doc comment and its texts (`title: "…"`), one line each, after
-/// those of its bases.
+/// The description of a system: its doc comment and its texts (`title: "…"`), one line each.
+/// Descriptions of its bases come first.
 std::vector<std::string> system_words(const ast::Script& script, const Sources& sources,
                                       std::string_view system);
 

@@ -1,4 +1,4 @@
-// Finds which values read which.
+// Finds the values that each value of a system reads.
 #include "lang/program/dependencies.h"
 
 namespace cascade {

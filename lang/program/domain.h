@@ -1,4 +1,4 @@
-// The domain: a grid, a surface or a model, its mask and its sides.
+// The domain: a grid, a surface or a model, with its mask and its sides.
 #pragma once
 
 #include "core/axis.h"
@@ -14,21 +14,24 @@
 
 namespace cascade {
 
-/// A surface in space on which the grid lies.
+/// A surface in space, over which the grid is laid.
 struct SurfaceSettings {
-    std::array<Formula, 3> position;  ///< Of numbers, coordinates and functions of numbers.
-    bool has_metric = true;           ///< False: cells count as squares.
-    std::optional<double> unit;       ///< Length of one unit; empty: see DomainSettings::detail.
+    std::array<Formula, 3> position;  ///< Made of numbers, coordinates and functions of numbers.
+    bool has_metric = true;  ///< Whether operators account for the sizes of cells. If false, all
+                             ///< cells count as equal squares.
+    std::optional<double>
+        unit;  ///< The length of one unit. If empty, DomainSettings::detail determines it.
     Span span;
 };
 
-/// A domain of any shape: the cells of the grid that belong to it.
+/// A domain of any shape. A formula decides which cells of the grid belong to it.
 struct MaskSettings {
-    Formula formula;  ///< Neither 0 nor NaN in cells of the domain. Reads no item.
-    Span span;        ///< Of the expression.
+    Formula formula;  ///< A cell belongs to the domain if the value is neither 0 nor NaN. Reads no
+                      ///< items.
+    Span span;        ///< The span of the expression.
 };
 
-/// The source of a surface over which cells are spread.
+/// The surface over which cells are spread.
 enum class ModelShape : std::uint8_t {
     file,
     sphere,
@@ -44,68 +47,75 @@ enum class ModelShape : std::uint8_t {
     implicit
 };
 
-/// What the cells are.
+/// The positions of the cells.
 enum class ModelCellKind : std::uint8_t {
-    spread,    ///< Points spread evenly, each with its Voronoi region (Turk).
-    faces,     ///< The triangles of the model.
-    vertices,  ///< Its points.
+    spread,    ///< Points spread evenly over the surface. A cell is the Voronoi region of a point
+               ///< (Turk).
+    faces,     ///< One in each triangle of the model.
+    vertices,  ///< One at each vertex of the model.
 };
 
 /// How differences between neighbours are weighted.
 enum class ModelLaplacian : std::uint8_t {
-    finite_volumes,  ///< The length of the Voronoi edge over the distance and the cell's area.
-    turk,            ///< Lengths of Voronoi edges, scaled so that their sum is 4.
+    finite_volumes,  ///< Voronoi edge length / (distance · area of the cell).
+    turk,            ///< Voronoi edge length, scaled so that the weights of a cell add up to 4.
 };
 
-/// The direction in which cells, and patterns, are stretched.
+/// The directions along which cells, or patterns, are stretched.
 struct DirectionSettings {
     enum class Kind : std::uint8_t { axis, gradient, curvature_high, curvature_low, keys };
     Kind kind = Kind::axis;
-    /// For an axis its vector; for keys groups of a position and a vector.
+    /// For `axis`, a vector. For `keys`, a position and a vector for each key.
     std::vector<double> numbers;
-    std::optional<Formula> height;  ///< For a gradient: a formula of numbers and x, y and z.
-    double smoothing = 0;           ///< Standard deviation, in longest sides of the model.
+    std::optional<Formula> height;  ///< For `gradient`: a formula of numbers, x, y and z. The
+                                    ///< direction is its gradient.
+    double smoothing = 0;  ///< The standard deviation of the smoothing, in units of the model's
+                           ///< longest side.
     Span span;
 };
 
-/// A surface in space whose cells are the domain: the file of a model, or a shape.
+/// A surface in space whose cells are the domain: a model in a file, or a shape.
 struct ModelSettings {
     ModelShape shape = ModelShape::file;
-    std::string path;                 ///< For a file.
-    std::vector<double> sizes;        ///< Of a torus (two radii), a box (three sides) or a knot.
-    std::optional<Formula> implicit;  ///< The surface is where this is 0.
+    std::string path;           ///< The path of the model's file.
+    std::vector<double> sizes;  ///< The numbers of a shape: two radii of a torus, three sides of a
+                                ///< box, or the radius of a knot's tube.
+    std::optional<Formula> implicit;  ///< A formula that is 0 on the surface.
     ModelCellKind cells = ModelCellKind::spread;
-    std::int64_t count = 16384;  ///< Of spread cells.
+    std::int64_t count = 16384;  ///< The number of spread cells.
     ModelLaplacian laplacian = ModelLaplacian::finite_volumes;
-    std::optional<double> unit;  ///< Length of one unit; empty: see DomainSettings::detail.
-    Stance stance;               ///< What of the model becomes y and z of the script.
+    std::optional<double>
+        unit;       ///< The length of one unit. If empty, DomainSettings::detail determines it.
+    Stance stance;  ///< Which axes of the model become y and z of the script.
     std::optional<DirectionSettings> directions;
     double stretch = 2;  ///< The ratio of length to width of cells along the directions.
-    Span span;           ///< Of the name of the model.
+    Span span;           ///< The span of the model's name.
 };
 
-/// The cells that operators of derivatives read on a grid.
+/// Which cells the operators of derivatives read on a grid.
 enum class StencilKind : std::uint8_t {
-    cross,      ///< Those beside the cell along the axes.
-    isotropic,  ///< Those across two axes as well, in lap.
-    fourth,     ///< Two cells along each axis, for errors of fourth order.
+    cross,      ///< The neighbours along the axes.
+    isotropic,  ///< For lap, also the diagonal neighbours.
+    fourth,     ///< Two cells in each direction along each axis. The errors are of fourth order.
 };
 
 struct DomainSettings {
-    Grid grid;                               ///< 64 × 64, periodic, unless said otherwise.
-    std::optional<ModelSettings> model;      ///< Then the grid is linked.
-    std::optional<MaskSettings> mask;        ///< Without one all cells of the grid.
-    std::optional<SurfaceSettings> surface;  ///< Without one the plane.
+    Grid grid;                               ///< Usually 64 × 64 and periodic.
+    std::optional<ModelSettings> model;      ///< If given, the grid is linked.
+    std::optional<MaskSettings> mask;        ///< If not given, the domain is the whole grid.
+    std::optional<SurfaceSettings> surface;  ///< If not given, the grid is flat.
     StencilKind stencil = StencilKind::cross;
     std::uint32_t seed = 1;
-    Precision precision = Precision::single;  ///< Of all numbers of a run.
-    bool fast = false;  ///< Steps are computed with fewer roundings (ir/contraction.h).
-    /// Cells are this many times as short as the script says, along each axis, in a domain of the
-    /// same lengths. On surfaces and models without a unit the mean cell has the area 1 / detail².
+    Precision precision = Precision::single;  ///< The precision of all numbers of a run.
+    bool fast = false;  ///< Whether steps use fewer roundings (ir/contraction.h).
+    /// Along each axis, the length of a cell is the length in the script divided by this number.
+    /// The lengths of the domain do not change. On surfaces and models without a unit, the mean
+    /// cell has the area 1 / detail².
     std::int64_t detail = 1;
-    /// Cells are this many times as wide as the script says, in a domain of the same lengths.
+    /// The width of a cell is the width in the script times this number. The lengths of the domain
+    /// do not change.
     std::int64_t coarse = 1;
-    std::array<std::optional<SideSetting>, wall_count> sides;  ///< Of all species.
+    std::array<std::optional<SideSetting>, wall_count> sides;  ///< The rules for all species.
 };
 
 }  // namespace cascade

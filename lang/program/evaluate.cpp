@@ -1,4 +1,4 @@
-// One loop over the flat list of nodes, in which operands come first.
+// Evaluates formulas in one loop over the flat list of nodes, in which operands come first.
 #include "lang/program/evaluate.h"
 
 #include "core/check.h"
@@ -10,7 +10,7 @@ namespace cascade {
 
 void evaluate(const Formula& formula, const KnownValues& known, std::span<double> values) {
     const std::size_t places = values.size();
-    // A column for each node but the last, whose column is the result.
+    // A column for each node except the last, for which `values` is used.
     std::vector<double> columns((formula.nodes.size() - 1) * places);
     for (const NodeId id : formula.nodes.ids()) {
         const Node& node = formula.nodes[id];

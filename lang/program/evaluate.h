@@ -1,5 +1,5 @@
-// Evaluates formulas at places in binary64 while a script is prepared: shapes of surfaces and other
-// values that must be more exact than those of cells.
+// Evaluates formulas at positions, in binary64, while a script is prepared. Used for shapes of
+// surfaces and for other values that must be more exact than the values of cells.
 #pragma once
 
 #include "lang/program/fold.h"
@@ -11,19 +11,20 @@
 
 namespace cascade {
 
-/// Sets the values of a node that is neither a number nor a function of numbers, at several places:
-/// values[k] at place k, where its operands have the k-th numbers of their columns. Returns false
-/// for all other nodes.
+/// Sets values[k] to the value of a node at position k, and returns true, if the node has a value
+/// that is neither a number nor a function of numbers. The k-th number of each column is the value
+/// of an operand at position k. Returns false for all other nodes.
 using KnownValues = std::function<bool(const Node&, const OperandColumns&, std::span<double>)>;
 
-/// Sets values[k] to the value of a formula at place k: of numbers, known values and functions of
-/// numbers. Node by node, each at all places; some hundred places at a time stay in the caches.
+/// Sets values[k] to the value of a formula at position k. The formula may consist of numbers,
+/// known values and functions of numbers. Computes one node after another, each at all positions,
+/// so callers should pass only some hundred positions at a time, which fit into the caches.
 void evaluate(const Formula& formula, const KnownValues& known, std::span<double> values);
 
-/// Values of the built-in names, by Builtin.
+/// Values of the built-in names, indexed by Builtin.
 using BuiltinValues = std::array<double, builtin_count>;
 
-/// The value of a formula of numbers, built-in values and functions of numbers. The checker admits
+/// The value of a formula of numbers, built-in values and functions of numbers. The checker allows
 /// nothing else in such formulas (checking::Context::position).
 double evaluate(const Formula& formula, const BuiltinValues& builtins);
 

@@ -1,9 +1,9 @@
-// Expressions as one graph: equal expressions are one node (hash-consing), and operands come before
-// their readers.
+// A graph of expressions. Equal expressions are the same node (hash-consing), and operands come
+// before the nodes that read them.
 //
-// Code that works on all formulas of a system works on such a graph: calculus, which simplifies
-// while it builds (lang/calculus/algebra.h), and the passes of lowering, which turn one graph into
-// another (lang/lower/graph_passes.h).
+// All formulas of a system are put into one such graph by calculus, which simplifies them while it
+// builds (lang/calculus/algebra.h), and by lowering, whose passes turn one graph into another
+// (lang/lower/graph_passes.h).
 #pragma once
 
 #include "lang/program/program.h"
@@ -16,10 +16,11 @@
 
 namespace cascade {
 
-/// Where a node was written: the formula, and the place in it.
+/// Where a node was written: the formula, and the position in it.
 struct Written {
     static constexpr std::uint32_t nowhere = UINT32_MAX;
-    std::uint32_t formula = nowhere;  ///< `nowhere` for nodes that a rule has made.
+    std::uint32_t formula = nowhere;  ///< `nowhere` for nodes that are not in the script, such as
+                                      ///< nodes of derivatives.
     NodeId position;
 
     friend bool operator==(const Written&, const Written&) = default;
@@ -34,8 +35,8 @@ public:
     ExpressionGraph& operator=(ExpressionGraph&&) = default;
     virtual ~ExpressionGraph() = default;
 
-    /// The node that equals this one, or a new one. Its operands are nodes of this graph. Draws of
-    /// random numbers are equal if they were written in the same place.
+    /// The node that equals `node`, or a new node. The operands must be nodes of this graph. Draws
+    /// of random numbers are equal if they are written at the same position.
     NodeId add(const Node& node, Written written = {});
     NodeId number(double value) { return leaf(value); }
     /// A node without operands.
@@ -47,8 +48,8 @@ public:
     const Nodes& nodes() const { return nodes_; }
     std::size_t size() const { return nodes_.size(); }
     Written written(NodeId id) const { return written_[id]; }
-    /// The value of a sum, difference, product or quotient if an operand that is known to be 0 says
-    /// it.
+    /// The value of a sum, difference, product or quotient, if the value follows from the fact that
+    /// an operand is 0.
     std::optional<NodeId> without_zeros(Function function, NodeId a, NodeId b);
     bool is_number(NodeId id) const { return nodes_[id].is<double>(); }
     bool is_number(NodeId id, double value) const { return nodes_[id].is(value); }
@@ -58,11 +59,11 @@ private:
 
     Nodes nodes_;
     IdVector<NodeId, Written> written_;
-    /// The slot of a node in the hash table, whose size is a power of two, or the next free slot.
+    /// A hash table of all nodes. Its size is a power of two, and its entries may be empty.
     std::vector<std::optional<NodeId>> known_;
 };
 
-/// The nodes that a list of them needs, directly or through others, themselves included.
+/// For each node, whether it is one of `roots` or is needed to compute one of them.
 IdVector<NodeId, bool> needed_by(const ExpressionGraph& graph, std::span<const NodeId> roots);
 
 }  // namespace cascade

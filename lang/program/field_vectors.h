@@ -1,9 +1,10 @@
-// Vectors in systems of fields, rewritten as the operators that lowering and calculus support.
+// Rewrites vectors in systems of fields as operators that lowering and calculus support.
 //
-// A vector has two values. In a cell it is three numbers: grad(e) is (dx(e), dy(e), dz(e)), and
-// arithmetic is by components. Inside of div it is known at faces (lang/lower/lower_vectors.cpp),
-// where only these nodes exist: grad, vector, sums, differences and negatives of vectors, and
-// vectors times or divided by numbers, or multiplied by a tensor. So
+// A vector has two kinds of values. In a cell it is three numbers: grad(e) is (dx(e), dy(e),
+// dz(e)), and arithmetic works component by component. Inside div the value at faces is needed
+// (lang/lower/lower_vectors.cpp). Only these nodes have a value at faces: grad, vector, sums,
+// differences and negatives of vectors, and vectors multiplied or divided by numbers or multiplied
+// by a tensor. So
 //
 //   v.x, dot, length, curl of a vector in the plane    become numbers, made of components;
 //   cross, curl                                        become vector(…) of such numbers;
@@ -12,9 +13,9 @@
 //   mix(v, w, t)                                       becomes v + t * (w - v);
 //   along(v)                                           becomes an arc tangent of components.
 //
-// On a model diffuse(e, a1, a2, theta) becomes div(tensor(a1, a2, theta) * grad(e)).
-// Sums, differences and multiples of tensors become symmetric(…) of their entries. In the kernel of
-// a convolution `distance` and the components of `direction` become LagParts.
+// On a model diffuse(e, a1, a2, theta) becomes div(tensor(a1, a2, theta) * grad(e)). Sums,
+// differences and multiples of tensors become symmetric(…) of their entries. In the kernel of a
+// convolution, `distance` and the components of `direction` become LagParts.
 #pragma once
 
 #include "lang/program/terms.h"
@@ -25,8 +26,9 @@
 
 namespace cascade {
 
-/// The entries a11, a12 and a22 of A = R(θ) diag(a1², a2²) Rᵀ(θ), y down (Witkin & Kass, eq 6; its
-/// direction [cos θ, sin θ] and the sign of its a12 agree when y points down).
+/// The entries a11, a12 and a22 of A = R(θ) diag(a1², a2²) Rᵀ(θ), with y pointing down (Witkin &
+/// Kass, equation 6; their direction [cos θ, sin θ] and the sign of their a12 agree if y points
+/// down).
 struct TensorEntries {
     Term a11, a12, a22;
 };
@@ -34,15 +36,15 @@ TensorEntries tensor_entries(ExpressionGraph& graph, NodeId a1, NodeId a2, NodeI
 
 /// The entries of a symmetric tensor, by row and column.
 using TensorMatrix = std::array<TermVector, 3>;
-/// The matrix of a node tensor(a1, a2, theta) or symmetric(…). Entries of z of a tensor of the
-/// plane are 0. On a model it is that of ModelTensor, in space.
+/// The matrix of a node tensor(a1, a2, theta) or symmetric(…). For a tensor of the plane, entries
+/// with z are 0. On a model the result is the matrix of ModelTensor in space.
 TensorMatrix tensor_matrix(ExpressionGraph& graph, NodeId tensor, bool on_model);
 
-/// A node tensor(a1, a2, theta) in a cell of a model: T v = low v + (rest v + along (t · v) t) for
-/// a vector v in the cell's plane, t being the direction theta. Links carry low v, which damps
-/// waves of all directions, and cells the rest. a1² and a2² are brought nearer to their mean where
-/// the neighbours of a cell are spread so unevenly that the rest could make waves grow
-/// (surface/cell_frames.h).
+/// A node tensor(a1, a2, theta) in a cell of a model. For a vector v in the plane of the cell, T v
+/// = low v + (rest v + along (t · v) t), where t is the direction theta. The divergence of low v,
+/// which damps waves of all directions, is computed over links, and the second term in cells. If
+/// the neighbours of a cell are spread so unevenly that the second term could make waves grow
+/// (surface/cell_frames.h), a1² and a2² are brought nearer to their mean.
 struct ModelTensor {
     Term low, rest, along;
     TermVector t;
@@ -52,10 +54,11 @@ ModelTensor model_tensor(ExpressionGraph& graph, NodeId tensor);
 /// The directions in which the cells of a system of fields have neighbours.
 struct FieldSpace {
     std::array<bool, 3> has_axis{};
-    bool has_metric = false;  ///< On a surface of a formula: x and y are directions along it.
+    bool has_metric = false;  ///< Whether the grid is on a surface given by a formula. Then x and y
+                              ///< are directions along the surface.
     bool on_model = false;
 
-    /// Nothing for a system of cells that crawl, whose vectors lowering takes apart itself.
+    /// Empty for a system of cells that crawl, because lowering rewrites vectors of such cells.
     static std::optional<FieldSpace> of(const Program& program, const System& system);
 };
 
@@ -63,12 +66,13 @@ class FieldVectors {
 public:
     FieldVectors(ExpressionGraph& graph, const FieldSpace& space) : graph_(graph), space_(space) {}
 
-    /// Adds a node, or what stands for it. Its operands are nodes that have been added so.
+    /// Adds a node, or the nodes that replace it. The operands must have been added by this
+    /// function.
     NodeId add(const Node& node, Written written);
 
-    /// The numbers of a vector in a cell.
+    /// The three numbers of a vector in a cell.
     const SparseVector& components(NodeId vector);
-    /// The same, if something has needed them.
+    /// The three numbers of a vector if they have been computed; else null.
     const SparseVector* known_components(NodeId vector) const {
         const auto found = components_.find(vector);
         return found == components_.end() ? nullptr : &found->second;
@@ -92,7 +96,8 @@ private:
 
     ExpressionGraph& graph_;
     FieldSpace space_;
-    std::unordered_map<NodeId, SparseVector> components_;  ///< Of vectors, in a cell.
+    std::unordered_map<NodeId, SparseVector> components_;  ///< For each vector, its three numbers
+                                                           ///< in a cell.
 };
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// One loop over the nodes of each formula.
+// Puts formulas into a graph, in one loop over the nodes of each formula.
 #include "lang/program/flatten.h"
 
 #include "core/check.h"

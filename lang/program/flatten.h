@@ -1,4 +1,4 @@
-// Puts formulas into one graph; definitions and rates are replaced by their expressions.
+// Puts formulas into one graph, with definitions and rates replaced by their expressions.
 #pragma once
 
 #include "lang/program/field_vectors.h"
@@ -11,39 +11,44 @@
 
 namespace cascade {
 
-/// The source of a formula's random numbers.
+/// How the random numbers of a formula are drawn.
 struct Noise {
-    std::string origin;       ///< The name of the item or definition, or of a species with a prime.
-    bool every_step = false;  ///< New numbers in each step.
-    std::string owner = {};   ///< To whom the numbers belong; empty: the stage.
+    std::string origin;       ///< The name of the item or definition. For a rate, the name of the
+                              ///< species with a prime.
+    bool every_step = false;  ///< Whether each step draws new numbers.
+    std::string owner = {};   ///< If not empty, this name enters the hash in place of the stage's
+                              ///< name.
 };
 
-/// A formula that was put into a graph (Written::formula).
+/// A formula that was put into a graph. Written::formula is its index.
 struct Origin {
     const Formula* formula = nullptr;
     Noise noise;
 };
 
-/// Writes formulas into a graph one after another.
+/// Writes formulas into a graph, one after another.
 class Flattening {
 public:
-    /// With a space, vectors are written out (lang/program/field_vectors.h).
+    /// If `space` is given, vectors are rewritten (lang/program/field_vectors.h).
     explicit Flattening(ExpressionGraph& graph, const std::optional<FieldSpace>& space = {})
         : graph_(graph) {
         if (space) vectors_.emplace(graph, *space);
     }
 
-    /// Adds a formula and returns the node of its value. Definitions, rates and items of the stage
-    /// that it reads become the nodes known for them; items without a known node stay items.
+    /// Adds a formula and returns the node of its value. Each definition, rate and item of the
+    /// stage that the formula reads is replaced by the node that was set for it. Items for which no
+    /// node was set remain.
     NodeId add(const Formula& formula, Noise noise = {});
-    /// Adds a system's definitions and rates, each after those that it reads.
+    /// Adds a system's definitions and rates. Each is added after the definitions and rates that it
+    /// reads.
     void add_rates(const System& system);
     void set_item(ItemId item, NodeId value) { items_[item] = value; }
 
     NodeId rate(ItemId species) const { return rates_.at(species); }
     NodeId definition(DefinitionId id) const { return definitions_.at(id); }
     const std::vector<Origin>& origins() const { return origins_; }
-    /// The names of definitions and rates, by node; J.x of the components of a vector J.
+    /// The names of definitions and rates, with their nodes. Components of a vector J have names
+    /// such as J.x.
     std::vector<std::pair<NodeId, std::string>> names() const;
 
 private:

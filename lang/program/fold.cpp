@@ -1,4 +1,4 @@
-// Functions of numbers in double precision, for values that are known before a run.
+// Evaluates functions of numbers in double precision, for values that are known before a run.
 #include "lang/program/fold.h"
 
 #include <cmath>
@@ -9,7 +9,7 @@ namespace {
 
 double truth(bool value) { return value ? 1.0 : 0.0; }
 
-/// Has the sign of b. `fmod` is exact and has the sign of a.
+/// The remainder with the sign of b. `fmod` is exact but has the sign of a.
 double modulus(double a, double b) {
     const double rest = std::fmod(a, b);
     return rest != 0 && (rest < 0) != (b < 0) ? rest + b : rest;

@@ -1,4 +1,4 @@
-// Constant folding: functions of numbers that are known before the run.
+// Evaluates functions of numbers that are known before the run.
 #pragma once
 
 #include "lang/program/program.h"
@@ -9,16 +9,17 @@
 
 namespace cascade {
 
-/// The value of a function or operator of numbers; nothing if it has none (lap, random, …). There
-/// are at least three numbers, of which the first are the operands.
+/// The value of a function or operator of numbers; empty if the function cannot be evaluated before
+/// the run (lap, random, …). `operands` must have at least three numbers, of which the first are
+/// the operands.
 std::optional<double> fold(Function function, std::span<const double> operands);
 
-/// A column of numbers for each operand, as long as the results. The first three are read in any
-/// case; where a function has fewer operands, the others may be any columns.
+/// A column of numbers for each operand, as long as the results. The first three columns are always
+/// read. If a function has fewer operands, the other columns may contain any numbers.
 using OperandColumns = std::array<const double*, most_operands>;
 
-/// Sets values[k] to the function of the k-th numbers, for all k. Returns false, and sets nothing,
-/// if the function has no value.
+/// For all k, sets values[k] to the function of the k-th numbers of the columns. Returns false, and
+/// sets nothing, if the function cannot be evaluated.
 bool fold(Function function, const OperandColumns& operands, std::span<double> values);
 
 }  // namespace cascade

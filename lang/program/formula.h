@@ -1,4 +1,4 @@
-// Checked expressions: nodes whose names are resolved.
+// Checked expressions. Their nodes refer to items and definitions by ids, not by names.
 #pragma once
 
 #include "core/id.h"
@@ -16,36 +16,37 @@
 
 namespace cascade {
 
-/// What operators read of the surface, one plane each (surface/parameter_surface.h).
+/// The planes of a surface that operators read (surface/parameter_surface.h).
 // clang-format off
 enum class MetricPlane : std::uint8_t {
     inverse_11, inverse_12, inverse_22,  ///< Ṽ⁻¹.
     area,                                ///< s, the area of the cell.
-    flow_11, flow_12, flow_22,           ///< s Ṽ⁻¹ Ṽ⁻ᵀ: turns differences into fluxes.
+    flow_11, flow_12, flow_22,           ///< s Ṽ⁻¹ Ṽ⁻ᵀ, which turns differences into fluxes.
 };
 // clang-format on
 inline constexpr std::size_t metric_plane_count = 7;
-/// The name in dumps. No name of the language begins with a bracket.
+/// The names of the planes in dumps. No name of the language begins with a bracket.
 inline constexpr std::array<std::string_view, metric_plane_count> metric_names{
     "(metric 11)", "(metric 12)", "(metric 22)", "(area)", "(flow 11)", "(flow 12)", "(flow 22)"};
 
-/// What kernels read of the cells of a model, one plane each (run/domain/model_cells.h).
+/// The planes of a model's cells that kernels read (run/domain/model_cells.h).
 // clang-format off
 enum class ModelPlane : std::uint8_t {
-    number,      ///< The cell's own number, a word for draws of random numbers.
-    area,  ///< In square units; of a cell that crawls 1. 0 in the padding of the last row.
-    x, y, z,     ///< Its place in the model's box, whose longest side is 1, …
-    sx, sy, sz,  ///< … and with every side 1.
+    number,  ///< The number of the cell, a word from which random numbers are computed.
+    area,  ///< In square units; 1 for cells that crawl; 0 in the padding of the last row.
+    x, y, z,     ///< The position in the model's box, scaled to a longest side of 1.
+    sx, sy, sz,  ///< The position in the box with every side scaled to 1.
     nx, ny, nz,  ///< The outward normal, of length 1.
-    curvature,   ///< Turk's estimate, in 1 / unit.
-    // Computed when they are first read (run/domain/surface_values.h).
+    curvature,  ///< Turk's estimate of the curvature, in 1 / unit.
+    // The planes below are computed when they are first read (run/domain/surface_values.h).
     curvature_mean, curvature_high, curvature_low,  ///< In 1 / unit.
     curvature_gauss,                                ///< In 1 / unit².
-    right_x, right_y, right_z,  ///< Where the angle 0 points, of length 1 (surface/cell_frames.h),
-    down_x, down_y, down_z,     ///< and a quarter turn.
-    evenness,                   ///< By which the ratio of a directed diffusion is limited, 0 … 1.
-    place_x, place_y, place_z,  ///< The cell's place in units, from the middle of the model's box.
-    // Of cells that crawl only, in lengths of scripts.
+    right_x, right_y, right_z,  ///< The direction of angle 0 (surface/cell_frames.h), of length 1.
+    down_x, down_y, down_z,     ///< The direction a quarter turn further, of length 1.
+    evenness,  ///< How evenly the cell's neighbours are spread, 0 … 1. Limits the ratio of a
+               ///< diffusion with a direction.
+    place_x, place_y, place_z,  ///< The position in units, from the middle of the model's box.
+    // Only for cells that crawl, in the script's lengths.
     off,      ///< The signed distance from the surface, positive on the side of the normal.
     feature,  ///< The square root of the area of the nearest triangle.
 };
@@ -58,15 +59,15 @@ inline constexpr std::array<std::string_view, model_plane_count> model_names{
     "(right_x)", "(right_y)", "(right_z)", "(down_x)", "(down_y)", "(down_z)", "(evenness)",
     "(place_x)", "(place_y)", "(place_z)", "(off)", "(feature)"};
 // clang-format on
-/// Is the plane only made for formulas that read it?
+/// Whether the plane is made only if a formula reads it.
 constexpr bool is_made_when_read(ModelPlane plane) { return plane >= ModelPlane::curvature_mean; }
 
-using SystemId = Id<struct SystemTag>;  ///< Of Program::systems.
-/// A quantity of a system, or after these `frozen` or `speed`.
+using SystemId = Id<struct SystemTag>;  ///< An index into Program::systems.
+/// A quantity of a system. After the quantities come `frozen` and `speed`.
 using ItemId = Id<struct ItemTag>;
-using DefinitionId = Id<struct DefinitionTag>;      ///< Of System::definitions.
+using DefinitionId = Id<struct DefinitionTag>;      ///< An index into System::definitions.
 using TextId = Id<struct TextTag>;                  ///< A text in quotes, in Literals.
-using SurfaceValueId = Id<struct SurfaceValueTag>;  ///< In Literals.
+using SurfaceValueId = Id<struct SurfaceValueTag>;  ///< An index into Literals.
 
 /// An item of a stage.
 struct StageItem {
@@ -75,7 +76,7 @@ struct StageItem {
     bool operator==(const StageItem&) const = default;
 };
 
-/// An item of an earlier stage of fields, at the place of a cell that crawls.
+/// An item of an earlier stage of fields, at the position of a cell that crawls.
 struct SensedItem {
     StageItem item;
     bool operator==(const SensedItem&) const = default;
@@ -87,42 +88,42 @@ struct Rate {
     bool operator==(const Rate&) const = default;
 };
 
-/// True where the cell is inside the mask.
+/// True inside the mask.
 struct InsideMask {
     bool operator==(const InsideMask&) const = default;
 };
 
-/// What the kernel of a convolution knows of a lag, the vector from the cell to another one, whose
-/// value it weights.
+/// A number that the kernel of a convolution can read. It describes the lag: the vector from the
+/// cell to the cell whose value is weighted.
 enum class LagPart : std::uint8_t {
-    distance,  ///< Between their centres, in the script's unit.
+    distance,  ///< The distance between the centres of both cells, in the script's unit.
     direction_x,
     direction_y,
-    direction_z  ///< Of the unit vector along it; 0 at the distance 0.
+    direction_z  ///< Components of the unit vector along the lag; 0 at distance 0.
 };
 inline constexpr std::size_t lag_part_count = 4;
 inline constexpr std::array<std::string_view, lag_part_count> lag_part_names{
     "distance", "direction.x", "direction.y", "direction.z"};
 
-/// The field that a constraint `0 = e` determines, by the number that its constraint has in
-/// Literals. Only e reads it.
+/// The field that a constraint `0 = e` determines. `number` is the index of the constraint in
+/// Literals. Only e reads this node.
 struct Unknown {
     std::uint32_t number = 0;
     bool operator==(const Unknown&) const = default;
 };
 
-/// A function of operands.
+/// A function with operands.
 struct Call {
-    /// Of noise its octaves; of the parts of `transport` the axis; of convolve the number of its
-    /// kernel in Literals; of solved the number of its constraint; of functions of files the number
-    /// of what is read.
+    /// A number whose meaning depends on the function. For noise it is the number of octaves, for
+    /// parts of `transport` the axis. For `convolve`, `solved` and functions of files it is the
+    /// index in Literals of the kernel, the constraint or the FileReading.
     std::uint32_t detail = 0;
     bool operator==(const Call&) const = default;
 };
 
-/// What a node is. An ItemId is an item of this stage, a StageItem one of an earlier stage; of a
-/// vector they are the first of its three components. Only lowering makes nodes of the kinds from
-/// SurfaceValueId to LagPart, but that the checker makes of constants.
+/// The kinds of nodes. An ItemId is an item of this stage, and a StageItem is an item of an earlier
+/// stage. If the item is a vector, it is the first of the vector's three components. Only lowering
+/// makes the kinds from SurfaceValueId to LagPart, except that the checker makes constants.
 using NodeKind =
     std::variant<double, TextId, ItemId, StageItem, SensedItem, Builtin, CellValue, DefinitionId,
                  Rate, Call, SurfaceValueId, MetricPlane, ModelPlane, InsideMask, LagPart, Unknown>;
@@ -136,7 +137,7 @@ struct Node {
     NodeKind kind = 0.0;
     Span span = {};
     ValueType type = ValueType::number;
-    Function function = Function::add;  ///< Of a call. Other kinds have no operands.
+    Function function = Function::add;  ///< The function of a call. Other kinds have no operands.
     std::uint8_t operand_count = 0;
     Operands operands{};
 
@@ -145,7 +146,7 @@ struct Node {
         return std::holds_alternative<Kind>(kind);
     }
     bool is(const NodeKind& other) const { return kind == other; }
-    /// Null if it is of another kind.
+    /// Null if the node is of another kind.
     template <typename Kind>
     const Kind* as() const {
         return std::get_if<Kind>(&kind);
@@ -156,39 +157,42 @@ struct Node {
     bool calls(Function called) const { return is<Call>() && function == called; }
 };
 
-/// Does the node draw random numbers?
+/// Whether the node draws random numbers.
 inline bool is_draw(const Node& node) { return node.is<Call>() && is_random(node.function); }
 
-/// Does the node draw a number of its own in each cell? Noise and lattices belong to places.
+/// Whether the node draws a separate number in each cell. Noise and lattices do not, because they
+/// depend on positions.
 inline bool is_draw_in_cell(const Node& node) {
     return node.is<Call>() && info(node.function).kind == FunctionKind::draw;
 }
 
-/// Is the node an aggregate over the domain?
+/// Whether the node is an aggregate over the domain.
 inline bool is_aggregate(const Node& node) {
     return node.is<Call>() && info(node.function).is_aggregate;
 }
 
-/// How a sum, mean, min or max over cells is computed; nothing for other functions.
+/// The kind of reduction of a sum, mean, min or max over cells; empty for other functions.
 std::optional<ReductionKind> reduction_of(Function function);
 
-/// The operands whose values a node needs. Those of a constraint are computed while it is solved.
+/// The operands whose values must be computed before the node. None for a constraint, because its
+/// operand is computed while the constraint is solved.
 inline std::span<const NodeId> operands_of(const Node& node) {
     return node.calls(Function::solved) ? std::span<const NodeId>() : node.reads();
 }
 
-/// Is the node computed on whole planes?
+/// Whether the node is computed from whole planes.
 inline bool is_nonlocal(const Node& node) { return node.is<Call>() && is_nonlocal(node.function); }
 
 using Nodes = IdVector<NodeId, Node>;
 
-/// A checked expression: nodes in order, the last being the whole. Never empty.
+/// A checked expression: its nodes in order, operands first. The last node is the whole expression.
+/// Never empty.
 struct Formula {
     Nodes nodes;
 };
 
-/// The formula whose whole is `root`: the nodes of a list that `root` needs, directly or through
-/// others, in their order.
+/// The formula whose last node is `root`. It consists of all nodes that `root` needs, directly or
+/// indirectly, in the order of `nodes`.
 Formula formula_of(const Nodes& nodes, NodeId root);
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
-// What formulas name by a number: texts, kernels of convolutions, constraints, values of surfaces,
-// and what is read of files.
+// Objects to which formulas refer by an index: texts, kernels of convolutions, constraints, values
+// of surfaces, and readings of files.
 #pragma once
 
 #include "core/picture_channel.h"
@@ -12,54 +12,56 @@
 
 namespace cascade {
 
-/// Values of a model's cells that come from places on it: distance(…), keys(…) and along(…) with
-/// constant arguments.
+/// A value of a model's cells that depends on constant positions on the model: distance(…), keys(…)
+/// or along(…) with constant arguments.
 struct SurfaceValue {
     Function function = Function::distance;
-    std::vector<double> numbers;  ///< As written; of along(…) those of DirectionSettings.
-    // Of along(…):
+    std::vector<double> numbers;  ///< The arguments as they are written. For along(…),
+                                  ///< DirectionSettings::numbers.
+    // For along(…) only.
     DirectionSettings::Kind direction = DirectionSettings::Kind::axis;
     double smoothing = 0;
 
     friend bool operator==(const SurfaceValue&, const SurfaceValue&) = default;
 };
 
-/// What a function of a file reads of it.
+/// How a function of a file reads the file.
 struct FileReading {
     PictureChannel channel = PictureChannel::lightness;
-    bool is_direction = false;  ///< The angle of the direction that a picture has painted.
-    /// Where in the file, 0 … 1 from the left, from the top and from the first slice: formulas of
-    /// numbers and of where the cell is. Empty: where the domain has it.
+    bool is_direction = false;  ///< Whether the value is the angle of a painted direction.
+    /// The position in the file at which to read: coordinates 0 … 1 from the left, from the top and
+    /// from the first slice, as formulas of numbers and of the cell's position. If empty, the
+    /// position corresponds to the cell's position in the domain.
     std::vector<Formula> place = {};
 };
 
 /// A constraint `0 = e`, which determines a field.
 struct Constraint {
     std::string unknown;  ///< The name of the field.
-    Span span;            ///< Of e.
+    Span span;            ///< The span of e.
 };
 
-/// The kernel of a convolution: a formula of numbers, uniform parameters, and `distance` and
-/// `direction` from the cell to the one that is weighted (CellValue).
+/// The kernel of a convolution. `weight` is a formula of numbers, uniform parameters, and
+/// `distance` and `direction` from the cell to the cell that is weighted (CellValue).
 struct ConvolutionKernel {
     Formula weight;
-    Formula reach;  ///< Cells up to this distance count; empty: all cells of the domain.
+    Formula reach;  ///< The largest distance of cells that count. If empty, all cells count.
 };
 
-/// What formulas name by its number, as it does not fit into a Node. Entries never change; a view
-/// of a checked program that names something new adds it at the end. From one thread at a time.
+/// Stores objects that do not fit into a Node. Entries never change. If a picture's expression is
+/// checked after the program, its objects are added at the end. Not thread-safe.
 class Literals {
 public:
-    /// The id of an equal one, or of a new one.
+    /// The id of an equal object, or of a new one.
     TextId id_of(const std::string& text);
     SurfaceValueId id_of(const SurfaceValue& value);
-    /// The number of a new kernel, or of a new constraint.
+    /// Adds a kernel or a constraint. Returns its index.
     std::uint32_t add(ConvolutionKernel kernel);
     std::uint32_t add(Constraint constraint);
-    /// The number of a new one; of an equal one, if it has no place.
+    /// Adds a reading, or finds an equal reading if `place` is empty. Returns the index.
     std::uint32_t add(FileReading reading);
 
-    /// In quotes: the name of a palette, a path.
+    /// A text in quotes: the name of a palette, or a path.
     const std::string& text(TextId id) const { return texts_[id.index()]; }
     const SurfaceValue& surface_value(SurfaceValueId id) const {
         return surface_values_[id.index()];
@@ -78,7 +80,7 @@ private:
     std::deque<FileReading> readings_{FileReading{}};
 };
 
-/// Calls visit(kernel) for the kernels of the convolutions in a formula.
+/// Calls visit(kernel) for the kernel of each convolution in a formula.
 template <typename Visit>
 void for_each_kernel(const Formula& formula, const Literals& literals, const Visit& visit) {
     for (const Node& node : formula.nodes) {

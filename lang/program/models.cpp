@@ -1,4 +1,4 @@
-// Lists the functions without meaning on a model, each with the reason that messages give.
+// Lists the functions that have no meaning on a model, with the reasons that messages give.
 #include "lang/program/models.h"
 
 #include <fmt/format.h>
@@ -11,7 +11,8 @@ namespace cascade {
 
 namespace {
 
-// Long enough that the padding of rows is small, short enough that threads can share rows evenly.
+// The number of cells in a row: large enough that little padding is needed, and small enough that
+// rows can be divided evenly among threads.
 constexpr std::int64_t cells_of_row = 512;
 
 /// Why an operator is refused on a model; "" if it has a meaning there.
@@ -23,15 +24,16 @@ std::string_view reason_against(Function function) {
             return "it needs columns and rows; "
                    "dot(v, grad(e)) is advection by central differences";
         case Function::symmetric:
-            return "tensor(a1, a2, theta) has a meaning there, with theta along(grad(v)) or "
+            return "tensor(a1, a2, theta) works there, with theta along(grad(v)) or "
                    "along(axis(0, 1, 0))";
         case Function::convolve: return "it works on grids; lap(e) reaches the cells beside one";
         case Function::curl: return "it needs columns and rows, which a model does not have";
-        default: return "a model has no second derivatives by name; lap(e) has a meaning there";
+        default: return "a model has no named second derivatives; lap(e) works there";
     }
 }
 
-/// Refuses arrays of the grid's own rows and columns.
+/// Whether no array in the formula has elements for cells in rows and columns. Otherwise reports an
+/// error.
 bool arrays_have_places(const Program& program, const Formula& formula, Diagnostics& diagnostics) {
     bool have_places = true;
     for (const Node& node : formula.nodes) {
@@ -46,7 +48,7 @@ bool arrays_have_places(const Program& program, const Formula& formula, Diagnost
     return have_places;
 }
 
-/// Describes a value that only a model has; nothing for all others.
+/// The function of a node, if only models have its value. Empty for all other nodes.
 std::optional<Function> of_model_only(const Program& program, const Node& node) {
     if (const auto* id = node.as<SurfaceValueId>())
         return program.literals->surface_value(*id).function;
@@ -54,11 +56,11 @@ std::optional<Function> of_model_only(const Program& program, const Node& node) 
     return std::nullopt;
 }
 
-/// Finds the vectors that are not sums of gradients times numbers: the flow through a link of
-/// stretched cells is not known for them.
+/// Finds vectors that are not sums of gradients times numbers. The flow of such vectors through a
+/// link of stretched cells is not known.
 class LooseVectors {
 public:
-    /// A system's definitions come after those that they read.
+    /// Visits the definitions of a system in order. Each comes after the definitions that it reads.
     explicit LooseVectors(const System& system) {
         for (const Definition& each : system.definitions) {
             const auto found = in(each.formula);
@@ -95,7 +97,7 @@ bool has_meaning_on_model(const Program& program, const LooseVectors& loose, con
         if (!node.is<Call>()) continue;
         if (is_stretched && node.calls(Function::div) && is_loose[node.operands[0]]) {
             refuse(formula.nodes[node.operands[0]].span,
-                   "div of this vector has no meaning on stretched cells",
+                   "div of this vector cannot be used on stretched cells",
                    "the domain has 'directions'; a flux there is made of gradients: "
                    "div(a * grad(e))");
         }
@@ -128,7 +130,7 @@ bool has_meaning_on_plane(const Program& program, const Formula& formula,
         has_meaning = false;
         const bool is_angle = *function == Function::along;
         diagnostics.error(node.span,
-                          fmt::format("{} has a meaning on models only",
+                          fmt::format("{} can be used on models only",
                                       is_angle ? "this direction" : info(*function).spelling),
                           is_angle
                               ? "along(vector(1, 1)) and along(grad(e)) are angles of a plane, too"
@@ -137,8 +139,8 @@ bool has_meaning_on_plane(const Program& program, const Formula& formula,
     return has_meaning;
 }
 
-/// Calls `take(formula, system)` for every formula that the stages compute; for those of a system
-/// once.
+/// Calls `take(formula, system)` for every formula that the stages compute. Formulas of a system
+/// are visited once.
 template <typename Take>
 void for_each_formula(const Program& program, const Take& take) {
     IdVector<SystemId, bool> used(program.systems.size());
@@ -174,7 +176,8 @@ struct NamedShape {
     ModelShape shape;
     std::string_view word;
 };
-/// But files, and formulas, which stand in brackets.
+/// The shapes that scripts name by a word. Files have paths instead, and implicit surfaces are
+/// formulas in brackets.
 constexpr std::array named_shapes{
     NamedShape{ModelShape::sphere, "sphere"},     NamedShape{ModelShape::torus, "torus"},
     NamedShape{ModelShape::box, "box"},           NamedShape{ModelShape::knot, "knot"},
@@ -234,7 +237,7 @@ std::optional<ModelPlane> model_plane_of(Builtin builtin) {
 bool has_meaning_on_domain(const Program& program, const Formula& formula, const System& system,
                            Diagnostics& diagnostics) {
     if (!program.domain.model) return has_meaning_on_plane(program, formula, diagnostics);
-    // Functions that cells do not have are refused where they are written.
+    // Functions that systems of cells do not have are refused where they are written.
     return system.cells ? arrays_have_places(program, formula, diagnostics)
                         : has_meaning_on_model(program, LooseVectors(system), formula, diagnostics);
 }

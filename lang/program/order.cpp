@@ -1,4 +1,4 @@
-// Topological sort without recursion.
+// Sorts topologically, without recursion.
 #include "lang/program/order.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ enum class State : std::uint8_t { untouched, open, finished };
 
 struct Visit {
     std::uint32_t value = 0;
-    std::size_t next = 0;  ///< The next dependency to visit.
+    std::size_t next = 0;  ///< The position of the next dependency to visit.
 };
 
 class Sorter {
@@ -48,8 +48,8 @@ private:
         }
     }
 
-    /// The path from `first` to its end is a cycle. A cycle that shares a value with a known one is
-    /// left out, since it is probably the same mistake.
+    /// Adds the part of the path from `first` to the end as a cycle. Leaves out a cycle that shares
+    /// a value with a known cycle, because both probably have the same cause.
     void add_cycle(std::uint32_t first) {
         std::size_t begin = path_.size();
         while (path_[begin - 1].value != first) {

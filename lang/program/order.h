@@ -1,4 +1,4 @@
-// The order in which values that read each other can be computed (internal to lang/).
+// Finds an order in which values that read each other can be computed (internal to lang/).
 #pragma once
 
 #include <cstdint>
@@ -6,18 +6,19 @@
 
 namespace cascade {
 
-/// Dependencies: `reads[i]` are the numbers of the values that value i needs first.
+/// Element i lists the numbers of the values that must be computed before value i.
 using Dependencies = std::vector<std::vector<std::uint32_t>>;
 
 struct Order {
-    std::vector<std::uint32_t> order;  ///< All values, each after those it reads.
+    std::vector<std::uint32_t> order;  ///< All values. Each comes after the values that it reads.
+                                       ///< Meaningless if there are cycles.
     /// Each value of a cycle reads the next one, and the last reads the first. No value is in two
-    /// cycles. If there is one, `order` is meaningless.
+    /// cycles.
     std::vector<std::vector<std::uint32_t>> cycles;
 };
 
-/// Depth-first topological sort with an explicit stack, so that no depth of dependencies overflows.
-/// Values stay in the order of their numbers as far as possible.
+/// A depth-first topological sort. Its stack is explicit, so deep dependencies cannot overflow the
+/// program's stack. Values stay in the order of their numbers as far as possible.
 Order topological_order(const Dependencies& reads);
 
 }  // namespace cascade

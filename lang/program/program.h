@@ -1,5 +1,6 @@
-// The checked program: every name is resolved, every argument counted, every order known. It
-// contains no user error, so later stages only CHECK.
+// The checked program. All names in it are resolved, all arguments are counted, and the order in
+// which values are computed is known. It contains no user errors, so code that reads a program
+// reports no errors and only CHECKs.
 #pragma once
 
 #include "lang/program/domain.h"
@@ -14,7 +15,7 @@
 namespace cascade {
 
 struct Program {
-    IdVector<SystemId, System> systems;  ///< Built-in ones first.
+    IdVector<SystemId, System> systems;  ///< Built-in systems come first.
     std::vector<Stage> stages;
     DomainSettings domain;
     std::shared_ptr<Literals> literals =
@@ -23,13 +24,14 @@ struct Program {
     const System& system_of(std::uint32_t stage) const { return systems[stages[stage].system]; }
 };
 
-/// Does a node of a formula of `stage` differ from cell to cell? `operand_differs` says whether one
-/// of its operands does. Items of the stage that are not known yet count as different.
+/// Whether the value of a node in a formula of `stage` may differ from cell to cell.
+/// `operand_differs` is true if the value of any operand may differ. Items of the stage for which
+/// this is not yet known count as different.
 bool differs_by_cell(const Node& node, bool operand_differs, const Program& program,
                      std::uint32_t stage);
 
 /// The program as text for `--dump program`: systems in use, stages, resolved formulas, orders, and
-/// which values vary.
+/// which values vary by cell.
 std::string print_program(const Program& program);
 
 }  // namespace cascade

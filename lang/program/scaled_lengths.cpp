@@ -1,4 +1,4 @@
-// Every call that depends on lengths is followed by a product with a power of the factor.
+// Multiplies every call that depends on lengths by a power of the factor.
 #include "lang/program/scaled_lengths.h"
 
 #include <cmath>
@@ -8,12 +8,18 @@ namespace cascade {
 
 namespace {
 
-/// The power of a length by which the value of a function falls.
+/// The n for which the value of a function is proportional to length^-n.
 double power_of_length(Function function, const DomainSettings& domain) {
     switch (function) {
-        case Function::domain_sum: return domain.model ? -2 : 0;  // An integral on models only.
-        case Function::white: return axes_of(domain) / 2.0;  // By the root of a cell's content.
-        case Function::convolve: return -axes_of(domain);    // An integral, by the content.
+        case Function::domain_sum:
+            return domain.model ? -2 : 0;  // The sum is an integral only on
+                                           // models.
+        case Function::white:
+            return axes_of(domain) / 2.0;  // Divided by the square root of a
+                                           // cell's content.
+        case Function::convolve:
+            return -axes_of(domain);  // An integral over lengths, areas or
+                                      // volumes.
         default: return info(function).lengths;
     }
 }
@@ -24,7 +30,7 @@ NodeId append(Formula& formula, Node node) {
     return id;
 }
 
-/// The product of a node with a number.
+/// The product of a node and a number.
 NodeId scaled(Formula& formula, NodeId id, double factor) {
     const Node& value = formula.nodes[id];
     Node product{Call{}, value.span, value.type, Function::multiply, 2, {}};
@@ -34,8 +40,8 @@ NodeId scaled(Formula& formula, NodeId id, double factor) {
     return append(formula, product);
 }
 
-/// The kernel for lengths that are scaled: a distance that is `factor` times as long counts as it
-/// did.
+/// The kernel for scaled lengths: a distance that is `factor` times as long gets the weight that
+/// the original distance had.
 ConvolutionKernel with_lengths(const ConvolutionKernel& kernel, double factor) {
     ConvolutionKernel result;
     IdVector<NodeId, NodeId> place;
@@ -70,7 +76,7 @@ Formula with_lengths(const Formula& formula, double factor, const DomainSettings
     return result;
 }
 
-/// Slopes fall and fluxes grow with lengths.
+/// Scales rules at sides. With larger lengths, slopes become smaller and fluxes larger.
 void scale_sides(SideSettings& sides, const DomainSettings& domain, double factor) {
     for (std::size_t side = 0; side < wall_count; ++side) {
         SideSetting& setting = sides[side];

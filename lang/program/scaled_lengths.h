@@ -1,4 +1,4 @@
-// Stages whose lengths are scaled, so that their pattern has a wanted size.
+// Scales the lengths in a stage, so that the stage's pattern gets a given size.
 #pragma once
 
 #include "lang/program/program.h"
@@ -7,12 +7,13 @@
 
 namespace cascade {
 
-/// The program with all lengths in the equations of a stage multiplied by `factor`: its pattern is
-/// larger by this factor and grows in the same time. A derivative of order n in rates and
-/// definitions is multiplied by factorⁿ, so that this is exact for any operator, and so are
-/// integrals over a model, white noise, and slopes and fluxes that the system or the stage gives
-/// its sides. Starting values, places, the sides of the domain and pictures stay in lengths of the
-/// domain. Ids of items and definitions stay; the stage gets a system of its own.
+/// The program in which all lengths in the equations of a stage are multiplied by `factor`. The
+/// pattern becomes larger by this factor and grows in the same time. A derivative of order n in
+/// rates and definitions is multiplied by factorⁿ, which is exact for any operator. Integrals over
+/// a model, white noise, and slopes and fluxes at sides that the system or the stage sets are
+/// scaled, too. Starting values, positions, sides of the domain and pictures keep lengths of the
+/// domain. Ids of items and definitions do not change. In the result, the stage has its own copy of
+/// its system.
 Program with_lengths(const Program& program, std::uint32_t stage, double factor);
 
 /// The number of axes along which the cells of the domain have neighbours.

@@ -1,4 +1,5 @@
-// Nodes are sorted by what they depend on, and computed when that has changed.
+// Evaluates formulas of shapes. Nodes are sorted by the variables on which they depend, and
+// computed again only when such a variable changes.
 #include "lang/program/shape_form.h"
 
 #include "core/check.h"

@@ -1,5 +1,5 @@
-// A checked `shape` block: surfaces by formulas of t, from the root 0 to the tip 1, and s, around
-// 0 … 1.
+// A checked `shape` block: surfaces given by formulas of t and s. The number t goes from 0 at the
+// root to 1 at the tip, and s goes once around the shape, from 0 to 1.
 #pragma once
 
 #include "core/vector3.h"
@@ -13,37 +13,39 @@
 
 namespace cascade {
 
-/// The most parts of a shape.
+/// The largest number of parts of a shape.
 inline constexpr std::uint32_t most_shape_parts = 1000;
 
-/// Formulas are made of numbers, items and functions of numbers and vectors; they read no
-/// definitions. Those that a script does not say are empty.
+/// Formulas consist of numbers, items, and functions of numbers and vectors. They read no
+/// definitions. A formula that the script does not give is empty.
 struct ShapeForm {
-    /// What formulas know besides the quantities: the first items.
+    /// Values that formulas read besides the quantities. They are the first items.
     enum Known : std::uint32_t { t, s, part, known_count };
 
     std::string name;
-    Span span;  ///< Of the name.
+    Span span;  ///< The span of the name.
     bool built_in = false;
-    IdVector<ItemId, Quantity> quantities;  ///< Those of Known, which have no values, then its own.
-    std::vector<double> usual;              ///< The values of the same where a picture says none.
-    Formula place;                          ///< A vector; else there is a radius.
-    Formula radius, middle;  ///< A number and a vector; without `middle`, straight upwards to 1.
-    Formula shade;           ///< A number, 0 … 1.
+    IdVector<ItemId, Quantity> quantities;  ///< First the values of Known, then the shape's own
+                                            ///< quantities.
+    std::vector<double> usual;  ///< For each quantity, the value if a picture gives none.
+    Formula place;              ///< The position of a point, a vector. Empty if `radius` is given.
+    Formula radius, middle;     ///< A number and a vector: the tube around the line `middle`. If
+                                ///< `middle` is empty, the line goes straight up to 1.
+    Formula shade;              ///< A number, 0 … 1.
     std::uint32_t parts = 1;
 
-    /// The quantity of a name that a picture can give.
+    /// The quantity of this name. Empty if there is none that pictures can set.
     std::optional<ItemId> find(std::string_view quantity) const;
 };
 
-/// Computes a formula of a shape at points of one part, in binary64. What does not depend on t and
-/// s is computed once, what does not depend on s once for each t. One thread at a time.
+/// Computes a formula of a shape at points of one part, in binary64. Nodes that depend on neither t
+/// nor s are computed once, and nodes that do not depend on s once for each t. Not thread-safe.
 class ShapeFunction {
 public:
-    /// `values` are by item; those of Known are ignored. `formula` is not empty.
+    /// `values` are indexed by item. The values of Known are ignored. `formula` must not be empty.
     ShapeFunction(const Formula& formula, std::span<const double> values, double part);
 
-    /// A number is the x of the result.
+    /// The value at t and s. If the formula is a number, the result's x is this number.
     Vector3d operator()(double t, double s);
 
 private:
@@ -51,9 +53,9 @@ private:
 
     Nodes nodes_;
     IdVector<NodeId, Vector3d> values_;
-    std::vector<NodeId> of_t_, of_s_;  ///< Those that depend on t alone, and on s.
+    std::vector<NodeId> of_t_, of_s_;  ///< Nodes that depend on t only, and nodes that depend on s.
     std::vector<NodeId> reads_t_, reads_s_;
-    std::optional<double> t_;  ///< For which the values are.
+    std::optional<double> t_;  ///< The t for which the stored values were computed.
 };
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// A checked stage: starting values, the time that it takes, its sides.
+// A checked stage: its starting values, its time, and its sides.
 #pragma once
 
 #include "lang/program/system.h"
@@ -13,35 +13,39 @@ namespace cascade {
 /// The time of a stage (spec/time.md).
 struct StageTime {
     Solver solver = Solver::euler;
-    Span solver_span;  ///< Where it was written, for messages.
-    std::optional<double>
-        tolerance;  ///< For steps of chosen length, as written; see step_tolerance().
-    /// The limit of steps of chosen length.
+    Span solver_span;  ///< Where the script sets the solver, for messages.
+    /// The tolerance that the script gives for steps whose length is chosen. step_tolerance() gives
+    /// the value to use.
+    std::optional<double> tolerance;
+    /// The largest length of steps whose length is chosen.
     std::optional<double> largest_step;
-    Span largest_step_span;  ///< Where that was written.
-    /// The stage ends at this t; empty if it ends by its iterations.
+    Span largest_step_span;  ///< Where the script sets this limit.
+    /// The value of t at which the stage ends. Empty if `iterations` ends the stage.
     std::optional<double> duration;
-    /// The duration is this number times the speed at the start of the stage.
+    /// If given, the duration is this number times the speed at the start of the stage.
     std::optional<std::int64_t> duration_in_steps;
-    bool open_end = false;         ///< Ended by `until` alone, or by the largest number of steps.
-    bool automatic_speed = false;  ///< The step is as long as stability and accuracy allow.
-    std::optional<Formula> until;  ///< Ends the stage when it is true; the same in all cells.
+    double every = 0;  ///< If above 0, a step ends at each multiple, and the stage is observed.
+    Span every_span;   ///< Where `every` was written.
+    bool open_end = false;  ///< Whether only `until` or the largest number of steps ends the stage.
+    bool automatic_speed = false;  ///< Whether steps are as long as stability and accuracy allow.
+    std::optional<Formula> until;  ///< A condition that ends the stage. The same in all cells.
     std::optional<double> steady;  ///< Ends the stage when its pattern has settled to this degree.
-    std::optional<std::int64_t> check;  ///< Steps between two evaluations of `until`; see below.
-    /// The stage first runs on a grid whose cells are this many times as wide; 1: it does not.
+    std::optional<std::int64_t> check;  ///< The number of steps between two evaluations of `until`.
+    /// The stage first runs on a grid whose cells are wider by this factor. 1 if it does not.
     std::int64_t coarse = 1;
-    Span coarse_span;  ///< Where that was written.
+    Span coarse_span;  ///< Where the script sets `coarse`.
 
     bool has_duration() const { return duration || duration_in_steps; }
-    /// Are the lengths of steps chosen while the stage runs?
+    /// Whether the lengths of steps are chosen while the stage runs.
     bool chooses_steps() const { return automatic_speed || is_adaptive(solver); }
-    /// The relative error of a step of chosen length.
+    /// The relative error of a step whose length is chosen.
     double step_tolerance() const {
         return tolerance.value_or(is_adaptive(solver) ? default_tolerance
                                                       : default_automatic_tolerance);
     }
     static constexpr double default_tolerance = 1e-4, default_automatic_tolerance = 1e-3;
-    /// Steps that are as long as the state allows need more frequent checks.
+    /// The number of steps between two evaluations of `until`. Long steps need more frequent
+    /// checks.
     std::int64_t steps_between_looks() const {
         return check.value_or(chooses_steps() || takes_long_steps(solver) ? 10 : 100);
     }
@@ -49,47 +53,61 @@ struct StageTime {
 
 /// The cells with which a stage of cells starts.
 struct Founders {
-    std::int64_t count = 0;      ///< Of those at random places; 0 if places are given.
-    Formula chance;              ///< Of keeping a random place, from 0 to 1; empty: all.
-    std::vector<double> places;  ///< Three coordinates of scripts for each.
+    std::int64_t count = 0;  ///< The number of cells at random positions. 0 if positions are given.
+    Formula chance;          ///< The probability that a random position is used. If empty, it is 1.
+    std::vector<double> places;  ///< Three coordinates for each cell, in the script's unit of
+                                 ///< length.
     Span span;
 };
 
-/// The wavelength that the pattern of a stage is to have, `size: 16`.
+/// The wavelength that the pattern of a stage should have, written `size: 16`.
 struct StageSize {
-    double wanted = 0;  ///< In units of the domain, like its spacing.
-    Span span;          ///< Where it was written.
-    /// Of a stage that ends by its steps, all of them; fewer may run.
+    double wanted = 0;  ///< The wavelength in the domain's units.
+    Span span;          ///< Where the script sets the size.
+    /// The number of steps after which the stage ends at the latest, if it has one. The stage may
+    /// end earlier.
     std::int64_t steps = 0;
-    /// By how much lengths in the stage are scaled for that; with_lengths() has scaled them if it
-    /// is not 1.
+    /// The factor by which lengths in the stage are scaled to reach this size. If it is not 1,
+    /// with_lengths() has scaled them.
     double factor = 1;
 };
 
 struct Stage {
-    std::string name;  ///< As written, or stage1, stage2, … by position.
+    std::string name;  ///< The name in the script, or else stage1, stage2, … by position.
     Span span;
     SystemId system;
-    IdVector<ItemId, Formula> items;  ///< Starting value of every item.
-    std::vector<ItemId> order;        ///< Items in an order in which each can be evaluated.
-    IdVector<ItemId, bool> uniform;   ///< The same in all cells. Species never are.
-    std::int64_t iterations = 0;      ///< With a duration: the largest number of steps.
-    std::int64_t interval = 1;        ///< 0 if the stage is observed at tenths of the duration.
+    IdVector<ItemId, Formula> items;  ///< The starting value of every item.
+    std::vector<ItemId> order;        ///< An order in which each item can be evaluated.
+    IdVector<ItemId, bool> uniform;   ///< For each item, whether it is the same in all cells. False
+                                      ///< for species.
+    std::int64_t iterations = 0;      ///< The number of steps. If there is a duration, the largest
+                                      ///< number of steps.
+    std::int64_t interval = 1;  ///< The number of steps between two outputs, such as pictures of a
+                                ///< film. 0 means `every`, or else a tenth of the
+                                ///< duration.
     Formula show;
     StageTime time;
-    /// `grid: coarse(…)`: its cells are this many times as wide as those of the domain.
+    /// For `grid: coarse(…)`: the ratio of the width of the stage's cells to that of the domain's
+    /// cells.
     std::int64_t coarse = 1;
-    Span coarse_span;  ///< Where that was written.
+    Span coarse_span;  ///< Where the script sets `grid: coarse(…)`.
     std::optional<StageSize> size;
-    /// By species, in their order; empty if the boundary holds at all sides.
+    /// The rules for each species. Empty if the rules of the domain apply to all species.
     IdVector<SpeciesId, SideSettings> sides;
-    std::vector<DefinitionSides> definition_sides;  ///< In order of their definitions.
-    // Of a stage of cells that crawl.
-    std::optional<Founders> founders;  ///< Empty: the cells of the stage of cells before it.
-    Formula remove;  ///< Cells where it is not 0 are removed at the start; empty: none.
-    /// Above 0 inside of the body on whose surface they are, in a volume; read in the cells of its
-    /// grid after the stages of fields that it reads. Empty: they are where they were in the stage
-    /// of cells before; founders are on the domain's model or plane, or in its box.
+    std::vector<DefinitionSides> definition_sides;  ///< In the order of the definitions.
+    // For a stage of cells that crawl.
+    /// `size: 2`: the distance from one cell to the next, twice the radius with which all start, in
+    /// units of the domain; 0: the radii are in lengths of scripts. On a model the run sets the
+    /// starting value of the radius.
+    double cell_size = 0;
+    std::optional<Founders> founders;  ///< If empty, the stage continues with the cells of the
+                                       ///< previous stage of cells.
+    Formula remove;  ///< At the start, cells where this formula is not 0 are removed. If empty,
+                     ///< none are.
+    /// A formula that is above 0 inside a body in a volume. The cells are on the surface of this
+    /// body. The formula is evaluated in the cells of the grid, after the stages of fields that it
+    /// reads. If it is empty, cells stay where they were in the previous stage of cells, and
+    /// founders are placed on the domain's model or plane, or in its box.
     Formula body;
 };
 

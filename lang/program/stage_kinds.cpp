@@ -1,4 +1,4 @@
-// Asks the system of each stage.
+// Finds the kind of a stage from its system.
 #include "lang/program/stage_kinds.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Which stages of a program are of fields, and which of cells that crawl.
+// Distinguishes the stages of fields from the stages of cells that crawl.
 #pragma once
 
 #include "lang/program/program.h"
@@ -8,18 +8,18 @@
 
 namespace cascade {
 
-/// Is its system a block of cells? False as long as its system is not known.
+/// Whether the stage's system is a block of cells. False while its system is not known.
 bool is_of_cells(const Program& program, std::uint32_t stage);
 
 bool has_stage_of_cells(const Program& program);
 bool has_stage_of_fields(const Program& program);
 
-/// The last stage of cells before this one, whose cells it goes on with unless it has founders;
-/// nothing if there is none.
+/// The last stage of cells before this stage. Empty if there is none. Unless this stage has
+/// founders, it continues with the cells of that stage.
 std::optional<std::uint32_t> stage_of_cells_before(const Program& program, std::uint32_t stage);
 
-/// The last stage of fields before this one, whose names the colour of the skin below cells reads;
-/// nothing if there is none.
+/// The last stage of fields before this stage. Empty if there is none. The formula for the colour
+/// of the skin below cells reads names of this stage.
 std::optional<std::uint32_t> stage_of_fields_before(const Program& program, std::uint32_t stage);
 
 }  // namespace cascade

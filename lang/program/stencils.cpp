@@ -1,4 +1,4 @@
-// The table of differences, and what follows from it.
+// The table of differences, and functions that follow from it.
 #include "lang/program/stencils.h"
 
 #include <algorithm>
@@ -9,13 +9,13 @@ namespace cascade {
 
 namespace {
 
-/// A difference along one axis or in the plane of two.
+/// A difference along one axis or two axes.
 struct DifferenceRow {
     struct Place {
         int first, second, weight;
     };
     Difference difference;
-    std::array<Place, 4> places;  ///< Those without a weight do not count.
+    std::array<Place, 4> places;  ///< Places with weight 0 are not used.
     int divisor, order;
     bool at_face = false;
 };
@@ -32,9 +32,9 @@ constexpr std::array difference_rows = [] {
     };
 }();
 
-/// A difference of all axes, with the weights of the cells beside (N, S, E, W, U and D), of those
-/// across two axes, and of the cell itself, on one, two and three axes. The isotropic one is Patra
-/// & Karttunen's (2006).
+/// A difference over all axes, on one, two and three axes. There is a weight for the neighbours
+/// along axes (N, S, E, W, U and D), one for the diagonal neighbours, and one for the cell itself.
+/// The isotropic Laplacian comes from Patra & Karttunen (2006).
 struct Star {
     Difference difference;
     std::array<std::array<int, 3>, 3> weights;
@@ -50,9 +50,10 @@ constexpr std::array stars = [] {
 static_assert(difference_rows.size() + stars.size() == difference_count,
               "every difference has a row");
 
-// By the symbols, with X = 4 sin²(θ/2) along each axis: the sum of X is at most 4 n, that of X +
-// X²/12 at most 16/3 n, and the sum of X minus that of XY/6 over pairs of axes at most 16/3, where
-// two are 4. sin θ is at most 1, and sin θ (1 + 2/3 sin²(θ/2)) at most 1.3723.
+// Bounds of the symbols, with X = 4 sin²(θ/2) for each axis. On n axes the sum of X is at most 4 n,
+// and the sum of X + X²/12 at most 16/3 n. The sum of X minus the sum of XY/6 over pairs of axes is
+// at most 16/3, its value if X is 4 along two axes. sin θ is at most 1, and sin θ (1 + 2/3
+// sin²(θ/2)) at most 1.3723.
 // clang-format off
 constexpr std::array stencil_rows = [] {
     using enum Difference;

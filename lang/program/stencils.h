@@ -1,7 +1,7 @@
-// The differences between neighbouring cells of which operators are made, as data: offsets and
-// weights. What kernels compute and which cells they read (lang/lower) and bounds (lang/calculus)
-// follow from one table, and tests hold the symbols of waves (analysis) to it. Spec/numerics.md has
-// the same formulas.
+// The differences between neighbouring cells from which operators are made, as data: offsets and
+// weights. Lowering makes kernels from this table (lang/lower), and calculus computes bounds from
+// it (lang/calculus). Tests compare the symbols of waves (analysis) with the table.
+// spec/numerics.md has the same formulas.
 #pragma once
 
 #include "lang/program/program.h"
@@ -13,7 +13,7 @@
 
 namespace cascade {
 
-/// A cell near another one: each offset is −1, 0 or 1.
+/// The position of a cell relative to another one. Each offset is −1, 0 or 1.
 struct Offset {
     int dx = 0, dy = 0, dz = 0;
 
@@ -25,7 +25,7 @@ struct Offset {
     constexpr std::uint32_t number() const {
         return static_cast<std::uint32_t>(dx + 1 + 3 * (dy + 1) + 9 * (dz + 1));
     }
-    /// One cell forwards or backwards along an axis (0, 1, 2).
+    /// One cell forwards (1) or backwards (−1) along an axis (0, 1, 2).
     static constexpr Offset along(int axis, int by) {
         return {axis == 0 ? by : 0, axis == 1 ? by : 0, axis == 2 ? by : 0};
     }
@@ -36,12 +36,12 @@ struct Offset {
     friend constexpr bool operator==(Offset, Offset) = default;
 };
 
-/// A set of offsets, by their numbers.
+/// A set of offsets: bit n is the offset with number n.
 using Offsets = std::uint32_t;
 constexpr Offsets only(Offset offset) { return Offsets{1} << offset.number(); }
 inline constexpr Offsets own_cell = only(Offset{});
 
-/// The axes of more than one cell: 0 is x, 1 is y, 2 is z.
+/// The axes along which the grid has more than one cell: 0 is x, 1 is y, 2 is z.
 struct GridAxes {
     std::vector<int> present;
 
@@ -49,17 +49,17 @@ struct GridAxes {
     bool has(int axis) const;
 };
 
-/// The differences of the table.
+/// The differences in the table.
 enum class Difference : std::uint8_t {
     laplacian,  ///< The sum of the second differences along all axes.
     second,
     central,
-    across,     ///< From a cell to the next one, at the face between them.
-    average,    ///< Of both, at the face.
-    backward,   ///< Of a flow along the axis.
-    forward,    ///< Of a flow against it.
-    isotropic,  ///< The Laplacian with an error that favours no direction.
-    mixed,      ///< Of two axes.
+    across,    ///< From a cell to the next one. The value belongs to the face between them.
+    average,   ///< The mean of a cell and the next one. The value belongs to the face between them.
+    backward,  ///< For a flow along the axis: the difference from the cell before.
+    forward,   ///< For a flow against the axis: the difference to the cell after.
+    isotropic,  ///< The Laplacian whose error is equal in all directions.
+    mixed,      ///< The derivative along two different axes.
 };
 inline constexpr std::size_t difference_count = 9;
 
@@ -68,30 +68,32 @@ struct Tap {
     int weight = 0;
 };
 
-/// Σ weight · e(at) / (divisor h^order).
+/// A difference of e: Σ weight · e(at) / (divisor h^order), where h is the spacing.
 struct Taps {
-    std::vector<Tap> taps;  ///< In the order of the sum; empty along an axis that the grid lacks.
+    std::vector<Tap> taps;  ///< The terms in the order in which they are added. Empty if the grid
+                            ///< lacks the axis.
     int divisor = 1, order = 0;
-    bool at_face = false;  ///< The value lies half a cell after the one at the offset 0.
+    bool at_face = false;  ///< Whether the value is at the face after the cell itself.
 
-    /// divisor h^order.
+    /// The denominator divisor · h^order, where h is the spacing.
     double size(double spacing) const;
     Offsets offsets() const;
 };
 Taps taps_of(Difference difference, const GridAxes& axes, int first = 0, int second = 0);
 
-/// How a stencil has a difference: base − h²/error · outer(inner). Without an error it is `base`.
+/// The formula by which a stencil computes the difference `of`: base − h²/error · outer(inner),
+/// where h is the spacing, or `base` alone if `error` is 0.
 struct StencilRow {
     StencilKind stencil;
     Difference of, base;
     double error = 0;
     Difference outer = {}, inner = {};
-    /// The largest magnitude of its symbol on one, two and three axes, for a spacing of 1.
+    /// The largest magnitude of the symbol on one, two and three axes, for spacing 1.
     std::array<double, 3> largest{};
 };
 StencilRow stencil_row(StencilKind stencil, Difference difference);
 
-/// An operator that is one difference.
+/// An operator that is a single difference, with its axes.
 struct AppliedDifference {
     Difference difference;
     int first = 0, second = 0;
@@ -100,8 +102,8 @@ std::optional<AppliedDifference> difference_of(Function function);
 
 /// The cell itself and its neighbours along all axes.
 Offsets crosswise(const GridAxes& axes);
-/// The offsets at which an operator reads its last operand, including those of the differences that
-/// it multiplies by values of cells.
+/// The offsets at which an operator reads its last operand. Includes the offsets of differences
+/// that the operator multiplies by values of cells.
 Offsets offsets_of(const Node& operation, const GridAxes& axes);
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
-// Nodes of an expression graph with the operators and functions of the language, so that rules read
-// like formulas on paper: a * b + sqrt(c).
+// Gives nodes of an expression graph operators and functions in C++, so that rules are written like
+// formulas: a * b + sqrt(c).
 #pragma once
 
 #include "core/vector3.h"
@@ -11,8 +11,8 @@
 
 namespace cascade {
 
-/// A node of a graph, which outlives it. Functions of terms add a node of the type that it has by
-/// lang/vocabulary/functions.def.
+/// A node of a graph. The graph must outlive the term. Applying a function to terms adds a node,
+/// whose type follows from lang/vocabulary/functions.def.
 struct Term {
     ExpressionGraph* graph = nullptr;
     NodeId id{};
@@ -30,7 +30,8 @@ struct Term {
         return {a.graph,
                 a.graph->call(function, {a.id, rest.id...}, type_of_result(function, types))};
     }
-    // Each function by its name in the table: sqrt(a), if_(c, a, b), grad(e), domain_sum(e).
+    // Defines each function by its name in functions.def: sqrt(a), if_(c, a, b), grad(e),
+    // domain_sum(e).
 #define CASCADE_FUNCTION(name, ...)              \
     template <std::same_as<Term>... Terms>       \
     friend Term name(Term a, Terms... rest) {    \
@@ -53,7 +54,7 @@ struct Term {
     }
 };
 
-/// A term that sums and products leave out if it is known to be 0.
+/// A term whose sums and products are simplified if an operand is 0.
 struct SparseTerm {
     Term term;
 
@@ -76,7 +77,7 @@ struct SparseTerm {
     friend SparseTerm inverse(SparseTerm a) { return {inverse(a.term)}; }
 };
 
-/// A vector by its components.
+/// Vectors as three components.
 using TermVector = BasicVector3<Term>;
 using SparseVector = BasicVector3<SparseTerm>;
 

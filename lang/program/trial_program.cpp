@@ -1,4 +1,4 @@
-// Formulas that need the domain of the script or the patterns of other stages are replaced.
+// Replaces formulas that need the script's domain or the patterns of other stages.
 #include "lang/program/trial_program.h"
 
 #include "lang/program/nodes_of_rates.h"
@@ -14,7 +14,7 @@ namespace {
 
 Formula number(double value) { return {{Node{value}}}; }
 
-/// Does the node depend on where in the domain the cell is?
+/// Whether the node depends on the cell's position in the domain.
 bool is_of_place(const Node& node) {
     if (const auto* builtin = node.as<Builtin>()) return !is_moment(node) && *builtin >= Builtin::x;
     if (node.is<SurfaceValueId>()) return true;
@@ -24,7 +24,7 @@ bool is_of_place(const Node& node) {
            kind == FunctionKind::text || kind == FunctionKind::landmarks;
 }
 
-/// Does it need files or the surface of a model, which a plane of its own does not have?
+/// Whether the node needs files or the surface of a model, which a trial run does not have.
 bool is_of_domain_alone(const Node& node) {
     return node.is<TextId>() || node.is<SurfaceValueId>() ||
            (node.is<Call>() && (reads_file(node.function) || needs_model(node.function)));
@@ -55,11 +55,12 @@ public:
                             "a size is that of a pattern that neighbours make");
         }
         if (holds_in_rates(system, is_of_place) || holds_in_rates(system, is_of_domain_alone)) {
-            return obstacle(size,
-                            fmt::format("the equations of {} depend on the place, so its pattern "
-                                        "has no size of its own",
-                                        system.name),
-                            "with size, equations are the same everywhere");
+            return obstacle(
+                size,
+                fmt::format("the equations of {} depend on the position, so its pattern "
+                            "has no size of its own",
+                            system.name),
+                "with size, equations are the same everywhere");
         }
         if (has_kernel_of_file()) {
             return obstacle(
@@ -67,6 +68,7 @@ public:
                 "with size, kernels are formulas");
         }
         trial_.stages.resize(number_ + 1);
+        trial_.stages[number_].time.every = 0;
         make_domain();
         for (std::uint32_t k = 0; k < number_; ++k) make_earlier(k);
         if (auto made = make_items(); !made) return tl::unexpected(made.error());
@@ -100,8 +102,8 @@ private:
         domain.fast = false;
     }
 
-    /// The first node that makes the value of a parameter depend on the place or on an earlier
-    /// pattern; null if the value can be had on any plane.
+    /// The first node because of which the value of a parameter depends on positions or on an
+    /// earlier pattern; null if the value exists on any plane.
     const Node* hindrance(const Formula& formula) const {
         const auto found = std::ranges::find_if(formula.nodes, [&](const Node& node) {
             if (is_of_place(node) || is_of_domain_alone(node) || differentiates_or_sums(node)) {
@@ -113,14 +115,16 @@ private:
         return found == formula.nodes.end() ? nullptr : &*found;
     }
 
-    /// Of an earlier stage only parameters are known without its run.
+    /// Whether the value of this item of an earlier stage is unknown. Only parameters are known if
+    /// the stage has not run.
     bool is_hindered(const StageItem& read) const {
         const System& system = program_.system_of(read.stage);
         return system.cells || read.item >= system.frozen_item() || system.is_species(read.item) ||
                hindrance(program_.stages[read.stage].items[read.item]) != nullptr;
     }
 
-    /// A start may also depend on the place, in the same way on any plane.
+    /// Whether a species can start with this formula. The formula may depend on positions only if
+    /// it has a meaning on every plane.
     bool can_start(const Formula& formula) const {
         return std::ranges::none_of(formula.nodes, [&](const Node& node) {
             const auto* read = node.as<StageItem>();
@@ -153,7 +157,7 @@ private:
                 formula = number(0);
                 stage.uniform[item] = true;
             } else if (system.is_species(item)) {
-                // On models places are those of space.
+                // On models, positions are positions in space.
                 const auto is_placed = [](const Node& node) { return is_of_place(node); };
                 const bool is_lost = program_.domain.model && holds_in(formula, is_placed);
                 if (!is_lost && can_start(formula)) continue;
@@ -170,7 +174,7 @@ private:
             } else if (const Node* why = hindrance(formula)) {
                 return obstacle(why->span.source == stage.size->span.source ? why->span
                                                                             : stage.size->span,
-                                fmt::format("'{}' differs with the place, and so does the size of "
+                                fmt::format("'{}' varies over the domain, and with it the size of "
                                             "the pattern",
                                             name),
                                 "with size, parameters are the same in all cells or random");

@@ -1,5 +1,5 @@
-// The trial run of a stage with a size: the same equations on a plane of their own, where the
-// pattern that they grow by themselves can be measured.
+// Makes the program of a trial run for a stage with a `size`. The trial run has the same equations
+// on a separate grid, on which the size of the grown pattern is measured.
 #pragma once
 
 #include "lang/program/program.h"
@@ -12,7 +12,7 @@
 
 namespace cascade {
 
-/// Why a size cannot be had, and what to do about it.
+/// Why a size cannot be reached, and what users can do.
 struct SizeObstacle {
     Span span;
     std::string message;
@@ -20,16 +20,18 @@ struct SizeObstacle {
 };
 
 /// The program up to `stage`, in which this stage starts and steps on a periodic grid without
-/// surface, mask, sides, frozen cells and earlier patterns. Parameters are those of the stage. A
-/// species starts as the stage says if that can be had on any plane, else as its system says. The
-/// grid is that of the domain, to be replaced; earlier stages are only started. Fails if the
-/// equations or the parameters depend on the place or on the pattern of an earlier stage.
+/// surface, mask, sides, frozen cells and earlier patterns. Parameters have the values of the
+/// stage. A species has the stage's starting value if this has a meaning on any plane, otherwise
+/// the system's starting value. The program has the domain's grid, which callers replace. Earlier
+/// stages are started but take no steps. Fails if the equations or the parameters depend on
+/// positions or on the pattern of an earlier stage.
 tl::expected<Program, SizeObstacle> trial_program(const Program& program, std::uint32_t stage);
 
-/// Below this number of cells a grid does not show a wave.
+/// The shortest wavelength, in cells, that a grid can show.
 inline constexpr double fewest_cells_of_size = 3;
 
-/// Whether a size is below `fewest_cells_of_size` or above `most_cells` cells of this width.
+/// Reports a size below `fewest_cells_of_size` cells or above `most_cells` cells. `cell` is the
+/// width of a cell.
 std::optional<SizeObstacle> unfit_size(const StageSize& size, double cell, double most_cells);
 
 }  // namespace cascade

@@ -1,8 +1,9 @@
-// The meaning of functions of vectors, once for all kinds of numbers and of vectors.
+// Defines the functions of vectors once for all kinds of numbers and vectors.
 //
-// In a cell a vector is three numbers: doubles of shapes, or terms of a graph (of_components). In
-// systems of fields vectors are also flows through faces, slopes and symbols, which know no
-// functions but sums and multiples (vector_by); field_vectors.h makes these few of all others.
+// In a cell a vector is three numbers, which are doubles in shapes and terms of a graph elsewhere
+// (of_components). In systems of fields, vectors can also be flows through faces, slopes or
+// symbols. Such vectors have only sums and multiples (vector_by). field_vectors.h rewrites all
+// other functions as sums and multiples.
 #pragma once
 
 #include "core/check.h"
@@ -25,8 +26,9 @@ std::size_t component_of(const Graph& nodes, const Node& call) {
     return static_cast<std::size_t>(*axis);
 }
 
-/// A call by the components of its operands; numbers are the x of vectors. Other functions, such as
-/// sums, work component by component: apply(numbers) computes one from those of all operands.
+/// The result of a call, given the components of its operands. A number is a vector with only x.
+/// Functions without a rule here, such as sums, work component by component: apply(numbers)
+/// computes a component from the same component of all operands.
 template <typename Number, typename Graph, typename Apply>
 BasicVector3<Number> of_components(const Graph& nodes, const Node& call,
                                    std::span<const BasicVector3<Number>> operands,
@@ -55,15 +57,15 @@ BasicVector3<Number> of_components(const Graph& nodes, const Node& call,
     return result;
 }
 
-/// Does vector_by have a rule for a function, if its result is a vector?
+/// Whether vector_by() has a rule for a function whose result is a vector.
 inline bool makes_flux(Function function) {
     const FunctionInfo& row = info(function);
     const bool is_leaf = row.kind == FunctionKind::flux && row.result == ResultKind::vector;
     return is_leaf || row.kind == FunctionKind::arithmetic;
 }
 
-/// A call that makes a vector of fields, by what `rules` makes of gradients, of components, of sums
-/// and of products of a vector with a number or a tensor.
+/// The result of a call that makes a vector of fields. `rules` compute gradients, components, sums,
+/// and products of a vector with a number or a tensor.
 template <typename Rules, typename Graph>
 auto vector_by(Rules&& rules, const Graph& nodes, const Node& call) {
     const NodeId a = call.operands[0], b = call.reads().back();

@@ -1,12 +1,16 @@
-// Finds the verb, then the text after it.
+// Finds the verb in a hint, and then the text after it. Tries this text: changes the script, checks
+// it, and compares the messages before and after.
 #include "lang/service/advice.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <set>
 
 namespace cascade {
 namespace {
 
-/// Of 'x' at the start of a text; empty if the quote does not end before a blank or a sign.
+/// The x in 'x' at the start of a text. Empty if the closing quote is not followed by a blank or a
+/// sign.
 std::string_view inside_quotes(std::string_view text) {
     if (!text.starts_with("'")) return {};
     for (std::size_t end = text.find('\'', 2); end < text.size(); end = text.find('\'', end + 1)) {
@@ -16,6 +20,14 @@ std::string_view inside_quotes(std::string_view text) {
         }
     }
     return {};
+}
+
+std::multiset<std::string> messages_of(const Diagnostics& diagnostics, bool has_warnings) {
+    std::multiset<std::string> messages;
+    for (const Diagnostic& each : diagnostics.sorted()) {
+        if (has_warnings || each.severity == Severity::error) messages.insert(each.message);
+    }
+    return messages;
 }
 
 }  // namespace
@@ -32,6 +44,21 @@ std::string_view text_to_write(std::string_view hint) {
         }
     }
     return bare;
+}
+
+std::optional<std::string> fix_of(const Diagnostic& diagnostic, const std::string& text,
+                                  const Diagnostics& before,
+                                  const std::function<Diagnostics(const std::string&)>& check) {
+    const std::string fix(text_to_write(diagnostic.hint));
+    if (fix.empty()) return std::nullopt;
+    std::string changed = text;
+    changed.replace(diagnostic.span.begin, diagnostic.span.end - diagnostic.span.begin, fix);
+    // Beside an error warnings do not count: some are only found in scripts without errors.
+    const bool is_warning = diagnostic.severity == Severity::warning;
+    const auto old = messages_of(before, is_warning);
+    const auto left = messages_of(check(changed), is_warning);
+    const bool is_better = left.size() < old.size() && std::ranges::includes(old, left);
+    return is_better ? std::optional(fix) : std::nullopt;
 }
 
 }  // namespace cascade

@@ -1,13 +1,25 @@
-// What hints tell to write.
+// Finds the replacement that a hint suggests, and checks it.
 #pragma once
 
+#include "core/diagnostics.h"
+
+#include <functional>
+#include <optional>
+#include <string>
 #include <string_view>
 
 namespace cascade {
 
-/// The text that a hint tells to write where its message underlines: x of "write 'x' to multiply"
-/// and of "did you mean 'x'?", else all after "write ". Empty if there is none. It may leave
-/// something open ("…").
+/// The text that a hint suggests in place of the underlined text: x in "write 'x' to multiply" and
+/// in "did you mean 'x'?", else everything after "write ". Empty if there is none. The text may
+/// contain "…" where the user has to complete it.
 std::string_view text_to_write(std::string_view hint);
+
+/// The text to write in place of the underlined text of a diagnostic, as its hint suggests. Empty
+/// unless this removes the diagnostic and causes no other. `text` is the text of the diagnostic's
+/// source, and `before` are all its diagnostics. `check` returns the diagnostics of another text.
+std::optional<std::string> fix_of(const Diagnostic& diagnostic, const std::string& text,
+                                  const Diagnostics& before,
+                                  const std::function<Diagnostics(const std::string&)>& check);
 
 }  // namespace cascade

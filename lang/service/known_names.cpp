@@ -1,4 +1,5 @@
-// Collects names from the tables of the language, and reads as much of a text as tells its place.
+// Collects names from the tables of the language. Reads only as much of a text as is needed to find
+// the block and statement at its end.
 #include "lang/service/known_names.h"
 
 #include "core/palette.h"
@@ -97,7 +98,7 @@ std::vector<KnownName> names_of_language() {
     return names;
 }
 
-/// Of names that are there several times, the first is kept.
+/// Sorts names. Of several equal names, keeps the first.
 std::vector<KnownName> sorted(std::vector<KnownName> names) {
     std::stable_sort(names.begin(), names.end(),
                      [](const auto& one, const auto& other) { return one.name < other.name; });
@@ -118,19 +119,19 @@ std::vector<KnownName> of_kinds(const Program& program, std::initializer_list<Na
     return names;
 }
 
-/// Where the end of a text is.
+/// The blocks, calls and statement that are open at the end of a text.
 struct TextPlace {
     struct Block {
-        std::string_view keyword, name;  ///< As in `stage one: spots {`.
+        std::string_view keyword, name;  ///< `stage` and `one` in `stage one: spots {`.
     };
-    std::vector<Block> blocks;            ///< That are open, outermost first.
-    std::vector<std::string_view> calls;  ///< The words before the brackets that are open.
-    std::string_view statement;           ///< What has been written of the last statement.
+    std::vector<Block> blocks;            ///< The open blocks, outermost first.
+    std::vector<std::string_view> calls;  ///< The words before the open brackets.
+    std::string_view statement;           ///< The text of the last statement so far.
     bool is_comment = false;
     bool is_string = false;
 };
 
-/// Does a statement go on in the next line if this is its last character in a line?
+/// Whether a statement continues in the next line if this is the last character of a line.
 bool goes_on(char last) {
     return std::string_view("+-*/^,=<>:").find(last) != std::string_view::npos;
 }
@@ -138,7 +139,7 @@ bool goes_on(char last) {
 TextPlace place_at_end(std::string_view text) {
     TextPlace place;
     std::size_t begin = 0;
-    char last = 0;  // Of the statement so far, without blanks and comments.
+    char last = 0;  // The last character of the statement so far, without blanks and comments.
     const auto statement_to = [&](std::size_t end) {
         return without_blanks_before(text.substr(begin, end - begin));
     };
@@ -183,7 +184,16 @@ std::optional<std::uint32_t> stage_named(const Program& program, std::string_vie
     return std::nullopt;
 }
 
-/// The stage before a dot at the end of a text.
+/// The stage of a block: itself, or the first stage of the system that the block declares.
+std::optional<std::uint32_t> stage_of_block(const Program& program, const TextPlace::Block& block) {
+    if (block.keyword == "stage") return stage_named(program, block.name);
+    for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
+        if (program.system_of(k).name == block.name) return k;
+    }
+    return std::nullopt;
+}
+
+/// The stage that is named before a dot at the end of a text.
 std::optional<std::uint32_t> stage_before_dot(std::string_view text, const Program& program) {
     if (!text.ends_with('.')) return std::nullopt;
     return stage_named(program, last_word(text.substr(0, text.size() - 1)));
@@ -212,7 +222,7 @@ bool has_settings_of(std::string_view block, SettingBlock of) {
     return of == SettingBlock::stage || (is_of_stages && block == "stage");
 }
 
-/// What statements of a block can begin with.
+/// The names with which statements of a block can begin.
 std::vector<KnownName> names_that_begin(std::string_view block, const Program& program) {
     std::vector<KnownName> names;
     if (block == "stage" || block == "system" || block == "cells") {
@@ -225,7 +235,7 @@ std::vector<KnownName> names_that_begin(std::string_view block, const Program& p
     return names;
 }
 
-/// The names in a value of a setting, or of anything else.
+/// The names that are allowed in the value of a setting, or in any other value.
 std::vector<KnownName> names_in_value(std::string_view statement, const Program& program) {
     const std::string_view name = first_word(statement);
     const bool has_value = without_blanks_before(statement.substr(name.size())).starts_with(':');
@@ -330,12 +340,11 @@ std::optional<Mention> mention(std::string_view typed, std::size_t byte, const P
     if (place.is_comment) return std::nullopt;
     const auto named_before = stage_before_dot(text, program);
     std::optional<std::uint32_t> first = named_before;
-    if (!first && !place.blocks.empty() && place.blocks.back().keyword == "stage") {
-        first = stage_named(program, place.blocks.back().name);
-    }
+    if (!first && !place.blocks.empty()) first = stage_of_block(program, place.blocks.back());
     std::vector<std::uint32_t> stages{first.value_or(stage)};
     for (std::uint32_t k = 0; k < program.stages.size() && !named_before; ++k) stages.push_back(k);
     for (const std::uint32_t k : stages) {
+        if (k >= program.stages.size()) continue;
         const System& system = program.system_of(k);
         for (const ItemId item : system.quantities.ids()) {
             const Quantity& quantity = system.quantities[item];

@@ -1,5 +1,5 @@
-// The check says what names of systems and stages mean. Functions, indices and shapes mean the same
-// wherever they are read, so the tree alone says which names are theirs.
+// The check records what names of systems and stages refer to. Functions, indices and shapes have
+// the same meaning everywhere, so their uses are found in the syntax tree alone.
 #include "lang/service/name_index.h"
 
 #include "lang/check/check.h"
@@ -22,9 +22,9 @@ namespace {
 
 using Declared = std::unordered_map<std::string_view, Span>;
 
-/// Finds the uses of names that a tree alone tells.
+/// Finds the uses of names that can be found in the tree alone.
 class TreeNames {
-    static constexpr int most_levels = 1000;  ///< A base with more is not searched for indices.
+    static constexpr int most_levels = 1000;  ///< Indices of deeper bases are not found.
 
 public:
     TreeNames(const ast::Script& tree, NameUses& uses) : tree_(tree), uses_(uses) {}
@@ -79,7 +79,7 @@ private:
         }
     }
 
-    /// The indices of a block and of its bases. A block's own replace those of a base.
+    /// The indices of a block and of its bases. The block's own indices replace indices of a base.
     Declared indices_of(const ast::Block& block) const {
         Declared indices;
         const ast::Block* next = &block;
@@ -135,11 +135,11 @@ private:
     const ast::Script& tree_;
     NameUses& uses_;
     Declared functions_, constants_;
-    std::unordered_map<std::string_view, const ast::Block*> systems_;  ///< By name.
-    std::unordered_set<ast::ExprId> parameters_;  ///< Names that are read as parameters.
+    std::unordered_map<std::string_view, const ast::Block*> systems_;  ///< The blocks by name.
+    std::unordered_set<ast::ExprId> parameters_;  ///< Uses of names as parameters.
 };
 
-/// The name in a span that may begin with a bracket and end with an index.
+/// The name in a span. The span may begin with a bracket and end with an index.
 Span name_in(Span span, const Sources& sources) {
     const std::string_view text = sources[span.source].text();
     if (span.begin < text.size() && text[span.begin] == '[') ++span.begin;
@@ -151,7 +151,8 @@ auto key_of(Span span) { return std::tuple(span.source, span.begin); }
 
 }  // namespace
 
-NameIndex::NameIndex(const ast::Script& tree, Sources& sources, SourceId text)
+NameIndex::NameIndex(const ast::Script& tree, const Diagnostics& read, Sources& sources,
+                     SourceId text)
     : sources_(sources), text_(text) {
     const auto note_source = [&](Span span) {
         const bool is_known = span.source == text || std::ranges::count(used_, span.source) > 0;
@@ -160,14 +161,14 @@ NameIndex::NameIndex(const ast::Script& tree, Sources& sources, SourceId text)
     for (const ast::Block& block : tree.blocks) note_source(block.keyword.span);
     for (const ast::FunctionDefinition& function : tree.functions) note_source(function.name.span);
     NameUses uses;
-    Diagnostics diagnostics;
+    Diagnostics diagnostics = read;  // The check leaves out what a tree with errors cannot have.
     check(tree, sources, diagnostics, &uses);
     errors_ = diagnostics.error_count();
     TreeNames(tree, uses).run();
     add(uses);
 }
 
-/// Words that refer to each other, directly or through others, are one group.
+/// Adds uses. Words that refer to each other, directly or through others, form one group.
 void NameIndex::add(const NameUses& uses) {
     std::map<std::tuple<SourceId, std::uint32_t>, std::size_t> number;
     NameUses named;
@@ -196,7 +197,8 @@ void NameIndex::add(const NameUses& uses) {
         const std::size_t a = first_of(use), b = first_of(declaration);
         words_[std::max(a, b)].group = std::min(a, b);
     }
-    // What declares itself is not declared by what it replaces.
+    // The declaration of a name that declares itself is this name, not the declaration that it
+    // replaces.
     for (const NameUse& each : named) {
         if (each.use == each.declaration) {
             const std::size_t k = number.at(key_of(each.use));
@@ -235,7 +237,7 @@ std::vector<Span> NameIndex::uses_at(std::uint32_t byte) const {
     return spans;
 }
 
-/// For each word of the text, in order, the number of the first one that means the same.
+/// For each word of the text, in order, the number of the first word with the same meaning.
 std::vector<std::size_t> NameIndex::meanings() const {
     std::map<std::size_t, std::size_t> numbers;
     std::vector<std::size_t> result;
@@ -274,7 +276,7 @@ Result<std::string> NameIndex::renamed(std::uint32_t byte, std::string_view name
             sources.add(sources_[used].name(), std::string(sources_[used].text()));
         parse_used(copy, sources, tree, diagnostics);
     }
-    const NameIndex after(tree, sources, source);
+    const NameIndex after(tree, diagnostics, sources, source);
     if (after.errors_ > errors_ || after.meanings() != meanings()) {
         return failure(fmt::format("'{}' cannot be called '{}' here", before, name),
                        "that name has another meaning");

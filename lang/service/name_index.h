@@ -1,6 +1,8 @@
-// Where the names of a script are declared and used: answers for editors about a byte of a text.
+// Finds where the names of a script are declared and used. Answers editors' questions about a byte
+// of a text.
 #pragma once
 
+#include "core/diagnostics.h"
 #include "core/result.h"
 #include "core/source.h"
 #include "lang/check/names/name_uses.h"
@@ -14,32 +16,34 @@
 
 namespace cascade {
 
-/// Systems, stages, shapes, their quantities and definitions, indices, functions, their parameters,
-/// and constants. Names of options are left out.
+/// Contains systems, stages, shapes, their quantities and definitions, indices, functions and their
+/// parameters, and constants. Names in options are not included.
 class NameIndex {
 public:
-    /// Checks a script. It may have errors, which may hide names. `text` is its source. The tree
-    /// may hold systems and functions of other sources, too. Texts of the library are added to
-    /// `sources`, which must outlive the index.
-    NameIndex(const ast::Script& tree, Sources& sources, SourceId text);
+    /// Checks a script. If the script has errors, some names may be missing from the index. `read`
+    /// contains the errors that were found when the tree was read, and possibly others. `text` is
+    /// the script's source. The tree may also contain systems and functions of other sources. Texts
+    /// of the library are added to `sources`, which must outlive the index.
+    NameIndex(const ast::Script& tree, const Diagnostics& read, Sources& sources, SourceId text);
 
-    /// The name at a byte of the text or directly before it; nothing if there is none.
+    /// The name that contains a byte of the text or ends directly before it. Empty if there is
+    /// none.
     std::optional<Span> name_at(std::uint32_t byte) const;
     /// The declaration of this name, in any of the sources. If a derived system replaces a
-    /// declaration, it is the one that counts at this byte.
+    /// declaration, the result is the one that is valid at this byte.
     std::optional<Span> declaration_at(std::uint32_t byte) const;
-    /// Wherever this name is used or declared, in all sources, in ascending order.
+    /// All places where this name is used or declared, in all sources, in ascending order.
     std::vector<Span> uses_at(std::uint32_t byte) const;
 
     /// The text with this name replaced by another. Fails if the name also occurs in another
-    /// source, and if the new text would have errors or would change the meaning of any name.
+    /// source, or if the new text would have errors or the meaning of any name would change.
     Result<std::string> renamed(std::uint32_t byte, std::string_view name) const;
 
 private:
     struct Word {
         Span span;
-        std::size_t declaration = 0;  ///< Into `words_`.
-        std::size_t group = 0;        ///< The first word that means the same.
+        std::size_t declaration = 0;  ///< The index of the declaration in `words_`.
+        std::size_t group = 0;        ///< The index of the first word with the same meaning.
     };
     void add(const NameUses& uses);
     const Word* find(std::uint32_t byte) const;
@@ -47,7 +51,7 @@ private:
 
     const Sources& sources_;
     SourceId text_;
-    std::vector<SourceId> used_;  ///< The other sources of the tree, in its order.
+    std::vector<SourceId> used_;  ///< The other sources of the tree, in order.
     std::size_t errors_ = 0;
     std::vector<Word> words_;  ///< In ascending order.
 };

@@ -1,4 +1,4 @@
-// A quantity that has a rate in its block is a species.
+// Builds the outline. A quantity is a species if it has a rate in its block.
 #include "lang/service/symbols.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ NameKind kind_of(const ast::Block& block, const ast::Statement& statement) {
     return has_rate ? NameKind::species : NameKind::parameter;
 }
 
-/// A classic stage has no span of its own.
+/// The span of a block. The tree has no span for a classic stage, so its span is computed.
 Span span_of(const ast::Block& block) {
     if (block.span.end > 0) return block.span;
     Span span = block.keyword.span;

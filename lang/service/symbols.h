@@ -1,4 +1,4 @@
-// The outline of a script: its blocks and what they declare.
+// The outline of a script: its blocks and their declarations.
 #pragma once
 
 #include "core/source.h"
@@ -11,9 +11,9 @@
 namespace cascade {
 
 struct Symbol {
-    std::string name;  ///< `domain` and `picture` for these blocks.
+    std::string name;  ///< `domain` or `picture` for these blocks.
     NameKind kind = NameKind::keyword;
-    Span name_span, span;  ///< The name, and all of its block, function or statement.
+    Span name_span, span;  ///< The name alone; the whole block, function or statement.
     std::vector<Symbol> inside;
 };
 

@@ -1,8 +1,8 @@
-// The syntax tree: a script as written, before names and types are checked.
+// The syntax tree: a script as it is written, before names and types are checked.
 //
-// Expressions are stored in one flat list, operands before their operator, so that nothing is ever
-// traversed or destroyed by recursion: a loop over a range of the list visits an expression bottom
-// up, however deep or long it is.
+// Expressions are stored in one flat list, operands before their operator. A loop over a range of
+// the list visits an expression bottom up, so no code needs recursion, however deep or long the
+// expression is.
 #pragma once
 
 #include "core/source.h"
@@ -39,16 +39,18 @@ struct Binary { Function op; ExprId left, right; };
 /// The arguments are Script::arguments[first_argument …], in order.
 struct Call { Word function; std::uint32_t first_argument, argument_count; };
 /// sum(operand over index). `index` is the word `domain`, `touching` or `near`, or an index of the
-/// system. The distance of near(d) follows the nodes of the operand.
+/// system. The distance in near(d) comes after the nodes of the operand.
 struct Over { Word function; ExprId operand; Word index; std::optional<ExprId> distance; };
-/// u[index], A[index, second], [u[index]], large.u[index], u[index]': `base` is the Name,
-/// Bracketed, Qualified or RateOf of the family, directly before the nodes of the indices.
+/// u[index], A[index, second], [u[index]], large.u[index] or u[index]'. `base` is the Name,
+/// Bracketed, Qualified or RateOf of the family. Its node comes directly before the nodes of the
+/// indices.
 struct Indexed { ExprId base, index; std::optional<ExprId> second = {}; };
-/// J.x. `axis` is the number 0, 1 or 2, the node before this. No stage has a value of that name.
+/// J.x, the component of a vector. `axis` is the node before this one, a Number 0, 1 or 2. If J is
+/// a stage that has a value called x, the expression is a Qualified instead.
 struct Component { ExprId operand, axis; Word name; };
 // clang-format on
 /// Replaces text that could not be parsed. An error has been reported, and later passes report no
-/// other.
+/// further error about it.
 struct Garbage {};
 
 struct Expr {
@@ -58,7 +60,8 @@ struct Expr {
         node;
 };
 
-/// The range [first, root] of Script::expressions: all nodes of one expression, `root` last.
+/// One expression: the nodes [first, root] of Script::expressions. The last node, `root`, is the
+/// outermost operator.
 struct Expression {
     ExprId first = 0;
     ExprId root = 0;
@@ -75,7 +78,7 @@ enum class StatementKind : std::uint8_t {
     constraint,  ///< 0 = e. The name is the 0.
 };
 
-/// in low .. high [step e], after the value of a parameter.
+/// The range after the value of a parameter: in low .. high [step e].
 struct Range {
     Expression low, high;
     std::optional<Expression> step;
@@ -85,12 +88,12 @@ struct Range {
 struct Statement {
     StatementKind kind = StatementKind::value;
     Word name;
-    Word index;   ///< i of `u[i]: e`, a name or a number, or i,j of `A[i, j]: e`
+    Word index;   ///< The index: i in `u[i]: e`, a name or a number, or i,j in `A[i, j]: e`
                   ///< (lang/syntax/index_words.h). Empty without an index.
-    Word side;    ///< left of `u.left: e`. Empty if there is none.
-    Word second;  ///< u of `u'' = e`, which becomes u_t' = e (lang/syntax/second_rates.h).
-                  ///< Otherwise empty.
-    Word after;   ///< divide of `u: e after divide`. Empty if there is none.
+    Word side;    ///< The side: left in `u.left: e`. Otherwise empty.
+    Word second;  ///< The species of a second rate: u in `u'' = e`, which becomes u_t' = e
+                  ///< (lang/syntax/second_rates.h). Otherwise empty.
+    Word after;   ///< The event: divide in `u: e after divide`. Otherwise empty.
     std::vector<Expression> values;  ///< At least one.
     std::optional<Range> range;      ///< Only for kind `value`.
     Span span;                       ///< From the name to the end of the last value.
@@ -109,17 +112,18 @@ enum class BlockKind : std::uint8_t {
 struct Block {
     BlockKind kind = BlockKind::system;
     bool is_cells = false;  ///< A system of crawling cells.
-    Word keyword;           ///< `system`, `stage`, `system_name`, …: messages point here.
+    Word keyword;           ///< `system`, `stage`, `system_name`, …; messages point here.
     Span span;              ///< From the keyword to the `}`. Empty for a classic stage.
     Word name;              ///< The name of a system, a stage or a shape. Otherwise empty.
-    /// For a stage: its system, empty if it could not be parsed. For a system or a shape: its base,
-    /// empty if it has none.
+    /// For a stage: its system; empty if this could not be parsed. For a system or a shape: its
+    /// base; empty if there is none.
     Word base;
     std::vector<Word> joined;  ///< For cells: the bases after the first.
     std::vector<Statement> statements;
     std::vector<Statement> sides;  ///< `u.left: …`, `u[1].left: …`.
     std::string doc;               ///< The text of its doc comments, joined to one line.
-    /// A part could not be parsed and is missing from these lists. An error has been reported.
+    /// Whether a part of the block could not be parsed and is missing from these lists. An error
+    /// has been reported.
     bool is_damaged = false;
 };
 
@@ -128,20 +132,22 @@ struct FunctionDefinition {
     Word name;
     std::vector<Word> parameters;
     Expression body;
-    Span span;  ///< From the keyword to the end of the body. Empty if it could not be parsed.
-    bool is_constant = false;  ///< `let`.
+    Span span;  ///< From the keyword to the end of the body. Empty if the definition could not be
+                ///< parsed.
+    bool is_constant = false;  ///< Whether it is written with `let`.
     std::string doc;
 };
 
 /// use "file.cascade"
 struct Use {
     Span span;         ///< The span of the string.
-    std::string path;  ///< As written.
+    std::string path;  ///< The path as it is written.
 };
 
-/// A value from outside the script (`--set large.ka=1/400`). It replaces the statement of that name
-/// in one stage, or, if no stage has that name, in all stages of the system of that name. If
-/// `stage` is empty, in all stages with such a statement.
+/// A value from outside the script (`--set large.ka=1/400`). It replaces the statement of this name
+/// in the stage called `stage`, or, if there is no such stage, in all stages whose system is called
+/// `stage`. If `stage` is empty, the value replaces the statement in all stages that have a
+/// statement of this name.
 struct Override {
     Word stage;
     Statement statement;
@@ -152,9 +158,9 @@ struct Script {
     std::vector<FunctionDefinition> functions;
     std::vector<Use> uses;
     std::vector<Override> overrides;
-    /// Settings of the domain and of all stages given as options: --grid 64x32 is `grid: 64, 32`.
-    /// They override the script. Each has its own source, the text of the option. --fast has no
-    /// value.
+    /// Settings of the domain and of all stages that options give: --grid 64x32 is `grid: 64, 32`.
+    /// They override the script. The source of each statement is the text of the option. The
+    /// statement for --fast has no value.
     std::vector<Statement> options;
     std::vector<Expr> expressions;
     std::vector<ExprId> arguments;

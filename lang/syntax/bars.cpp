@@ -1,4 +1,4 @@
-// One pass from left to right with a stack of open brackets and bars.
+// Replaces bars in one pass from left to right, with a stack of open brackets and bars.
 #include "lang/syntax/bars.h"
 
 #include "lang/syntax/paper_notation.h"
@@ -88,7 +88,8 @@ private:
         }
         return false;
     }
-    /// `over` and `in` come between operands. Within bars they can only be names.
+    /// Whether the token follows an operand. The words `over` and `in` usually come between
+    /// operands. Within bars they can only be names.
     bool is_after_operand(bool is_open) const {
         if (at_ == 0) return false;
         const Token& before = in_[at_ - 1];
@@ -105,7 +106,7 @@ private:
             default: return false;
         }
     }
-    /// Reports the bars that are open within the last bracket, and closes them.
+    /// Reports the bars that are open inside the innermost bracket, and closes them.
     void report_open_bars() {
         bool is_reported = false;
         while (!open_.empty() && open_.back().kind == TokenKind::bar) {
@@ -124,7 +125,7 @@ private:
     const std::vector<Token>& in_;
     Diagnostics& diagnostics_;
     std::vector<Token> out_;
-    std::vector<Token> open_;  ///< Brackets and bars.
+    std::vector<Token> open_;  ///< Open brackets and bars.
     std::size_t at_ = 0;
 };
 

@@ -1,8 +1,9 @@
-// The bars of an absolute value: |u - v|, read as the tokens of abs(u - v).
+// The bars of an absolute value: reads |u - v| as the tokens of abs(u - v).
 //
-// A bar after an operand closes the bars that are open, and any other one opens a pair. Without
-// open bars, a bar after an operand is the `or` of other languages, unless it touches the next
-// token and another bar follows on its line, as in `2 |u|`, which lacks an operator.
+// A bar after an operand closes the innermost open bar, and any other bar opens an absolute value.
+// If no bar is open, a bar after an operand is reported as the `or` of other languages. There is
+// one exception: if this bar touches the next token and another bar follows on the line, as in `2
+// |u|`, the report is that an operator is missing.
 #pragma once
 
 #include "core/diagnostics.h"
@@ -12,7 +13,7 @@
 
 namespace cascade {
 
-/// The tokens without bars. Reports bars that are never closed, and bars that mean `or`.
+/// The tokens, with bars replaced. Reports bars that are never closed, and bars that mean `or`.
 std::vector<Token> without_bars(const std::vector<Token>& tokens, Diagnostics& diagnostics);
 
 }  // namespace cascade

@@ -1,4 +1,5 @@
-// Expressions where an operand is expected: numbers, names in all forms, strings, signs, brackets.
+// Parses the parts of an expression that can begin an operand: numbers, names in all forms,
+// strings, signs, brackets.
 #include "core/decimal.h"
 #include "lang/syntax/expression_parser.h"
 #include "lang/syntax/second_rates.h"
@@ -13,7 +14,7 @@ namespace cascade {
 namespace {
 
 // Literals that round to infinity in single precision (half a unit above the largest number), or
-// that are flushed to zero, are probably mistakes.
+// that are flushed to zero, are reported as probable mistakes.
 constexpr double too_large = 0x1.ffffffp127;
 constexpr double smallest = 0x1p-126;
 
@@ -53,7 +54,7 @@ ExpressionParser::Progress ExpressionParser::read_operand() {
             if (is_after_operator && before != TokenKind::comma) break;
             while (cursor_.take_if(TokenKind::plus)) {
             }
-            cursor_.error(token.span, "numbers have no sign '+'", "leave it out");
+            cursor_.error(token.span, "a number is written without '+'", "leave it out");
             return Progress::going_on;
         }
         case TokenKind::garbage:  // The lexer has reported an error.
@@ -87,7 +88,7 @@ ExpressionParser::Progress ExpressionParser::read_number() {
     return Progress::going_on;
 }
 
-/// name, name', stage.name, vector.x, or the beginning of a call.
+/// Reads name, name', stage.name, vector.x, or the beginning of a call.
 ExpressionParser::Progress ExpressionParser::read_name() {
     const Token token = cursor_.take();
     const ast::Word name = cursor_.word(token);
@@ -98,7 +99,7 @@ ExpressionParser::Progress ExpressionParser::read_name() {
     if (cursor_.at(TokenKind::prime)) {
         Token prime = cursor_.take();
         ast::Word species = name;
-        if (cursor_.at(TokenKind::prime)) {  // u'' is the rate of u_t.
+        if (cursor_.at(TokenKind::prime)) {  // u'' means the rate of u_t.
             prime = cursor_.take();
             species.text = name_of_rate(name.text);
         }
@@ -126,7 +127,7 @@ ExpressionParser::Progress ExpressionParser::read_name() {
     return Progress::going_on;
 }
 
-/// [name]. Skips anything else in such brackets up to the closing one.
+/// Reads [name]. Skips anything else in such brackets up to the closing bracket.
 ExpressionParser::Progress ExpressionParser::read_bracketed() {
     const bool is_range = cursor_.previous().kind == TokenKind::name;
     const Token open = cursor_.take();
@@ -162,15 +163,15 @@ ExpressionParser::Progress ExpressionParser::read_bracketed() {
     if (is_readable) {
         const bool is_list = cursor_.text(whole).find(',') != std::string_view::npos;
         std::string hint = "( ) groups an expression";
-        if (is_list) hint = "lists have no brackets, as in grid: 64, 64";
+        if (is_list) hint = "write lists without brackets, as in grid: 64, 64";
         if (is_range) hint = "a range is written 0 .. 1";
-        cursor_.error(whole, "'[ ]' holds one name of this stage", std::move(hint));
+        cursor_.error(whole, "'[ ]' encloses one name of this stage", std::move(hint));
     }
     push_operand(whole, ast::Garbage{});
     return Progress::going_on;
 }
 
-/// [name[index]]: the outer bracket is open, and the index follows.
+/// Reads [name[index]]. The outer bracket has been read, and the index follows.
 ExpressionParser::Progress ExpressionParser::read_own_member() {
     const Token outer = cursor_.previous();
     const Token name = cursor_.take();
@@ -180,7 +181,8 @@ ExpressionParser::Progress ExpressionParser::read_own_member() {
     return Progress::going_on;
 }
 
-/// `not` binds loosely: in `a + not b` it would not apply to b alone.
+/// Reads `not`. Reports a `not` after an operator that binds more tightly: in `a + not b`, `not`
+/// would not apply to b alone.
 ExpressionParser::Progress ExpressionParser::read_not() {
     Pending logical_not;
     logical_not.kind = PendingKind::unary;
@@ -190,7 +192,7 @@ ExpressionParser::Progress ExpressionParser::read_not() {
                               pending_.back().precedence() > logical_not.precedence();
     if (is_misplaced) {
         cursor_.error(logical_not.token.span,
-                      fmt::format("'not' cannot stand directly after {}",
+                      fmt::format("'not' cannot directly follow {}",
                                   cursor_.describe(pending_.back().token)),
                       "put it in brackets: (not …)");
     }
@@ -198,14 +200,14 @@ ExpressionParser::Progress ExpressionParser::read_not() {
     return Progress::going_on;
 }
 
-/// A string in single quotes: 'tan' instead of "tan".
+/// Reports a string in single quotes, such as 'tan' instead of "tan".
 ExpressionParser::Progress ExpressionParser::read_text_in_primes() {
     const bool is_text = cursor_.kind(1) == TokenKind::name && cursor_.kind(2) == TokenKind::prime;
     if (!is_text) return missing_operand();
     const Span open = cursor_.take().span;
     const Token word = cursor_.take();
     const Span whole = join(open, cursor_.take().span);
-    cursor_.error(whole, "a text stands in double quotes",
+    cursor_.error(whole, "a text needs double quotes",
                   fmt::format("write \"{}\"", shortened(cursor_.text(word))));
     push_operand(whole, ast::Garbage{});
     return Progress::going_on;

@@ -1,4 +1,4 @@
-// Expressions after an operand: operators, commas, closing brackets, and the end.
+// Parses expressions after an operand: operators, commas, closing brackets, and the end.
 #include "lang/syntax/expression_parser.h"
 #include "lang/vocabulary/functions.h"
 #include "lang/vocabulary/signs_elsewhere.h"
@@ -45,7 +45,7 @@ ExpressionParser::Progress ExpressionParser::read_operator() {
     const Token token = cursor_.peek();
     const auto is_here = [&](std::string_view word) { return cursor_.at_name(word); };
     if (open_brackets_ == 0 && std::ranges::any_of(ends_, is_here)) return Progress::finished;
-    if (token.kind == TokenKind::assign) {  // Parsed as the comparison that was probably meant.
+    if (token.kind == TokenKind::assign) {  // Parsed as the comparison that was probably intended.
         cursor_.error(token.span, "'=' inside an expression", "write '==' to compare");
     }
     if (const auto binary = binary_of(token.kind)) {
@@ -82,13 +82,13 @@ ExpressionParser::Progress ExpressionParser::read_operator() {
     return unexpected_operator(on_new_line);
 }
 
-/// True if a '[' here follows a name directly, as in u[i]. After a blank it begins a new operand.
+/// Whether the '[' here directly follows a name, as in u[i]. Otherwise the '[' begins an operand.
 bool ExpressionParser::begins_index() const {
     const Token& before = cursor_.previous();
     return before.kind == TokenKind::name && before.span.end == cursor_.peek().span.begin;
 }
 
-/// True if a '.' here follows a bracket or a prime directly, as in grad(u).x.
+/// Whether the '.' here directly follows a bracket or a prime, as in grad(u).x.
 bool ExpressionParser::begins_component() const {
     const Token& before = cursor_.previous();
     const bool ends_operand = before.kind == TokenKind::close_round ||
@@ -97,7 +97,7 @@ bool ExpressionParser::begins_component() const {
     return ends_operand && before.span.end == cursor_.peek().span.begin;
 }
 
-/// .x after the operand of a vector.
+/// Reads .x after an operand that is a vector.
 ExpressionParser::Progress ExpressionParser::read_component() {
     const Token dot = cursor_.take();
     if (cursor_.at(TokenKind::garbage)) return fail_silently();
@@ -111,7 +111,7 @@ ExpressionParser::Progress ExpressionParser::read_component() {
     return Progress::going_on;
 }
 
-/// Makes a component of the last operand.
+/// Replaces the last operand by one of its components.
 void ExpressionParser::push_component(int axis, const ast::Word& name) {
     const Operand vector = operands_.back();
     operands_.pop_back();
@@ -120,7 +120,7 @@ void ExpressionParser::push_component(int axis, const ast::Word& name) {
     push_operand(join(vector.outer, name.span), ast::Component{vector.id, number, name});
 }
 
-/// The ']' of u[…]. A prime after it makes it the member's rate.
+/// Reads the ']' of u[…]. If a prime follows, the result is the rate of the member.
 ExpressionParser::Progress ExpressionParser::close_index() {
     const Token close = cursor_.take();
     const Pending open = pending_.back();
@@ -149,7 +149,7 @@ ExpressionParser::Progress ExpressionParser::close_index() {
         if (name == nullptr) return unexpected_operator(false);
         ast::Word species{family.span, name->name};
         whole = join(whole, cursor_.take().span);
-        if (cursor_.at(TokenKind::prime)) {  // u[i]'' is the rate of u_t[i].
+        if (cursor_.at(TokenKind::prime)) {  // u[i]'' means the rate of u_t[i].
             whole = join(whole, cursor_.take().span);
             species.text = name_of_rate(species.text);
         }
@@ -159,16 +159,16 @@ ExpressionParser::Progress ExpressionParser::close_index() {
     return Progress::going_on;
 }
 
-/// sum(e over i): the cursor is at `over`, the operand is complete.
+/// Reads sum(e over i). The operand is complete, and the cursor is at `over`.
 ExpressionParser::Progress ExpressionParser::read_over() {
     reduce_above(0);
     const Token over = cursor_.peek();
     const Pending open = pending_.back();
     if (open.kind != PendingKind::call) {
-        return fail(over.span, "'over' stands inside a function's brackets", form_of_over);
+        return fail(over.span, "'over' belongs inside the brackets of a function", form_of_over);
     }
     if (open.argument_count > 0) {
-        return fail(over.span, "'over' stands after one expression only", form_of_over);
+        return fail(over.span, "'over' follows a single expression", form_of_over);
     }
     cursor_.take();
     cursor_.skip_newlines_in_brackets();
@@ -184,7 +184,7 @@ ExpressionParser::Progress ExpressionParser::read_over() {
     return close_over(index, std::nullopt);
 }
 
-/// The cursor is at the bracket that closes near(d), and the distance is complete.
+/// Closes near(d). The distance is complete, and the cursor is at the closing bracket.
 ExpressionParser::Progress ExpressionParser::close_near() {
     cursor_.take();
     const ast::Word near = pending_.back().detail;
@@ -195,7 +195,7 @@ ExpressionParser::Progress ExpressionParser::close_near() {
     return close_over(near, distance);
 }
 
-/// The cursor is after the word that follows `over`. Then a bracket closes the sum.
+/// Closes a sum by a bracket. The cursor is after the word that follows `over`.
 ExpressionParser::Progress ExpressionParser::close_over(const ast::Word& over,
                                                         std::optional<ast::ExprId> distance) {
     cursor_.skip_newlines_in_brackets();
@@ -216,7 +216,7 @@ ExpressionParser::Progress ExpressionParser::close_over(const ast::Word& over,
     return Progress::going_on;
 }
 
-/// Closes the innermost bracket. Reports a `]` in place of a `)` and accepts it.
+/// Closes the innermost bracket. Reports a `]` in place of a `)`, but accepts it.
 ExpressionParser::Progress ExpressionParser::read_close_round() {
     const Token close = cursor_.peek();
     if (open_brackets_ == 0) {
@@ -290,9 +290,9 @@ ExpressionParser::Progress ExpressionParser::unexpected_operator(bool on_new_lin
     const Token token = cursor_.peek();
     switch (token.kind) {
         case TokenKind::prime:
-            return fail(token.span, "a prime stands directly after a name", "write p' for a rate");
+            return fail(token.span, "a prime directly follows a name", "write p' for a rate");
         case TokenKind::dot:
-            return fail(token.span, "'.' stands between the name of a stage and one of its names",
+            return fail(token.span, "'.' joins the name of a stage and one of its names",
                         "write stage.p");
         case TokenKind::colon:
         case TokenKind::dots:
@@ -303,7 +303,7 @@ ExpressionParser::Progress ExpressionParser::unexpected_operator(bool on_new_lin
     }
 }
 
-/// True if the operand before the cursor is an operator such as (1 + lap)^2, and another begins.
+/// Whether an operator such as (1 + lap)^2 comes before the cursor, and an operand after it.
 bool ExpressionParser::begins_applied() {
     const TokenKind here = cursor_.kind();
     const bool begins = here == TokenKind::name || here == TokenKind::number ||
@@ -313,7 +313,7 @@ bool ExpressionParser::begins_applied() {
     return applies_operator(script_, operands_.back().id);
 }
 
-/// What was probably meant by two operands without an operator between them; may be empty.
+/// A hint about the operator that is missing between two operands; may be empty.
 std::string ExpressionParser::hint_of_missing_operator() const {
     const Token before = cursor_.previous();
     const Token here = cursor_.peek();
@@ -334,7 +334,7 @@ std::string ExpressionParser::hint_of_missing_operator() const {
         if (!advice.empty()) return std::string(advice);
     }
     if (cursor_.at_name("in") || cursor_.at_name("step")) {
-        return "a range stands after the value of a parameter: p: 1 in 0 .. 2 step 0.1";
+        return "a range follows the value of a parameter: p: 1 in 0 .. 2 step 0.1";
     }
     if (is_product && here.kind != TokenKind::keyword_not && both.end - both.begin <= 40) {
         const bool is_as_written = cursor_.text(before) == cursor_.text(before.span);
@@ -363,7 +363,7 @@ ExpressionParser::Progress ExpressionParser::missing_operator(bool on_new_line) 
         return Progress::finished;
     }
     if (cursor_.at_name("over")) {
-        return fail(here.span, "'over' stands inside a function's brackets",
+        return fail(here.span, "'over' belongs inside the brackets of a function",
                     "write sum(e over i) or mean(e over domain)");
     }
     if (begins_applied()) {

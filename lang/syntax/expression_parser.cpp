@@ -1,4 +1,4 @@
-// Expressions: the main loop, and reduction of operators that have all their operands.
+// Parses expressions: the main loop, and the reduction of operators that have all their operands.
 #include "lang/syntax/expression_parser.h"
 
 #include "core/check.h"
@@ -46,7 +46,7 @@ void ExpressionParser::push_bracket(PendingKind kind, Token bracket, ast::Word n
     expects_operand_ = true;
 }
 
-/// Pushes an operator, after reducing operators on its left that bind tighter.
+/// Pushes an operator, after reducing operators to its left that bind more tightly.
 void ExpressionParser::push_binary(Function op, const Token& sign) {
     Pending pending;
     pending.kind = PendingKind::binary;
@@ -64,7 +64,8 @@ void ExpressionParser::push_binary(Function op, const Token& sign) {
     expects_operand_ = true;
 }
 
-/// Reduces the pending operators up to the last open bracket that bind tighter than `precedence`.
+/// Reduces pending operators that bind more tightly than `precedence`, back to the last open
+/// bracket.
 void ExpressionParser::reduce_above(int precedence) {
     while (!pending_.empty() && !pending_.back().is_bracket() &&
            pending_.back().precedence() > precedence) {
@@ -127,11 +128,11 @@ ExpressionParser::Progress ExpressionParser::fail(Span span, std::string message
     return Progress::failed;
 }
 
-/// The statement ends inside a bracket: reports that bracket.
+/// Reports the bracket that is open at the end of the statement.
 ExpressionParser::Progress ExpressionParser::unclosed() {
     for (std::size_t k = pending_.size(); k-- > 0;) {
         if (!pending_[k].is_bracket()) continue;
-        // A string that is never closed may have swallowed the closing bracket.
+        // An unclosed string may contain the closing bracket.
         if (cursor_.lost_in_text(pending_[k].token, "")) break;
         const bool is_index = pending_[k].kind == PendingKind::index;
         cursor_.error(pending_[k].token.span,

@@ -1,6 +1,6 @@
-// The parser of expressions: operator precedence with explicit stacks (E. W. Dijkstra's "shunting
-// yard", Mathematisch Centrum report MR 35, 1961), so that deep nesting needs memory but no
-// recursion.
+// The parser of expressions. It works by operator precedence with explicit stacks (E. W. Dijkstra's
+// "shunting yard", Mathematisch Centrum report MR 35, 1961), so that deep nesting needs memory but
+// no recursion.
 //
 // From loosest to tightest: or · and · not · comparisons · + - · * / · unary - · ^
 // (right-associative).
@@ -22,35 +22,35 @@ class ExpressionParser {
 public:
     ExpressionParser(TokenCursor& cursor, ast::Script& script) : cursor_(cursor), script_(script) {}
 
-    /// Parses one expression and leaves the cursor at its end: a line break, `;`, `}`, `,` or the
-    /// end of the text. On an error, reports it, skips to the end of the statement and returns
-    /// Garbage. `owner` names the holder of a missing value in messages: `the value of 'ka'`.
-    /// Outside of brackets the expression also ends at `..`, and at one of the words `ends` in the
-    /// position of an operator.
+    /// Parses one expression. Leaves the cursor at its end: a line break, `;`, `}`, `,` or the end
+    /// of the text. On an error, reports it, skips to the end of the statement and returns Garbage.
+    /// If the value is missing, `owner` describes it in the message: `the value of 'ka'`. Outside
+    /// of brackets the expression also ends at `..`, and at a word of `ends` in a position where an
+    /// operator could follow.
     ast::Expression parse(const std::string& owner, std::span<const std::string_view> ends = {});
 
 private:
     enum class PendingKind : std::uint8_t { binary, unary, group, call, index, near };
-    /// A comparison whose left side is a comparison, such as the second of `0 < a < 4`.
+    /// Whether the left side of a comparison is itself a comparison, as in `0 < a < 4`.
     enum class Chain : std::uint8_t { none, to_report, reported };
     enum class Progress : std::uint8_t { going_on, finished, failed };
 
-    /// An operator or an open bracket that waits for its right side.
+    /// An operator or an open bracket whose right side has not been read yet.
     struct Pending {
         PendingKind kind = PendingKind::group;
         Chain chain = Chain::none;
         Function op{};
-        Token token;                       ///< The operator or the bracket.
-        ast::Word detail;                  ///< Name of a call or `near`. Middle operand of a chain.
-        std::uint32_t argument_count = 0;  ///< For a call: complete arguments so far.
-        bool is_own = false;               ///< For an index: the inner bracket of [u[i]].
+        Token token;       ///< The operator or the bracket.
+        ast::Word detail;  ///< The name of a call, `near`, or the middle operand of an operator.
+        std::uint32_t argument_count = 0;  ///< For a call: the number of complete arguments.
+        bool is_own = false;  ///< For an index: whether it is the inner bracket in [u[i]].
         int precedence() const { return info(op).precedence; }
         bool is_bracket() const {
             return kind == PendingKind::group || kind == PendingKind::call ||
                    kind == PendingKind::index || kind == PendingKind::near;
         }
     };
-    /// A complete operand. `outer` is its source location including brackets.
+    /// A complete operand. `outer` is its source location, including brackets around it.
     struct Operand {
         ast::ExprId id = 0;
         Span outer;

@@ -11,7 +11,7 @@
 
 namespace cascade {
 
-/// The words of Statement::index with their source locations. None if it is empty.
+/// The words in Statement::index, with their source locations. Empty if there is no index.
 inline std::vector<ast::Word> words_of_index(const ast::Word& index) {
     if (index.empty()) return {};
     const std::size_t comma = index.text.find(',');
@@ -23,17 +23,18 @@ inline std::vector<ast::Word> words_of_index(const ast::Word& index) {
     return words;
 }
 
-/// Whether it is the number of a member, not the name of an index.
+/// Whether the word is the number of a member. Otherwise it is the name of an index.
 inline bool is_number(const ast::Word& word) {
     return !word.empty() && word.text.front() >= '0' && word.text.front() <= '9';
 }
 
-/// Whether a statement with this index is only about some members of a family.
+/// Whether a statement with this index applies only to some members of a family.
 inline bool is_of_some_members(const ast::Word& index) {
     return std::ranges::any_of(words_of_index(index), is_number);
 }
 
-/// The token after an index, if one like [i] or [i, 2] begins at a token. Otherwise this token.
+/// If an index such as [i] or [i, 2] begins at token `at`, the position of the token after it.
+/// Otherwise `at`.
 template <typename KindAt>
 std::size_t after_index(const KindAt& kind, std::size_t at) {
     if (kind(at) != TokenKind::open_square) return at;

@@ -1,4 +1,4 @@
-// A hash table that only grows, so that threads need no lock.
+// Stores spellings in a hash table that only grows, so threads need no lock.
 #include "lang/syntax/kept_spellings.h"
 
 #include <array>
@@ -22,7 +22,7 @@ std::string_view kept_spelling(const std::string& text) {
     static std::array<std::atomic<Entry*>, bucket_count> buckets{};
     std::atomic<Entry*>& bucket = buckets[std::hash<std::string>()(text) % bucket_count];
     Entry* fresh = nullptr;
-    Entry* seen = nullptr;  // The entries from here on have been compared.
+    Entry* seen = nullptr;  // Entries from this one on have been compared.
     for (Entry* first = bucket.load(std::memory_order_acquire);;) {
         for (const Entry* entry = first; entry != seen; entry = entry->next) {
             if (entry->text != text) continue;

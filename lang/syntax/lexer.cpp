@@ -1,4 +1,4 @@
-// The lexer: one pass over the bytes of a source.
+// Splits a source into tokens in one pass over its bytes.
 #include "core/utf8.h"
 #include "lang/syntax/bars.h"
 #include "lang/syntax/kept_spellings.h"
@@ -26,7 +26,7 @@ bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 
 /// A letter or digit of a name, and its spelling in ASCII.
 struct NamePart {
-    std::uint32_t size = 0;  ///< Bytes in the text.
+    std::uint32_t size = 0;  ///< The number of bytes in the text.
     std::string_view spelling;
 };
 
@@ -59,7 +59,7 @@ private:
     Span span(std::size_t begin, std::size_t end) const {
         return {source_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
     }
-    /// Adds the token [begin, end) and continues at `end`.
+    /// Adds the token [begin, end) and moves to `end`.
     void push(TokenKind kind, std::size_t begin, std::size_t end) {
         push(kind, begin, end, text_.substr(begin, end - begin));
     }
@@ -95,7 +95,7 @@ private:
     std::vector<Span>* docs_;
     std::vector<Token> tokens_;
     std::size_t offset_ = 0;
-    bool has_signs_of_papers_ = false;  ///< Needs conversion by without_paper_notation().
+    bool has_signs_of_papers_ = false;  ///< Whether the tokens need without_paper_notation().
 };
 
 bool Lexer::begins_operator(std::size_t offset) const {
@@ -104,7 +104,8 @@ bool Lexer::begins_operator(std::size_t offset) const {
                        [&](const Operator& known) { return rest.starts_with(known.spelling); });
 }
 
-/// True if the character at `offset` is not ASCII but resembles a letter of the name.
+/// Whether the character at `offset` is not ASCII but resembles a letter, so that it probably
+/// belongs to the name.
 bool Lexer::joins_a_name(std::size_t offset) const {
     if (offset >= text_.size() || static_cast<unsigned char>(text_[offset]) < 0x80) return false;
     const CodePoint point = decode_utf8(text_, offset);
@@ -112,7 +113,7 @@ bool Lexer::joins_a_name(std::size_t offset) const {
            !superscript_digit(point.value) && !begins_operator(offset);
 }
 
-/// The letter or digit of a name at `offset`. Its size is 0 if there is none.
+/// The letter or digit of a name at `offset`. Its size is 0 if there is another character.
 NamePart Lexer::name_part(std::size_t offset) const {
     if (is_name_part(at(offset))) return {1, text_.substr(offset, 1)};
     if (offset >= text_.size() || static_cast<unsigned char>(text_[offset]) < 0x80) return {};
@@ -147,7 +148,8 @@ void Lexer::read_token() {
     }
 }
 
-/// Several line breaks in a row are one token, despite blanks and comments between them.
+/// Reads a line end. Several line breaks in a row become one token, even with blanks and comments
+/// between them.
 void Lexer::read_line_end() {
     const std::size_t size = text_.substr(offset_).starts_with("\r\n") ? 2 : 1;
     if (!tokens_.empty() && tokens_.back().kind == TokenKind::newline) {
@@ -226,7 +228,7 @@ void Lexer::read_bad_name(std::size_t begin) {
     if (has_spelling && is_dotted) hint = "write " + latin + "' for a rate";
     diagnostics_.error(span(begin, end),
                        first_wrong +
-                           (is_marked ? " is no part of a name" : " is not a letter of a name"),
+                           (is_marked ? " cannot be part of a name" : " is not a letter of a name"),
                        std::move(hint));
     push(TokenKind::garbage, begin, end);
 }
@@ -235,7 +237,7 @@ void Lexer::read_number() {
     const std::size_t begin = offset_;
     std::size_t end = begin;
     while (is_digit(at(end))) ++end;
-    if (at(end) == '.' && at(end + 1) != '.') ++end;  // Two dots are a range: 1..3.
+    if (at(end) == '.' && at(end + 1) != '.') ++end;  // Two dots are a range, as in 1..3.
     while (is_digit(at(end))) ++end;
     if (at(end) == 'e' || at(end) == 'E') {
         const std::size_t sign = at(end + 1) == '+' || at(end + 1) == '-' ? 1 : 0;
@@ -257,8 +259,8 @@ void Lexer::read_number() {
     push(TokenKind::garbage, begin, end);
 }
 
-/// A string, which ends on its line. Other quotation marks have been reported. Their string is
-/// garbage.
+/// Reads a string, which must end on the same line. If it has other quotation marks, which have
+/// been reported, it becomes garbage.
 void Lexer::read_text(std::size_t quote_size, std::string_view closing) {
     const std::size_t begin = offset_;
     bool readable = quote_size == 1;
@@ -278,7 +280,7 @@ void Lexer::read_text(std::size_t quote_size, std::string_view closing) {
     push(TokenKind::garbage, begin, end);
 }
 
-/// A run of superscript digits, which may begin with a superscript minus.
+/// Reads superscript digits, which may begin with a superscript minus.
 bool Lexer::read_superscript() {
     std::size_t end = offset_;
     while (end < text_.size()) {
@@ -322,10 +324,11 @@ void Lexer::read_look_alike(const LookAlike& look_alike) {
     const CodePoint point = decode_utf8(text_, begin);
     const std::string_view letter = text_.substr(begin, point.size);
     const auto number = static_cast<std::uint32_t>(point.value);
-    if (look_alike.meant == TokenKind::newline) {  // A run of such blanks is reported once.
+    if (look_alike.meant == TokenKind::newline) {  // Adjacent blanks of this kind are reported
+                                                   // together.
         while (text_.substr(offset_).starts_with(letter)) offset_ += letter.size();
         diagnostics_.error(span(begin, offset_),
-                           fmt::format("U+{:04X} is not a plain blank", number),
+                           fmt::format("U+{:04X} is not an ordinary space", number),
                            "write a plain blank");
         return;
     }
@@ -340,7 +343,7 @@ void Lexer::read_look_alike(const LookAlike& look_alike) {
         const bool is_guillemet = point.value == U'\u00ab';
         return read_text(point.size, is_guillemet ? "\u00bb" : closing);
     }
-    if (is_power) {  // The parser continues as if there were no power.
+    if (is_power) {  // The parser continues without the power.
         offset_ += point.size;
         return;
     }
@@ -352,7 +355,9 @@ void Lexer::read_other() {
     const std::size_t begin = offset_;
     std::size_t end = begin;
     while (end < text_.size() && is_unreadable(text_, end)) ++end;
-    if (end > begin) return push(TokenKind::garbage, begin, end);  // Reported already.
+    if (end > begin)
+        return push(TokenKind::garbage, begin, end);  // An error has already been
+                                                      // reported.
     const CodePoint point = decode_utf8(text_, begin);
     if (!greek_spelling(point.value).empty()) return read_name();
     if (read_superscript()) return;

@@ -1,4 +1,4 @@
-// The tables of look-alikes.
+// The tables of characters that resemble others.
 #include "lang/syntax/look_alikes.h"
 
 #include <algorithm>
@@ -8,7 +8,7 @@ namespace cascade {
 
 namespace {
 
-/// The author's meaning of a character.
+/// The token that the author probably intended.
 using Meant = TokenKind;
 
 // clang-format off
@@ -66,7 +66,8 @@ constexpr LatinLookAlike latin_look_alikes[] = {
 };
 // clang-format on
 
-/// The Greek alphabet in the order of the mathematical styles, after the capitals.
+/// The lower-case Greek letters, in Unicode's order for mathematical styles. In each style these
+/// letters follow the capitals.
 constexpr std::string_view greek_of_styles[] = {"alpha",   "beta", "gamma", "delta", "epsilon",
                                                 "zeta",    "eta",  "theta", "iota",  "kappa",
                                                 "lambda",  "mu",   "nu",    "xi",    "o",
@@ -74,7 +75,7 @@ constexpr std::string_view greek_of_styles[] = {"alpha",   "beta", "gamma", "del
                                                 "upsilon", "phi",  "chi",   "psi",   "omega"};
 
 /// The spelling of a letter in one of Unicode's mathematical styles (U+1D400 to U+1D7CB), such as
-/// the italic u of formulas copied from a PDF.
+/// the italic u in formulas copied from a PDF.
 std::string_view styled_spelling(char32_t code_point) {
     static constexpr std::string_view latin =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";

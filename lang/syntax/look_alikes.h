@@ -1,5 +1,5 @@
-// Characters that resemble those of the language: typographic forms of ' and -, mathematical signs,
-// and letters of other alphabets.
+// Characters that resemble characters of the language: typographic forms of ' and -, mathematical
+// signs, and letters of other alphabets.
 #pragma once
 
 #include "lang/syntax/token.h"
@@ -8,18 +8,19 @@
 
 namespace cascade {
 
-/// A non-ASCII character in place of a token.
+/// A character outside of ASCII that was written in place of a token.
 struct LookAlike {
     char32_t code_point = 0;
-    TokenKind meant = TokenKind::garbage;  ///< `newline` for a blank, `text` for a quotation mark.
+    TokenKind meant = TokenKind::garbage;  ///< The token that was probably meant. `newline` for a
+                                           ///< blank, `text` for a quotation mark.
     std::string_view write;                ///< The text to write instead.
 };
 
-/// The table's row for a code point. Null if there is none.
+/// The row of the table for a code point; null if there is none.
 const LookAlike* find_look_alike(char32_t code_point);
 
-/// The text to write for a letter that no name has: `a` for a Cyrillic а, `u` for a mathematical
-/// italic u. Empty if there is none.
+/// The letter to write in place of a letter that names cannot contain: `a` for a Cyrillic а, `u`
+/// for a mathematical italic u. Empty if there is none.
 std::string_view latin_spelling(char32_t code_point);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Finds a `lap` without brackets that makes a product an application.
+// Decides whether a product applies an operator, by searching for a `lap` without brackets.
 #include "lang/syntax/operator_polynomials.h"
 
 #include <vector>

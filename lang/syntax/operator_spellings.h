@@ -1,4 +1,4 @@
-// The spellings of operators and brackets, including those of other languages.
+// Spellings of operators and brackets, including spellings of other languages.
 #pragma once
 
 #include "lang/syntax/token.h"
@@ -12,7 +12,8 @@ struct Operator {
     TokenKind kind;
 };
 
-/// A longer operator precedes its prefixes.
+/// The spellings of operators and brackets. A spelling comes before all shorter spellings with
+/// which it begins.
 inline constexpr Operator operators[] = {
     {"=\u0338", TokenKind::not_equal},
     {"+=", TokenKind::plus_assign},
@@ -40,8 +41,8 @@ inline constexpr Operator operators[] = {
     {"*", TokenKind::star},
     {"/", TokenKind::slash},
     {"^", TokenKind::caret},
-    // Signs of papers. Unicode treats a '=' with a combining stroke and the Greek semicolon as
-    // equal to ≠ and ·.
+    // Signs of papers. The table has two unusual spellings, because Unicode treats a '=' with a
+    // combining stroke as equal to ≠, and the Greek semicolon as equal to ·.
     {"≤", TokenKind::less_equal},
     {"≥", TokenKind::greater_equal},
     {"≠", TokenKind::not_equal},
@@ -63,7 +64,7 @@ inline constexpr Operator operators[] = {
     {"∣", TokenKind::bar},
 };
 
-/// Operators of other languages, and their equivalents.
+/// An operator of another language, and the token that it probably means.
 struct ForeignOperator {
     std::string_view spelling;
     TokenKind meant;
@@ -86,7 +87,8 @@ inline constexpr ForeignOperator foreign_operators[] = {
     {"%", TokenKind::garbage, "write mod(a, b) for a % b"},
 };
 
-/// Tried only if no operator of the language matches, since `!=` is one.
+/// The operator `!` of other languages. It is tried only if no operator of the language matches,
+/// because `!=` begins with `!`.
 inline constexpr ForeignOperator foreign_not = {"!", TokenKind::keyword_not, "write 'not'"};
 
 }  // namespace cascade

@@ -35,18 +35,20 @@ public:
     }
 
 private:
-    /// An open bracket, and the state to resume after it.
+    /// An open bracket, and the parser's state before it, which the closing bracket restores.
     struct Open {
-        std::size_t closings = 0;   ///< The number of operators' brackets that end here.
-        bool is_divisor = false;    ///< The product around it has been divided.
-        bool is_operators = false;  ///< The bracket belongs to an operator.
+        std::size_t closings = 0;   ///< How many brackets of operators to close after this bracket.
+        bool is_divisor = false;    ///< Whether the bracket is in a product that comes after a
+                                    ///< division sign.
+        bool is_operators = false;  ///< Whether the bracket belongs to an operator.
     };
-    /// The `/∂t` or `/∂x` of a derivative.
+    /// The end of a derivative: `/∂t` or `/∂x`.
     struct DerivativeEnd {
         TokenKind kind = TokenKind::prime;
-        bool is_second_prime = false;  ///< For ∂²u/∂t², with two primes.
+        bool is_second_prime = false;  ///< Whether the derivative is ∂²u/∂t², which becomes two
+                                       ///< primes.
         Token last;
-        std::size_t size = 0;  ///< In tokens of the source.
+        std::size_t size = 0;  ///< The number of tokens in the source.
     };
 
     void read() {
@@ -89,7 +91,7 @@ private:
         put(token(at_++));
     }
 
-    /// Adds the product sign that the source omits before this token.
+    /// Adds the product sign that the source omits before the token here.
     void multiply() {
         const Token& here = token(at_);
         if (is_after_application() || is_divisor_) {
@@ -103,7 +105,7 @@ private:
         put(TokenKind::star, before(here), "*");
     }
 
-    /// A name or a number, or a prime after a name.
+    /// Reads a name, a number, or a prime after a name.
     void read_operand() {
         put(token(at_));
         const bool is_name = kind(at_) == TokenKind::name && !is_between_operands(at_);
@@ -111,7 +113,7 @@ private:
         if (is_name && goes_on()) return;
         end_operand();
     }
-    /// True if the operand that ends before this token continues with it.
+    /// Whether the token here continues the operand before it.
     bool goes_on() const {
         switch (kind(at_)) {
             case TokenKind::open_round:
@@ -121,7 +123,7 @@ private:
             default: return false;
         }
     }
-    /// Closes the brackets of the operators whose operand ends before this token.
+    /// Closes the brackets of operators whose operand ends before the token here.
     void end_operand() {
         if (closings_ == 0) return;
         for (; closings_ > 0; --closings_) {
@@ -154,7 +156,7 @@ private:
         end_operand();
     }
 
-    /// ∇ ∇² ∇· Δ √
+    /// Reads an operator: ∇, ∇², ∇·, Δ or √.
     void read_operator() {
         if (at_ > 0 && ends_operand(at_ - 1)) multiply();
         Token sign = token(at_);
@@ -179,12 +181,12 @@ private:
         }
         if (sign.kind == TokenKind::laplacian && is_adjacent(at_) && is_width(token(at_))) {
             diagnostics_.error(join(sign.span, token(at_).span),
-                               "Δ is the Laplacian and makes no width",
+                               "Δ is the Laplacian and cannot be part of a width",
                                fmt::format("give the width a name, as in d_{}", token(at_).text));
         }
         const bool is_alone = kind(at_) == TokenKind::close_round || kind(at_) == TokenKind::plus ||
                               kind(at_) == TokenKind::minus;
-        if (is_alone && !open_.empty() && function == "lap") {  // (1 + ∇²)² u
+        if (is_alone && !open_.empty() && function == "lap") {  // As in (1 + ∇²)² u.
             put(TokenKind::name, sign.span, function);
             if (times > 1) {
                 put(TokenKind::caret, after(sign), "^");
@@ -213,7 +215,7 @@ private:
             closings_ += times;
         }
     }
-    /// The number of Laplacians in ∇², ∇⁴ or Δ².
+    /// How many Laplacians ∇², ∇⁴ or Δ² applies.
     std::size_t times_applied(const Token& sign, const Token& power) {
         const std::string digits = digits_of(source(power.span));
         constexpr std::array<std::string_view, 4> even{"2", "4", "6", "8"};
@@ -225,7 +227,8 @@ private:
                 return static_cast<std::size_t>(found - powers.begin()) + first;
             }
             diagnostics_.error(
-                sign.span, fmt::format("'{}' is no operator of the language", source(sign.span)),
+                sign.span,
+                fmt::format("'{}' is not an operator of the language", source(sign.span)),
                 is_nabla ? "there are ∇, ∇², ∇⁴, ∇⁶ and ∇⁸" : "there are Δ, Δ², Δ³ and Δ⁴");
             return std::size_t{1};
         };
@@ -247,7 +250,7 @@ private:
         const bool is_negative = digits[0] == '-';
         if (at_ == 0 || !ends_operand(at_ - 1) || !is_adjacent(at_) || is_after_power() ||
             digits == "-") {
-            diagnostics_.error(power.span, "a raised number stands directly after what it raises",
+            diagnostics_.error(power.span, "a raised exponent directly follows its base",
                                fmt::format("write u{}", digits == "-" ? "⁻¹" : source(power.span)));
             ++at_;
             return;
@@ -257,7 +260,7 @@ private:
         if (base.kind == TokenKind::name && function_named(base.text) &&
             kind(at_ + 1) == TokenKind::open_round) {
             diagnostics_.error(join(base.span, power.span),
-                               "the power of a function stands after its brackets",
+                               "the power of a function follows its brackets",
                                fmt::format("write {}(…){}", base.text, source(power.span)));
         }
         put(TokenKind::caret, before(power), "^");
@@ -274,18 +277,18 @@ private:
         const Token& caret = token(at_);
         refuse_power_of_application(caret);
         if (is_after_power()) {
-            diagnostics_.error(caret.span, "brackets must say which power comes first",
-                               "write (u²)^n");
+            diagnostics_.error(caret.span, "it is unclear which power comes first", "write (u²)^n");
         }
     }
-    /// ∇²u² is (∇²u)² to some and ∇²(u²) to others.
+    /// Reports a power after an operator and its operand. ∇²u² is ambiguous: it may mean (∇²u)² or
+    /// ∇²(u²).
     void refuse_power_of_application(const Token& power) {
         if (!is_after_application()) return;
-        diagnostics_.error(power.span, "brackets must say what is raised",
+        diagnostics_.error(power.span, "it is unclear what is raised to the power",
                            "put the operator with its operand, or the power, in brackets");
     }
 
-    /// ∂u/∂t, ∂²u/∂t², ∂u/∂x, ∂²u/∂x², ∂²u/∂x∂y. u may be u[i].
+    /// Reads a derivative: ∂u/∂t, ∂²u/∂t², ∂u/∂x, ∂²u/∂x² or ∂²u/∂x∂y. u may be u[i].
     void read_partial() {
         const std::size_t begin = at_;
         if (at_ > 0 && ends_operand(at_ - 1)) multiply();
@@ -304,17 +307,16 @@ private:
         if (!is_whole || (is_second && axis != other && (axis == "t" || other == "t"))) {
             diagnostics_.error(is_whole ? join(token(begin).span, token(slash + size - 1).span)
                                         : token(begin).span,
-                               "this is no derivative of the language",
+                               "this derivative is not part of the language",
                                "write ∂u/∂t, ∂²u/∂t², ∂u/∂x, ∂²u/∂x² or ∂²u/∂x∂y");
             put(TokenKind::garbage, token(begin).span, source(token(begin).span));
             const bool is_other = kind(slash) == TokenKind::slash &&
-                                  kind(slash + 1) == TokenKind::partial;  // Such as ∂u/∂r.
+                                  kind(slash + 1) == TokenKind::partial;  // For example ∂u/∂r.
             at_ = is_whole ? slash + size : is_other ? slash + 2 : begin + (is_second ? 2 : 1);
             return;
         }
         if (begin > 0 && kind(begin - 1) == TokenKind::slash) {
-            diagnostics_.error(token(begin).span, "brackets must say what is divided",
-                               "write (∂u/∂x)");
+            diagnostics_.error(token(begin).span, "it is unclear what is divided", "write (∂u/∂x)");
         }
         const Token& last = token(slash + size - 1);
         if (axis == "t") {
@@ -344,8 +346,8 @@ private:
 
     Diagnostics& diagnostics_;
     std::vector<Open> open_;
-    std::size_t closings_ = 0;  ///< Brackets to close at the end of the present operand.
-    bool is_divisor_ = false;   ///< The product so far has been divided.
+    std::size_t closings_ = 0;  ///< The number of brackets to close after the present operand.
+    bool is_divisor_ = false;   ///< Whether the present product comes after a division sign.
     std::map<std::size_t, DerivativeEnd> derivative_ends_;
 };
 

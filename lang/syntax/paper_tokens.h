@@ -1,5 +1,5 @@
-// Questions about tokens for the notation of papers: which end or begin an operand, and their
-// location in the text. For this folder only.
+// Reads tokens of the notation of papers: finds which tokens end or begin an operand, and where
+// tokens are in the text. Only for this folder.
 #pragma once
 
 #include "lang/syntax/index_words.h"
@@ -23,7 +23,7 @@ protected:
     bool is_adjacent(std::size_t at) const {
         return at > 0 && token(at - 1).span.end == token(at).span.begin;
     }
-    /// As written, for messages.
+    /// The text as it is written, for messages.
     std::string_view source(const Span& span) const {
         return text_.substr(span.begin, span.end - span.begin);
     }
@@ -50,7 +50,7 @@ protected:
             case TokenKind::close_round:
             case TokenKind::close_square:
             case TokenKind::prime: return true;
-            case TokenKind::superscript: return at == power_end_;  // Not for ∇².
+            case TokenKind::superscript: return at == power_end_;  // A power, not the ² of ∇².
             default: return false;
         }
     }
@@ -80,7 +80,7 @@ protected:
         return token.kind == TokenKind::name &&
                (token.text == "x" || token.text == "y" || token.text == "z" || token.text == "t");
     }
-    /// The token after the `]` that closes this `[` on its line.
+    /// The position of the token after the `]` that closes the `[` at `open` on the same line.
     std::size_t end_of_index(std::size_t open) const {
         std::size_t depth = 0;
         for (std::size_t at = open; at < in_.size(); ++at) {
@@ -90,13 +90,13 @@ protected:
         }
         return open;
     }
-    /// x of `/∂x`. Empty if there is something else here.
+    /// The axis of a derivative: x if the tokens from `slash` are `/∂x`. Empty for other tokens.
     std::string_view axis_of(std::size_t slash) const {
         const bool is_there = kind(slash) == TokenKind::slash &&
                               kind(slash + 1) == TokenKind::partial && is_width(token(slash + 2));
         return is_there ? token(slash + 2).text : std::string_view();
     }
-    /// y of `/∂x∂y`, x of `/∂x²`.
+    /// The second axis of a derivative: y in `/∂x∂y`, x in `/∂x²`. Empty if there is none.
     std::string_view second_axis(std::size_t slash, std::string_view axis) const {
         const Token& next = token(slash + 3);
         if (next.kind == TokenKind::superscript && source(next.span) == "²") return axis;

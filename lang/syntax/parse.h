@@ -1,8 +1,8 @@
-// The parser: tokens to syntax tree.
+// The parser: turns tokens into a syntax tree.
 //
-// Statements are parsed by recursive descent of fixed depth, expressions by operator precedence
-// with an explicit stack, so that neither 100,000 brackets nor 1,000,000 operands overflow the call
-// stack. The grammar is in spec/grammar.md.
+// Statements are parsed by recursive descent of fixed depth, and expressions by operator precedence
+// with an explicit stack. So neither 100,000 brackets nor 1,000,000 operands overflow the call
+// stack. spec/grammar.md has the grammar.
 #pragma once
 
 #include "core/diagnostics.h"
@@ -14,27 +14,29 @@
 
 namespace cascade {
 
-/// The largest script in bytes. A larger one is refused before it is read.
+/// The largest size of a script, in bytes. A larger script is refused before it is parsed.
 inline constexpr std::size_t largest_script = 16u << 20;
 
-/// Parses a whole script. Errors go to `diagnostics`. After each, parsing continues at the next
-/// statement, so that one call finds them all.
+/// Parses a whole script. Reports errors to `diagnostics`. After an error, continues at the next
+/// statement, so one call finds all errors.
 ast::Script parse(SourceId source, const Sources& sources, Diagnostics& diagnostics);
 
-/// Parses a text that another script uses: adds its systems and functions, and those of the texts
-/// that it uses, to `script`. Ignores its stages, domain and picture.
+/// Parses a text that another script uses. Adds to `script` the systems and functions of this text
+/// and of the texts that it uses. Ignores stages, domain and picture.
 void parse_used(SourceId source, const Sources& sources, ast::Script& script,
                 Diagnostics& diagnostics);
 
-/// Parses a text that is one expression (`--show 'small.b - a'`) into the lists of `script`.
+/// Parses a text that is a single expression, as in `--show 'small.b - a'`. Adds its nodes to the
+/// lists of `script`.
 std::optional<ast::Expression> parse_expression(SourceId source, const Sources& sources,
                                                 ast::Script& script, Diagnostics& diagnostics);
 
-/// Parses `[stage.]name=expression` (or with `:`), as `--set` takes it, into `script.overrides`.
+/// Parses `[stage.]name=expression`, or the same with `:`, as in `--set`. Adds the override to
+/// `script.overrides`.
 void parse_override(SourceId source, const Sources& sources, ast::Script& script,
                     Diagnostics& diagnostics);
 
-/// The tree as indented text, for `--dump ast`.
+/// The syntax tree as indented text, for `--dump ast`.
 std::string print_ast(const ast::Script& script, const Sources& sources);
 
 }  // namespace cascade

@@ -11,7 +11,7 @@ namespace cascade {
 
 namespace {
 
-/// Reports an error and returns false for a text larger than any script.
+/// Whether a text is not larger than scripts may be. Otherwise reports an error.
 bool has_sane_size(SourceId source, const Sources& sources, Diagnostics& diagnostics) {
     const std::size_t size = sources[source].text().size();
     if (size <= largest_script) return true;
@@ -39,7 +39,8 @@ ast::Script parse(SourceId source, const Sources& sources, Diagnostics& diagnost
     }
     script.expressions.reserve(cursor.token_count());
     ScriptParser(cursor, script).parse_script();
-    // After an error, a doc comment may belong to text that could not be parsed.
+    // After an error, lost doc comments are not reported, because they may belong to text that
+    // could not be parsed.
     if (diagnostics.error_count() == errors_before) cursor.report_lost_docs();
     return script;
 }
@@ -76,7 +77,7 @@ void parse_override(SourceId source, const Sources& sources, ast::Script& script
     ScriptParser(cursor, script).parse_override();
 }
 
-/// Reports text after the expected end, unless the expression has been reported.
+/// Reports text after the end of the expression, unless the expression was already reported.
 void ScriptParser::report_rest(const std::string& what, ast::Expression expression,
                                const std::string& hint) {
     cursor_.skip_newlines();
@@ -98,8 +99,8 @@ std::optional<ast::Expression> ScriptParser::parse_lone_expression() {
     return expression;
 }
 
-/// Parses the word after a '.', if there is one. Reports an error and returns false if it is
-/// missing.
+/// Parses the word after a '.', if there is a '.'. Reports an error and returns false if the word
+/// is missing.
 bool ScriptParser::parse_word_after_dot(ast::Word& word, const std::string& form) {
     if (!cursor_.take_if(TokenKind::dot)) return true;
     if (!cursor_.at(TokenKind::name)) {
@@ -110,8 +111,8 @@ bool ScriptParser::parse_word_after_dot(ast::Word& word, const std::string& form
     return true;
 }
 
-/// name=value, stage.name=value, and the sides u.left=…, stage.u.left=…, where u may be u[1]. The
-/// checker decides whether a.left is a side or the parameter of a stage.
+/// Parses name=value, stage.name=value, and the sides u.left=… and stage.u.left=…, where u may be
+/// u[1]. The checker decides whether a.left is a side, or a parameter of stage a.
 void ScriptParser::parse_override() {
     const std::string form = "write name=value or stage.name=value";
     ast::Override change;

@@ -1,4 +1,5 @@
-// Blocks: `system`, `stage`, `shape`, `domain`, `picture`, and the stages of classic programs.
+// Parses blocks: `system`, `stage`, `shape`, `domain`, `picture`, and the stages of classic
+// programs.
 #include "lang/syntax/script_parser.h"
 
 #include "core/near_name.h"
@@ -21,7 +22,7 @@ ast::BlockKind kind_of_keyword(std::string_view keyword) {
     return keyword == "domain" ? ast::BlockKind::domain : ast::BlockKind::picture;
 }
 
-/// The words of messages about a block with a name and a base.
+/// Words for messages about a block with a name and a base.
 struct HeaderWords {
     std::string_view nameless, base, named_form, derived_form;
 };
@@ -56,7 +57,8 @@ void ScriptParser::parse_item() {
         }
         return;
     }
-    // Here the name of a block distinguishes `cells` from a quantity, whatever follows it.
+    // Outside of blocks, a name after `cells` or `shape` shows that this word begins a block and is
+    // not a quantity.
     const bool begins_named = !in_classic_stage_ && cursor_.kind(1) == TokenKind::name &&
                               (cursor_.at_name("cells") || cursor_.at_name("shape"));
     if (cursor_.begins_block() || begins_named) return parse_block(cursor_.text(cursor_.peek()));
@@ -68,7 +70,8 @@ void ScriptParser::parse_item() {
     }
 }
 
-/// `System s {`: parsed as the block that is meant, so that no other part seems to be missing.
+/// Parses a block with a misspelt keyword, such as `System s {`, as the intended block, so that no
+/// other part seems to be missing.
 bool ScriptParser::parse_misspelt_block() {
     if (!cursor_.at(TokenKind::name) || !has_shape_of_block(1)) return false;
     const std::string meant = report_no_block(cursor_.word(cursor_.peek()));
@@ -80,7 +83,7 @@ bool ScriptParser::parse_misspelt_block() {
     return true;
 }
 
-/// The block that begins here, with a keyword that may be misspelt.
+/// Parses the block that begins here. Its keyword may be misspelt.
 void ScriptParser::parse_block(std::string_view keyword) {
     in_classic_stage_ = false;
     outside_reported_ = false;
@@ -102,7 +105,8 @@ void ScriptParser::parse_block(std::string_view keyword) {
     script_.blocks.push_back(std::move(block));
 }
 
-/// The header of a system, cells or a shape: NAME, or NAME: BASE. For cells also NAME: BASE, BASE.
+/// Parses the header of a system, cells or a shape: NAME, or NAME: BASE. Cells may have several
+/// bases, NAME: BASE, BASE.
 void ScriptParser::parse_header_of_system(ast::Block& block) {
     if (cursor_.at(TokenKind::name)) {
         block.name = cursor_.word(cursor_.take());
@@ -115,7 +119,7 @@ void ScriptParser::parse_header_of_system(ast::Block& block) {
     if (cursor_.at(TokenKind::colon)) parse_bases(block);
 }
 
-/// : BASE { , BASE }
+/// Parses the bases after a colon: BASE { , BASE }.
 void ScriptParser::parse_bases(ast::Block& block) {
     while (cursor_.at(TokenKind::colon) || cursor_.at(TokenKind::comma)) {
         const Token sign = cursor_.take();
@@ -133,7 +137,9 @@ void ScriptParser::parse_bases(ast::Block& block) {
                                  std::string(words.derived_form));
         }
         const ast::Word base = cursor_.word(cursor_.take());
-        if (block.name.empty()) continue;  // `system: NAME {` has been reported.
+        if (block.name.empty())
+            continue;  // In `system: NAME {`, the missing name has been
+                       // reported.
         if (sign.kind == TokenKind::colon) {
             block.base = base;
         } else if (block.is_cells) {
@@ -142,7 +148,7 @@ void ScriptParser::parse_bases(ast::Block& block) {
     }
 }
 
-/// NAME: SYSTEM
+/// Parses the header of a stage: NAME: SYSTEM.
 void ScriptParser::parse_header_of_stage(ast::Block& block) {
     const std::string form = "write 'stage NAME: SYSTEM {'";
     bool is_told = false;
@@ -166,7 +172,7 @@ void ScriptParser::parse_header_of_stage(ast::Block& block) {
     }
 }
 
-/// `domain` and `picture` have no name.
+/// Parses the header of `domain` or `picture`, which have no name.
 void ScriptParser::parse_header_without_name() {
     const Token keyword = cursor_.previous();
     if (!cursor_.at(TokenKind::name) && !cursor_.at(TokenKind::colon)) return;
@@ -177,7 +183,8 @@ void ScriptParser::parse_header_without_name() {
                   fmt::format("write '{} {{'", cursor_.text(keyword)));
 }
 
-/// { statements }. If a bracket is missing the block ends at the next block.
+/// Parses { statements }. If the closing bracket is missing, the block ends where the next block
+/// begins.
 void ScriptParser::parse_body(ast::Block& block) {
     const Token header_end = cursor_.previous();
     cursor_.skip_newlines();
@@ -190,7 +197,7 @@ void ScriptParser::parse_body(ast::Block& block) {
         block.is_damaged = true;
         cursor_.skip_statement();
     } else {
-        // A header that ends too early has been reported.
+        // If the header ended too early, the error has been reported.
         const bool is_told = block.is_damaged && !cursor_.at(TokenKind::name);
         block.is_damaged = true;
         if (!is_told) {
@@ -229,12 +236,13 @@ void ScriptParser::report_unclosed(const Token& open, const ast::Block& block) {
     diagnostic.hint = fmt::format("{}{} ends with '}}'", block.keyword.text, name);
     if (!cursor_.at_end()) {
         diagnostic.notes.push_back({cursor_.peek().span, "the next block begins here"});
-        ++forgiven_closings_;  // If the block was to hold the next one, its '}' follows later.
+        ++forgiven_closings_;  // If the next block was meant to be inside this one, a '}' follows
+                               // later.
     }
     cursor_.error(std::move(diagnostic));
 }
 
-/// `system_name: SYSTEM` and all statements up to the next one or a block.
+/// Parses `system_name: SYSTEM`, and all statements up to the next `system_name` or block.
 void ScriptParser::parse_classic_stage() {
     ast::Block block;
     block.kind = ast::BlockKind::classic_stage;
@@ -273,7 +281,8 @@ void ScriptParser::parse_base_of_classic_stage(ast::Block& block) {
     cursor_.skip_statement();
 }
 
-/// Parses a statement outside of all stages for its own errors, and drops it.
+/// Parses a statement outside of all stages to report the errors in it. The statement is then
+/// dropped.
 void ScriptParser::parse_outside_statement() {
     const bool is_name = cursor_.at(TokenKind::name);
     const std::size_t errors_before = cursor_.error_count();

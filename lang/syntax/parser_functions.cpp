@@ -1,4 +1,4 @@
-// The parts of a script outside of blocks: functions, constants, and used files.
+// Parses the parts of a script outside of blocks: functions, constants, and used files.
 #include "lang/syntax/script_parser.h"
 
 #include <fmt/core.h>
@@ -38,7 +38,7 @@ bool ScriptParser::refuse_function_or_use() {
     return true;
 }
 
-/// fn NAME(a, b) = expression, or let NAME = expression
+/// Parses fn NAME(a, b) = expression, or let NAME = expression.
 void ScriptParser::parse_function() {
     ast::FunctionDefinition function;
     function.doc = docs_before();
@@ -74,7 +74,7 @@ void ScriptParser::parse_function() {
     script_.functions.push_back(std::move(function));
 }
 
-/// Adds a function with errors, so that calls of it are not reported.
+/// Adds a function that has errors, so that calls of the function are not reported.
 void ScriptParser::keep_damaged(ast::FunctionDefinition function) {
     const auto here = static_cast<ast::ExprId>(script_.expressions.size());
     script_.expressions.push_back({function.name.span, ast::Garbage{}});
@@ -84,7 +84,8 @@ void ScriptParser::keep_damaged(ast::FunctionDefinition function) {
     cursor_.skip_statement();
 }
 
-/// ( [ name { , name } ] ). Reports an error and returns false if they cannot be parsed.
+/// Parses the parameters ( [ name { , name } ] ). Reports an error and returns false if this is
+/// impossible.
 bool ScriptParser::parse_parameters(ast::FunctionDefinition& function) {
     const auto refuse = [&](Span span, const std::string& message) {
         if (!cursor_.at(TokenKind::garbage)) cursor_.error(span, message, function_form);
@@ -109,13 +110,13 @@ bool ScriptParser::parse_parameters(ast::FunctionDefinition& function) {
                   fmt::format("the parameters of {} are names with commas between them", name));
 }
 
-/// use "file.cascade"
+/// Parses use "file.cascade".
 void ScriptParser::parse_use() {
     const Token keyword = cursor_.take();
     const Token file = cursor_.take();
     cursor_.take_docs(keyword.span.begin, cursor_.peek().span.begin);
     if (file.kind != TokenKind::text) {
-        cursor_.error(file.span, "the name of the file stands in quotes",
+        cursor_.error(file.span, "the name of a file needs quotes",
                       fmt::format("write use \"{}.cascade\"", shortened(cursor_.text(file))));
         return cursor_.skip_statement();
     }

@@ -1,4 +1,4 @@
-// The parts after a value: the end of an index, the range of a parameter, `after divide`.
+// Parses the parts after a value: the end of an index, the range of a parameter, `after divide`.
 #include "lang/syntax/script_parser.h"
 
 #include <fmt/core.h>
@@ -9,13 +9,13 @@ namespace cascade {
 
 namespace {
 
-// Words that end a part of a range in the position of an operator.
+// Words that end a part of a range if they are written where an operator could be.
 constexpr std::array<std::string_view, 2> ends_of_range{"step", "after"};
 constexpr std::array<std::string_view, 1> ends_of_step{"after"};
 
 }  // namespace
 
-/// The `.. high` of `i: low .. high`.
+/// Parses the `.. high` of `i: low .. high`.
 void ScriptParser::parse_end_of_index(ast::Statement& statement) {
     const Token dots = cursor_.take();
     if (statement.kind != ast::StatementKind::value || !statement.index.empty()) {
@@ -27,7 +27,7 @@ void ScriptParser::parse_end_of_index(ast::Statement& statement) {
     statement.values.push_back(expressions_.parse("the end of the range"));
 }
 
-/// The `in low .. high [step e]` after a value.
+/// Parses the `in low .. high [step e]` after a value.
 void ScriptParser::parse_range(ast::Statement& statement) {
     const Token word = cursor_.take();
     const std::string form = "write p: 1 in 0 .. 2";
@@ -56,7 +56,7 @@ void ScriptParser::parse_range(ast::Statement& statement) {
     statement.range = range;
 }
 
-/// The `after divide` after a value and its range.
+/// Parses the `after divide` after a value and its range.
 void ScriptParser::parse_after(ast::Statement& statement) {
     const Token word = cursor_.take();
     const std::string form = fmt::format("write {}: 0 after divide", statement.name.text);

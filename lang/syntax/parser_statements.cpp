@@ -1,4 +1,4 @@
-// Statements: a name, a relation, and one or more expressions.
+// Parses statements: a name, a relation, and one or more expressions.
 #include "lang/syntax/script_parser.h"
 
 #include "core/near_name.h"
@@ -19,7 +19,7 @@ namespace cascade {
 
 namespace {
 
-/// Words that end a value in the position of an operator.
+/// Words that end a value if they are written where an operator could be.
 constexpr std::array<std::string_view, 2> ends_of_value{"in", "after"};
 
 }  // namespace
@@ -45,7 +45,7 @@ std::optional<ast::Statement> ScriptParser::parse_statement() {
     return statement;
 }
 
-/// The `.left` of `u.left: e` or `u[1].left: e`, if there is one.
+/// Parses the `.left` of `u.left: e` or `u[1].left: e`, if there is one.
 void ScriptParser::parse_side(ast::Statement& statement) {
     const bool is_dotted = cursor_.at(TokenKind::dot) && cursor_.kind(1) == TokenKind::name &&
                            cursor_.kind(2) == TokenKind::colon &&
@@ -60,7 +60,7 @@ void ScriptParser::parse_side(ast::Statement& statement) {
     statement.side = cursor_.word(cursor_.take());
 }
 
-/// Statements about sides go into a separate list.
+/// Adds a statement to a block. Statements about sides go into a separate list.
 void ScriptParser::add_statement(ast::Block& block, ast::Statement statement) {
     if (!statement.after.empty() && !block.is_cells) {
         cursor_.error(statement.after.span, "only cells that crawl divide",
@@ -83,7 +83,8 @@ void ScriptParser::add_docs(std::string& doc, const std::string& more) {
     doc += more;
 }
 
-/// The `[i]` of `u[i]: e`, if there is one. Reports an error and returns false if it is wrong.
+/// Parses the `[i]` of `u[i]: e`, if there is one. Reports an error and returns false if the index
+/// is wrong.
 bool ScriptParser::parse_index(ast::Statement& statement) {
     const bool is_index =
         cursor_.at(TokenKind::open_square) && cursor_.peek().span.begin == statement.name.span.end;
@@ -121,7 +122,7 @@ bool ScriptParser::report_no_statement() {
     const Token token = cursor_.peek();
     const std::string word = cursor_.describe(token);
     switch (token.kind) {
-        case TokenKind::garbage: break;  // The lexer has given a message.
+        case TokenKind::garbage: break;  // The lexer has reported an error.
         case TokenKind::keyword_and:
         case TokenKind::keyword_or:
         case TokenKind::keyword_not:
@@ -143,8 +144,8 @@ bool ScriptParser::report_no_statement() {
     return false;
 }
 
-/// Parses the text between the name and the value. Reports relations of other languages and takes
-/// them for their equivalents. False if there is no value to parse.
+/// Parses the text between the name and the value. Reports relations of other languages, and treats
+/// them like Cascade's equivalent relations. Returns false if there is no value to parse.
 bool ScriptParser::parse_relation(ast::Statement& statement) {
     using Kind = ast::StatementKind;
     const Token token = cursor_.peek();
@@ -157,7 +158,7 @@ bool ScriptParser::parse_relation(ast::Statement& statement) {
         case TokenKind::prime: cursor_.take(); return parse_rate_relation(statement);
         case TokenKind::plus_assign:
             statement.kind = Kind::rate_term;
-            cursor_.error(token.span, "only a rate has terms to add to",
+            cursor_.error(token.span, "terms can be added to rates only",
                           fmt::format("write {}' +=", name));
             break;
         case TokenKind::equal:
@@ -183,7 +184,7 @@ bool ScriptParser::parse_relation(ast::Statement& statement) {
     return true;
 }
 
-/// Reports `large.ka: 1`, or a misspelt side.
+/// Reports a dot after the name, as in `large.ka: 1`, or a misspelt side.
 void ScriptParser::report_dot(const ast::Statement& statement) {
     std::string near;
     if (cursor_.kind(1) == TokenKind::name) {
@@ -191,7 +192,7 @@ void ScriptParser::report_dot(const ast::Statement& statement) {
         sides.emplace_back("sides");
         near = nearest_name(cursor_.text(cursor_.peek(1)), sides);
     }
-    cursor_.error(statement.name.span, "a statement sets a name of its own stage only",
+    cursor_.error(statement.name.span, "a statement can set only names of its own stage",
                   near.empty() ? "write the name without a stage"
                                : fmt::format("did you mean {}.{}?", statement.name.text, near));
 }
@@ -214,13 +215,13 @@ bool ScriptParser::parse_rate_relation(ast::Statement& statement) {
                       "a rate is written with '=' or '+='",
                       fmt::format("write {}' = …", shortened(statement.name.text)));
     }
-    // A colon is a likely slip: the rate follows.
+    // The colon is probably a slip, and the rate comes after it.
     if (cursor_.take_if(TokenKind::colon) || cursor_.take_if(TokenKind::equal)) return true;
     cursor_.skip_statement();
     return false;
 }
 
-/// `u''' = e`: reports it and skips the value, since no second derivative is equivalent.
+/// Reports `u''' = e` and skips the value, because it cannot be converted to second derivatives.
 bool ScriptParser::report_third_rate(const ast::Statement& statement) {
     while (cursor_.at(TokenKind::prime)) cursor_.take();
     const std::string name = shortened(cursor_.text(statement.name.span));
@@ -231,7 +232,7 @@ bool ScriptParser::report_third_rate(const ast::Statement& statement) {
     return false;
 }
 
-/// `du/dt = e`: reports it and continues as the rate of u.
+/// Reports `du/dt = e` and continues as with the rate of u.
 bool ScriptParser::take_paper_rate(ast::Statement& statement) {
     const std::string_view name = statement.name.text;
     const bool is_rate = name.size() > 1 && name[0] == 'd' && cursor_.at(TokenKind::slash) &&
@@ -247,8 +248,8 @@ bool ScriptParser::take_paper_rate(ast::Statement& statement) {
     return true;
 }
 
-/// Reports a name without a relation: usually a missing colon, or a misspelt keyword of a block.
-/// True if parsing can continue with the value.
+/// Reports a name without a relation. Usually a colon is missing, or the name is a misspelt keyword
+/// of a block. Returns true if parsing can continue with the value.
 bool ScriptParser::report_missing_colon(const ast::Statement& statement) {
     const ast::Word& name = statement.name;
     const std::string quoted = cursor_.describe({TokenKind::name, name.span});
@@ -268,7 +269,7 @@ bool ScriptParser::report_missing_colon(const ast::Statement& statement) {
                   "a statement is 'name: expression'");
     const std::size_t next = after_index([this](std::size_t at) { return cursor_.kind(at); }, 0);
     if (next > 0 && cursor_.kind(next) != TokenKind::newline) {
-        cursor_.skip_statement();  // `u [i]: e`: no value follows the name.
+        cursor_.skip_statement();  // For example `u [i]: e`, where no value follows the name.
         return false;
     }
     switch (cursor_.kind()) {
@@ -282,8 +283,8 @@ bool ScriptParser::report_missing_colon(const ast::Statement& statement) {
     }
 }
 
-/// True if the tokens from `ahead` on have the shape of a block after its keyword: ` {`, ` large
-/// {`, ` large: leopard {`, ` thorn: scale, guide {`.
+/// Whether the tokens from `ahead` on look like a block after its keyword: ` {`, ` large {`, `
+/// large: leopard {`, ` thorn: scale, guide {`.
 bool ScriptParser::has_shape_of_block(std::size_t ahead) const {
     const bool is_derived = cursor_.kind(ahead) == TokenKind::name &&
                             cursor_.kind(ahead + 1) == TokenKind::colon &&
@@ -301,7 +302,8 @@ bool ScriptParser::has_shape_of_block(std::size_t ahead) const {
     return cursor_.kind(ahead) == TokenKind::open_curly;
 }
 
-/// Reports that a word does not begin a block. Returns the keyword that was probably meant, or "".
+/// Reports that a word does not begin a block. Returns the keyword that was probably intended, or
+/// "".
 std::string ScriptParser::report_no_block(const ast::Word& word) {
     const std::array<std::string, 6> of_blocks = {"system", "cells",   "stage",
                                                   "domain", "picture", "shape"};
@@ -313,7 +315,7 @@ std::string ScriptParser::report_no_block(const ast::Word& word) {
     return near;
 }
 
-/// Reports a type of other languages, as in `feed: float = 0.037`, and goes on after it.
+/// Reports a type as in other languages, `feed: float = 0.037`, and continues after it.
 void ScriptParser::skip_type(const ast::Word& name) {
     static constexpr std::array<std::string_view, 9> types = {"float",   "double", "int",
                                                               "integer", "real",   "number",
@@ -326,7 +328,7 @@ void ScriptParser::skip_type(const ast::Word& name) {
                   fmt::format("write '{}: …'", shortened(name.text)));
 }
 
-/// One expression, or several separated by commas.
+/// Parses one expression, or several separated by commas.
 void ScriptParser::parse_values(ast::Statement& statement) {
     const bool colon_is_missing =
         !wants_operand(cursor_.previous().kind) && cursor_.previous().kind != TokenKind::colon;
@@ -347,8 +349,7 @@ void ScriptParser::parse_values(ast::Statement& statement) {
     while (cursor_.at(TokenKind::comma)) {
         const Token comma = cursor_.take();
         if (cursor_.begins_statement()) {
-            cursor_.error(comma.span, "a comma stands between values, not between statements",
-                          "write ';'");
+            cursor_.error(comma.span, "a comma separates values, not statements", "write ';'");
             break;
         }
         if (statement.kind == ast::StatementKind::definition &&
@@ -384,7 +385,8 @@ void ScriptParser::parse_values(ast::Statement& statement) {
     cursor_.mute(false);
 }
 
-/// An expression that may begin on the next line if this line ends in an operator other than ':'.
+/// Parses an expression. It may begin on the next line if this line ends with an operator other
+/// than ':'.
 ast::Expression ScriptParser::parse_after_operator(const std::string& owner,
                                                    std::span<const std::string_view> ends) {
     const bool goes_on = wants_operand(cursor_.previous().kind) && cursor_.at(TokenKind::newline) &&

@@ -1,4 +1,4 @@
-// Looks a setting up in the picture block.
+// Finds a setting in the picture block.
 #include "lang/syntax/picture_expression.h"
 
 namespace cascade {

@@ -1,5 +1,4 @@
-// A setting of the script's picture block, such as `color`, which is read before anything is
-// checked.
+// Reads a setting of the script's picture block, such as `color`, before anything is checked.
 #pragma once
 
 #include "lang/syntax/ast.h"
@@ -9,7 +8,7 @@
 
 namespace cascade {
 
-/// The value of a setting of the script's picture block, such as `color`, if it has one.
+/// The value of this setting of the script's picture block; empty if the block does not set it.
 std::optional<ast::Expression> picture_expression(const ast::Script& script,
                                                   std::string_view setting = "color");
 

@@ -1,4 +1,5 @@
-// Parses both texts, and puts pieces of one into the other from its end to its beginning.
+// Parses both texts, and puts pieces of the added text into the script, from the script's end to
+// its beginning.
 #include "lang/syntax/replace_blocks.h"
 
 #include "lang/syntax/parse.h"
@@ -21,7 +22,7 @@ struct TextPiece {
 
 constexpr int function_kind = -1;
 
-/// A text and its blocks and functions in their order.
+/// A text with its blocks and functions, in order.
 struct ParsedText {
     explicit ParsedText(const std::string& text) {
         const SourceId source = sources.add("", text);
@@ -46,10 +47,11 @@ struct ParsedText {
     Diagnostics errors;
     ast::Script tree;
     std::vector<TextPiece> pieces;
-    bool is_of_blocks = true;  ///< Whether it contains nothing else.
+    bool is_of_blocks = true;  ///< Whether the text contains only blocks and functions.
 };
 
-/// The tokens outside of pictures and shapes. Line breaks are single, with none at the ends.
+/// The tokens outside of pictures and shapes. Several line breaks in a row become one, and line
+/// breaks at both ends are removed.
 std::vector<std::string_view> words_without_pictures(const ParsedText& parsed) {
     Diagnostics never_any;
     std::vector<std::string_view> words;
@@ -96,7 +98,7 @@ std::string with_blocks(const std::string& script, const std::string& added) {
         if (same != old.pieces.end()) {
             replacements.push_back({same->span, std::string(more.sources.text(piece.span))});
         } else {
-            // With the comments before it.
+            // The comments before a piece are added with it.
             at_end += added.substr(from, piece.span.end - from);
         }
         from = piece.span.end;

@@ -1,17 +1,17 @@
-// Adds blocks to a script, where a block replaces another of the same name, and compares the blocks
-// of two scripts.
+// Adds blocks to a script, replacing blocks of the same name, and compares the blocks of two
+// scripts.
 #pragma once
 
 #include <string>
 
 namespace cascade {
 
-/// A script with further blocks and functions. A block of the same kind and name as one of the
-/// script replaces it: a stage, a system, a function, the domain, the picture. Others go to the
-/// end, and so does a text with errors, as a whole, and one with statements of classic stages.
+/// Adds blocks and functions to a script. An added block replaces a block of the same kind and
+/// name: a stage, a system, a function, the domain, or the picture. Other blocks are added at the
+/// end. If `added` has errors or contains classic stages, it is added at the end as a whole.
 std::string with_blocks(const std::string& script, const std::string& added);
 
-/// True if two scripts are the same except for pictures, shapes, comments and blank space. False if
+/// Whether two scripts are equal except for pictures, shapes, comments and blank space. False if
 /// one of them has syntax errors.
 bool differ_in_pictures_only(const std::string& one, const std::string& other);
 

@@ -1,4 +1,4 @@
-// The parser of blocks and statements.
+// Parses blocks and statements.
 #pragma once
 
 #include "lang/syntax/ast.h"
@@ -76,10 +76,11 @@ private:
     ast::Expression parse_after_operator(const std::string& owner,
                                          std::span<const std::string_view> ends);
 
-    /// The doc comments before the cursor that belong to the item that begins there.
+    /// The text of the doc comments before the cursor, which belong to the item that begins at the
+    /// cursor.
     std::string docs_before();
-    /// The doc comments of the item that began at `begin` and was just parsed, including those
-    /// after it on its line.
+    /// The text of the doc comments of the item that began at `begin` and was just parsed. Includes
+    /// comments after the item on its last line.
     std::string docs_after(std::uint32_t begin);
     static void add_docs(std::string& doc, const std::string& more);
 
@@ -88,9 +89,10 @@ private:
     TokenCursor& cursor_;
     ast::Script& script_;
     ExpressionParser expressions_;
-    bool in_classic_stage_ = false;      ///< Statements belong to the last block of the script.
-    bool outside_reported_ = false;      ///< Once for a run of statements outside of stages.
-    std::size_t forgiven_closings_ = 0;  ///< `}` of blocks that were reported as unclosed.
+    bool in_classic_stage_ = false;  ///< Whether statements belong to the script's last block.
+    bool outside_reported_ = false;  ///< Whether a statement outside of stages has been reported.
+    std::size_t forgiven_closings_ = 0;  ///< How many `}` to skip, because their blocks have been
+                                         ///< reported as unclosed.
 };
 
 }  // namespace cascade

@@ -1,4 +1,5 @@
-// Second derivatives by time: u'' = e is u' = u_t and u_t' = e (internal to the parser).
+// Second derivatives with respect to time: u'' = e means u' = u_t and u_t' = e (internal to the
+// parser).
 #pragma once
 
 #include "lang/syntax/ast.h"
@@ -7,11 +8,11 @@
 
 namespace cascade {
 
-/// The species that is the rate of another one: u_t of u.
+/// The name of the species that is the rate of `species`: u_t for u.
 std::string_view name_of_rate(std::string_view species);
 
-/// The parser has read each u'' = e of the block as u_t' = e. Adds u' = u_t, and u_t: 0 if the
-/// block gives u_t no value. A block with a base leaves the value to the base.
+/// Completes a block in which the parser has read each u'' = e as u_t' = e. Adds u' = u_t. Also
+/// adds u_t: 0, unless the block sets u_t or has a base, which may set u_t.
 void complete_second_rates(ast::Script& script, ast::Block& block);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Tokens and the lexer: text to tokens.
+// Tokens and the lexer, which turns text into tokens.
 #pragma once
 
 #include "core/diagnostics.h"
@@ -12,7 +12,7 @@
 
 namespace cascade {
 
-/// CASCADE_TOKEN(name, spelling): messages and `--dump tokens` use the spelling.
+/// CASCADE_TOKEN(name, spelling): `spelling` appears in messages and in `--dump tokens`.
 #define CASCADE_TOKENS(CASCADE_TOKEN)                                                      \
     CASCADE_TOKEN(end_of_text, "end of text")                                              \
     CASCADE_TOKEN(newline, "line end")                                                     \
@@ -66,28 +66,29 @@ std::string_view spelling(TokenKind kind);
 
 struct Token {
     TokenKind kind = TokenKind::end_of_text;
-    /// Its source location. Empty for a token omitted by the notation of papers, such as the `*` of
-    /// `D ∇²u`.
+    /// The token's source location. Empty for a token that the notation of papers omits, such as
+    /// the `*` in `D ∇²u`.
     Span span;
-    /// Its spelling in ASCII for the parser: `beta` of β, `lap` of ∇². A view into the source or
-    /// into memory that lives as long as the process.
+    /// The token's ASCII spelling for the parser: `beta` for β, `lap` for ∇². A view of the source,
+    /// or of memory that lives as long as the process.
     std::string_view text = {};
 };
 
-/// The most tokens of a script, which bounds the memory of later passes. A longer one is refused
-/// with one message.
+/// The largest number of tokens in a script. This limits the memory that later passes need. A
+/// longer script is refused with one message.
 inline constexpr std::size_t most_tokens = 1u << 22;
 
-/// Splits a source into tokens. The last one is end_of_text. A line break is a token (several in a
-/// row are one). Comments and blanks are not. The notation of papers becomes equivalent tokens
-/// (paper_notation.h). Bad input (a stray character, invalid UTF-8, NUL, an unclosed string, a
-/// look-alike such as ’ – ÷) is reported once per run of characters and yields `garbage`, or for a
-/// look-alike the token that was meant, so that one mistake gives one message. The locations of doc
-/// comments (`## text`; `###` begins an ordinary one) are added to `docs` if it is given.
+/// Splits a source into tokens. The last token is end_of_text. Line breaks are tokens, of which
+/// several in a row become one. Comments and blanks are dropped. The notation of papers becomes
+/// equivalent tokens (paper_notation.h). Bad input is reported once for each run of characters, so
+/// that one mistake gives one message: a stray character, invalid UTF-8, NUL, an unclosed string, a
+/// look-alike such as ’ – ÷. Such a run becomes the token `garbage`, or, for a look-alike, the
+/// token that was meant. If `docs` is given, the locations of doc comments are added to it (`##
+/// text`; `###` begins an ordinary comment).
 std::vector<Token> lex(SourceId source, const Sources& sources, Diagnostics& diagnostics,
                        std::vector<Span>* docs = nullptr);
 
-/// The tokens as text, one a line: `3:5 name "ka"`.
+/// The tokens as text, one per line: `3:5 name "ka"`.
 std::string print_tokens(const std::vector<Token>& tokens, const Sources& sources);
 
 }  // namespace cascade

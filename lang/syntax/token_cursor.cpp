@@ -10,7 +10,7 @@ namespace cascade {
 
 namespace {
 
-constexpr std::size_t longest_shown = 40;  // In bytes of a script's words in a message.
+constexpr std::size_t longest_shown = 40;  // The most bytes of a script's words in a message.
 
 }  // namespace
 
@@ -27,7 +27,9 @@ const Token& TokenCursor::peek(std::size_t ahead) const {
 
 const Token& TokenCursor::previous() const {
     std::size_t before = position_ == 0 ? 0 : position_ - 1;
-    if (before > 0 && tokens_[before].kind == TokenKind::newline) --before;  // At most one.
+    if (before > 0 && tokens_[before].kind == TokenKind::newline)
+        --before;  // There is at most one
+                   // line break in a row.
     return tokens_[before];
 }
 
@@ -119,12 +121,13 @@ bool TokenCursor::begins_block(std::size_t ahead) const {
     const TokenKind next = kind(ahead + 1);
     if (word == "system" || word == "stage") {
         if (next == TokenKind::name || next == TokenKind::open_curly) return true;
-        // `stage: leopard {` lacks the stage's name, but is a block.
+        // `stage: leopard {` is a block, although the stage's name is missing.
         return next == TokenKind::colon && kind(ahead + 2) == TokenKind::name &&
                kind(ahead + 3) == TokenKind::open_curly;
     }
     if (word == "cells" || word == "shape") {
-        // A quantity may have this name: `cells in 0 .. 1`, `sum(cells over i)`.
+        // A quantity may have the name of such a keyword, as in `cells in 0 .. 1` or `sum(cells
+        // over i)`.
         const std::size_t name = next == TokenKind::name ? ahead + 2 : ahead + 1;
         const std::size_t brace = kind(name) == TokenKind::newline ? name + 1 : name;
         if (kind(brace) == TokenKind::open_curly) return true;

@@ -1,4 +1,4 @@
-// Bytes of a source that are not valid text.
+// Finds and reports bytes of a source that are not valid text.
 #include "lang/syntax/unreadable_bytes.h"
 
 #include "core/utf8.h"
@@ -15,7 +15,7 @@ bool is_unreadable(std::string_view text, std::size_t offset) {
 
 namespace {
 
-/// The message about a run of bytes, which are all NUL or all not UTF-8.
+/// The message about a run of bytes. Either all are NUL, or all are not UTF-8.
 std::string describe_run(std::string_view run) {
     if (run[0] == '\0') {
         return run.size() == 1 ? "a NUL byte (0x00) is not text"

@@ -1,4 +1,4 @@
-// Bytes of a source that are not valid text (internal to the lexer).
+// Finds bytes of a source that are not valid text (internal to the lexer).
 #pragma once
 
 #include "core/diagnostics.h"
@@ -9,10 +9,11 @@
 
 namespace cascade {
 
-/// True if no character begins at `offset`: a NUL byte, or bytes that are not UTF-8.
+/// Whether there is a NUL byte, or bytes that are not UTF-8, at `offset`.
 bool is_unreadable(std::string_view text, std::size_t offset);
 
-/// Reports each run of NUL bytes and of bytes that are not UTF-8, even in comments.
+/// Reports each run of NUL bytes and of bytes that are not UTF-8. Runs in comments are reported,
+/// too.
 void report_unreadable_bytes(SourceId source, std::string_view text, Diagnostics& diagnostics);
 
 }  // namespace cascade

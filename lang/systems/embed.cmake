@@ -1,5 +1,6 @@
-# The systems and shapes of the library and the functions of cells are Cascade texts; this turns them into one C++ file of
-# raw strings. It runs when CMake configures, which a change of a text or a new text brings about.
+# Writes the systems, shapes and functions of cells of the library, which are Cascade texts, into
+# one C++ file as raw strings. Runs when CMake configures, which happens whenever a text changes or
+# is added.
 file(GLOB built_in_systems CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/lang/systems/*.cascade)
 file(GLOB built_in_cells CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/lang/cells/*.cascade)
 file(GLOB built_in_shapes CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/lang/shapes/*.cascade)

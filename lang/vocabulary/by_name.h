@@ -1,13 +1,13 @@
-// Numeric functions for other kinds of numbers, such as intervals: a kind has a function of the
-// same name for each one that it supports.
+// Calls the language's numeric functions on other kinds of numbers, such as intervals. Each kind
+// defines, for each function that it supports, a C++ function of the same name.
 #pragma once
 
 #include "lang/vocabulary/functions.h"
 
 namespace cascade {
 
-/// Calls add(a, b), sqrt(a) or if_(a, b, c) of a kind of numbers, or returns `otherwise` if the
-/// kind has none of this name.
+/// Calls the C++ function of this name for a kind of numbers, such as add(a, b), sqrt(a) or if_(a,
+/// b, c). Returns `otherwise` if the kind of number does not define this function.
 template <typename Value>
 Value call_by_name(Function function, const Value& a, const Value& b, const Value& c,
                    const Value& otherwise = {}) {

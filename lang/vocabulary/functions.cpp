@@ -1,6 +1,8 @@
 // The table of functions.
 #include "lang/vocabulary/functions.h"
 
+#include "core/enum_named.h"
+
 #include <algorithm>
 
 namespace cascade {
@@ -56,7 +58,7 @@ ValueType type_of_result(Function function, std::span<const ValueType> operands)
         case ResultKind::colour: return ValueType::colour;
         case ResultKind::like: break;
     }
-    // A tensor times a vector is a vector.
+    // The product of a tensor and a vector is a vector.
     for (const ValueType type : {ValueType::vector, ValueType::tensor, ValueType::colour}) {
         if (std::ranges::find(operands, type) != operands.end()) return type;
     }
@@ -82,9 +84,7 @@ std::optional<Function> function_over(std::string_view name, std::string_view ov
 }
 
 std::optional<CellValue> cell_value_named(std::string_view name) {
-    const auto found = std::ranges::find(cell_value_names, name);
-    if (found == cell_value_names.end()) return std::nullopt;
-    return static_cast<CellValue>(found - cell_value_names.begin());
+    return enum_named<CellValue>(cell_value_names, name);
 }
 
 std::optional<int> component_named(std::string_view name) {
@@ -93,16 +93,14 @@ std::optional<int> component_named(std::string_view name) {
 }
 
 std::optional<Builtin> builtin_named(std::string_view name) {
-    const auto found = std::find(builtin_names.begin(), builtin_names.end(), name);
-    if (found == builtin_names.end()) return std::nullopt;
-    return static_cast<Builtin>(found - builtin_names.begin());
+    return enum_named<Builtin>(builtin_names, name);
 }
 
 Derivative derivative_of(Function function) {
     const FunctionInfo& row = info(function);
     if (row.kind != FunctionKind::derivative) return {};
     const auto axis = [&](std::size_t letter) { return row.spelling[letter] - 'x'; };
-    const int order = static_cast<int>(row.spelling.size()) - 1;  // Without its d.
+    const int order = static_cast<int>(row.spelling.size()) - 1;  // The `d` is not an axis.
     return {order, axis(1), axis(row.spelling.size() - 1)};
 }
 

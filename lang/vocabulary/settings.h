@@ -1,4 +1,4 @@
-// The settings of the language, and their values.
+// The settings of the language, and the values that they take.
 #pragma once
 
 #include "lang/vocabulary/domains.h"
@@ -25,7 +25,7 @@ inline constexpr std::size_t setting_count = 0
 #include "lang/vocabulary/settings.def"
     ;
 
-// The columns of settings.def, which explains each word.
+// Columns of settings.def, where each word is explained.
 enum class SettingBlock : std::uint8_t {
     stage,
     domain,
@@ -47,16 +47,16 @@ enum class SettingValue : std::uint8_t {
     text,
 };
 
-/// Which numbers are values of a setting.
+/// The numbers that a setting accepts.
 struct SettingLimits {
     enum class Kind : std::uint8_t {
         none,
         between,
-        above,   ///< Above `low`, and finite.
+        above,   ///< Finite numbers above `low`.
         whole,   ///< Whole numbers.
-        count,   ///< The same; what is wrong with another one is said exactly.
-        length,  ///< From `low`, which is above 0.
-        word,    ///< Only words.
+        count,   ///< Whole numbers. For other numbers, the message states exactly what is wrong.
+        length,  ///< Numbers from `low` on, where `low` is above 0.
+        word,    ///< No numbers, only words.
     };
     Kind kind = Kind::none;
     double low = 0, high = 0;
@@ -76,12 +76,12 @@ struct SettingInfo {
     std::string_view hint = "";
 };
 const SettingInfo& info(Setting setting);
-/// All rows of the table: the rows of `Setting` in its order, then words that another block has,
-/// too.
+/// All rows of the table: first those of `Setting`, in its order, then rows for words that are also
+/// settings of another block.
 std::span<const SettingInfo> setting_rows();
 
 std::optional<Setting> setting_named(std::string_view word);
-/// True if the word is a setting of the block.
+/// Whether the word is a setting of the block.
 bool is_setting_of(SettingBlock block, std::string_view word);
 /// The settings of some blocks, in the order of the table.
 std::vector<std::string> settings_of(std::initializer_list<SettingBlock> blocks);
@@ -90,7 +90,8 @@ std::vector<std::string> words_taken_by(const SettingInfo& setting);
 inline std::vector<std::string> words_taken_by(Setting setting) {
     return words_taken_by(info(setting));
 }
-/// The block of a setting that belongs to another one. "" for words that are not settings.
+/// The block to which a word belongs as a setting, for hints in other blocks. "" for words that are
+/// not settings.
 std::string_view home_of(std::string_view word);
 
 /// Words that begin statements and blocks or separate the parts of an expression.
@@ -98,7 +99,7 @@ inline constexpr std::string_view keywords[] = {
     "system", "cells", "stage", "domain", "picture", "shape", "system_name", "fn", "let",
     "use",    "and",   "or",    "not",    "over",    "in",    "after",       "pi"};
 
-/// Words that the language gives a meaning, so that a script cannot declare them.
+/// Whether the language gives a word a meaning, so that scripts cannot declare it.
 enum class Reserved : std::uint8_t { no, setting, builtin };
 Reserved reserved(std::string_view name);
 

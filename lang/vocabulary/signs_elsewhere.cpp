@@ -1,4 +1,4 @@
-// Tables of commands and units.
+// The tables of LaTeX commands and of units.
 #include "lang/vocabulary/signs_elsewhere.h"
 
 #include "core/decimal.h"
@@ -37,7 +37,7 @@ constexpr LatexCommand latex_commands[] = {
 
 struct Unit {
     std::string_view name;
-    double size;  ///< In metres or seconds.
+    double size;  ///< The size of the unit in metres or seconds.
     std::string_view base;
 };
 constexpr Unit units[] = {
@@ -49,7 +49,8 @@ constexpr Unit units[] = {
     {"px", 1, ""},          {"seconds", 1, "seconds"},
 };
 
-/// Advice on `0x10` of other languages and `100x100` of screens. Empty for other words.
+/// Advice on `0x10` (as in other languages) and on `100x100` (the size of a screen). Empty for
+/// other words.
 std::string advice_about_cross(std::string_view word) {
     constexpr std::size_t longest = 18;
     const std::size_t cross = word.find_first_of("xX");

@@ -1,4 +1,4 @@
-// The table, and the search in it, which ignores case.
+// The table of words, and the search in it, which ignores case.
 #include "lang/vocabulary/words_elsewhere.h"
 
 #include <algorithm>
@@ -44,7 +44,7 @@ constexpr WordElsewhere rows[] = {
     {Context::domain, "random_seed rng", "write 'seed: 1'"},
     {Context::domain, "dtype float", "write 'precision: double'"},
     {Context::domain, "model file obj", "write 'mesh: \"model.obj\"'"},
-    {Context::domain, "dt steps time iterations duration speed solver until interval",
+    {Context::domain, "dt steps time iterations duration speed solver until interval every",
      "it belongs in a stage: write 'stage s: turing_spots { iterations: 1000 }'"},
     {Context::domain, "palette color colour colors colormap cmap",
      "it belongs in the picture: write 'picture { color: palette(u, 0, 1, \"leopard\") }'"},
@@ -104,8 +104,8 @@ constexpr WordElsewhere rows[] = {
     {Context::function, "where select ifelse piecewise", "write 'if(u > v, u, v)'"},
     {Context::function, "average avg", "write 'mean(u over domain)'"},
     {Context::function, "integrate", "write 'integral(u over domain)'"},
-    {Context::function, "steady", "it stands alone after 'until:'"},
-    {Context::function, "fixed flux", "it stands after a side, as in u.left: fixed(1)"},
+    {Context::function, "steady", "use it alone after 'until:'"},
+    {Context::function, "fixed flux", "use it after a side, as in u.left: fixed(1)"},
 
     {Context::function, "hsv hsl hex", "a colour is rgb(red, green, blue), each from 0 to 1"},
     {Context::statement, "import include require load from",
@@ -130,7 +130,7 @@ bool is_same(std::string_view a, std::string_view b) {
     });
 }
 
-/// True if `words` contains `word`.
+/// Whether `words` contains `word`.
 bool has_word(std::string_view words, std::string_view word) {
     while (!words.empty()) {
         const std::size_t end = std::min(words.find(' '), words.size());

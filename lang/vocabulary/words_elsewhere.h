@@ -1,7 +1,7 @@
-// Terms of papers, other programs and other languages, and their names in this language.
+// Words of papers, other programs and other languages, with their names in Cascade.
 //
-// One table holds the words that a newcomer is likely to try. Only words without a meaning in a
-// script are looked up, so it reserves no names.
+// One table contains the words that a newcomer is likely to try. Words are looked up only if they
+// have no meaning in the script, so the table reserves no names.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace cascade {
 
 /// Where an unknown word occurs.
 enum class WordContext : std::uint8_t {
-    stage,      ///< `dt: 0.1` in a stage, or in an option such as --set
+    stage,      ///< `dt: 0.1` in a stage, or in an option such as --set.
     domain,     ///< `size: 100` in the domain
     picture,    ///< `palette: "grey"` in the picture
     boundary,   ///< `boundary: neumann`
@@ -22,9 +22,9 @@ enum class WordContext : std::uint8_t {
     statement,  ///< `import "a.cascade"` at the beginning of a statement
 };
 
-/// A row: `words`, separated by blanks, and the advice. The text in quotes after `write` replaces
-/// the word and passes the checker unchanged (tests/unit/lang/hints_test.cpp). The word after `did
-/// you mean` replaces only the name.
+/// A row: `words`, separated by blanks, and the advice on them. If the advice contains `write '…'`,
+/// then a script in which the quoted text replaces the word passes the checker without further
+/// changes (tests/unit/lang/hints_test.cpp). The word after `did you mean` replaces only the name.
 struct WordElsewhere {
     WordContext context;
     std::string_view words;
@@ -33,7 +33,8 @@ struct WordElsewhere {
 
 std::span<const WordElsewhere> words_elsewhere();
 
-/// The `u` of u_t, u_dot, dudt and du_dt, the names of a rate in other programs. Otherwise empty.
+/// The species `u` in u_t, u_dot, dudt and du_dt, which are names of a rate in other programs.
+/// Empty for other names.
 std::string_view species_of_rate(std::string_view name);
 
 std::string_view advice_about(std::string_view word, WordContext context);

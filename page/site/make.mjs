@@ -124,6 +124,11 @@ const gallery_of = (folder) => list(folder, ".cascade").filter((name) => existsS
     const picture = `<img loading="lazy" src="${copied(`${folder}/${name.replace(/cascade$/, "png")}`)}" alt="">${title}`;
     return `<li>${is_live(script) ? `<a href="${address_of(script)}">${picture}</a>` : picture}</li>`;
 }).join("\n");
+/// Exercises by their titles.
+const lessons = list("examples/lessons", ".cascade").map((name) => {
+    const script = read(`examples/lessons/${name}`), [, title] = /^# exercise: (.*)$/m.exec(script);
+    return `<a class="grow" href="${address_of(script)}">${escape(title)}</a>`;
+}).join("\n");
 const animals = list("examples/on_models", ".png").map((name) => {
     const picture = `<img loading="lazy" src="${copied(`examples/on_models/${name}`)}" alt="">${name.replace(".png", "").replaceAll("_", " ")}`;
     return `<li>${name === "leopard.png" ? `<a href="animal.html">${picture}</a>` : picture}</li>`;
@@ -133,6 +138,8 @@ write_page("index.html", "Cascade", `<h1>Patterns that grow</h1>
 grows it; then type, move sliders, paint, and go back and forth between stages.</p>
 <p><a href="live.html"><img class="film" src="${copied("page/film.webp")}" alt="A pattern grows, a slider changes it, a stroke is painted, the next stage begins"></a></p>
 <p><a class="grow" href="live.html">open the page</a> <a class="grow" href="tutorial.html">15 minutes</a> <a class="grow" href="systems.html">all systems</a></p>
+<h2 id="lessons">Exercises</h2>
+<p>${lessons}</p>
 <h2>Gallery</h2>
 <ul class="gallery">
 ${gallery_of("examples")}

@@ -1,4 +1,4 @@
-// Bytes as text in messages and addresses.
+// Base64, in which messages and addresses contain bytes.
 
 export const in_base64 = (blob: Blob) => new Promise<string>((resolve, reject) => {
     const reader = new FileReader();
@@ -9,7 +9,7 @@ export const in_base64 = (blob: Blob) => new Promise<string>((resolve, reject) =
 
 export const from_base64 = (text: string) => Uint8Array.from(atob(text), (sign) => sign.charCodeAt(0));
 
-/// All bytes of a stream, of which there may be so many at most.
+/// All bytes of a stream. Throws if there are more than `largest`.
 export async function all_of(stream: ReadableStream<Uint8Array<ArrayBuffer>>, largest = Infinity) {
     const reader = stream.getReader(), parts: Uint8Array<ArrayBuffer>[] = [];
     for (let size = 0, part = await reader.read(); !part.done; part = await reader.read()) {

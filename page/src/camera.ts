@@ -1,4 +1,4 @@
-// The camera of render/camera.cpp, which frames a surface from any direction, with a part of its picture enlarged.
+// The camera of render/camera.cpp: it frames a surface from any direction, and can enlarge a part of the picture.
 
 export type Vector = [number, number, number];
 export const dot = (a: Vector, b: Vector) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -9,22 +9,22 @@ export const unit = (a: Vector) => add([0, 0, 0], a, 1 / Math.hypot(...a));
 const margin = 1.12, half_field = 0.22;
 
 export class Camera {
-    azimuth = 30;  ///< In degrees, around the upward axis from the front to the right.
+    azimuth = 30;  ///< In degrees around the upward axis, from the front to the right.
     elevation = 25;
     zoom = 1;
-    /// What the picture is moved by, after enlarging; the whole picture is −1 … 1 wide and high.
+    /// By how much the enlarged picture is moved. The whole picture extends from −1 to 1 in both directions.
     right_by = 0;
     up_by = 0;
     right: Vector = [1, 0, 0];
     up: Vector = [0, 1, 0];
     backward: Vector = [0, 0, 1];
     eye: Vector = [0, 0, 1];
-    private half_x = half_field;  ///< Tangents of half the field of view.
+    private half_x = half_field;  ///< The tangent of half the field of view.
     private half_y = half_field;
     private near = 0.1;
     private far = 2;
 
-    /// Looks at all positions, so that they fill the picture except for a margin.
+    /// Moves the camera so that all positions fill the picture except for a margin.
     frame(places: Float32Array[], axis: "y" | "z", width: number, height: number) {
         const around = this.azimuth * Math.PI / 180, above = this.elevation * Math.PI / 180;
         const upward: Vector = axis === "y" ? [0, 1, 0] : [0, 0, 1], front: Vector = axis === "y" ? [0, 0, 1] : [0, -1, 0];
@@ -54,7 +54,7 @@ export class Camera {
         this.far = away + farthest + size;
     }
 
-    /// Where a place in space appears: −1 … 1 to the right and upwards, and how far it is.
+    /// Where a point in space appears in the picture (−1 … 1 to the right and upwards), and its distance.
     project(place: Vector): Vector {
         const from = add(place, this.eye, -1), away = -dot(from, this.backward);
         return [
@@ -63,7 +63,7 @@ export class Camera {
         ];
     }
 
-    /// project() as the matrix of a shader, column by column.
+    /// project() as a matrix for shaders, column by column.
     matrix(): Float32Array {
         const { right, up, backward, eye, near, far } = this;
         const rows = [
@@ -76,7 +76,7 @@ export class Camera {
         return new Float32Array([0, 1, 2, 3].flatMap((column) => rows.map((row) => row[column])));
     }
 
-    /// Moves the picture so that its middle part stays in view.
+    /// Moves the picture, but keeps its middle part visible.
     shift(right: number, up: number) {
         const inside = (by: number) => Math.min(Math.max(by, 1 - this.zoom), this.zoom - 1);
         this.right_by = inside(this.right_by + right);

@@ -1,15 +1,15 @@
-// The engine of a page that carries it: a worker that is spoken to as a WebSocket is.
+// The engine inside an exported page: a worker with the interface of a WebSocket.
 import { all_of } from "./base64";
 import type { Carried } from "./engine";
 import { script_of_address, wrong_link } from "./linked_script";
 import type { Beginning } from "./worker";
 
-/// What Connection uses of a WebSocket.
+/// The members of WebSocket that Connection uses.
 export type Line = Pick<WebSocket, "readyState" | "send" | "close" | "binaryType" | "onopen" | "onmessage" | "onclose">;
 
 const element = (id: string) => document.getElementById(id);
 
-/// Browsers decode addresses of data, decompress and compile at the same time.
+/// Decompresses base64 as a stream, so that the browser can decode, decompress and compile at the same time.
 async function stream_of(base64: string, type: string): Promise<Response> {
     const packed = await fetch(`data:application/octet-stream;base64,${base64}`);
     return new Response(packed.body!.pipeThrough(new DecompressionStream("deflate")), { headers: { "Content-Type": type } });
@@ -62,7 +62,7 @@ export class EngineLine implements Line {
         this.take(JSON.stringify({ kind: "answer", id: 0, is_done: false, messages: [wrong_link] }));
     }
 
-    /// For good: what the engine knew is lost with it.
+    /// Ends the engine. Its session is lost.
     private end(reason: string) {
         this.worker?.terminate();
         this.readyState = WebSocket.CLOSED;

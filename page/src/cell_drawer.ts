@@ -1,9 +1,10 @@
-// Draws cells that crawl: copies of a few meshes, each with its place, axes, measures and colour, in one call for each mesh.
+// Draws cells that crawl: copies of a few meshes, each copy with its position, axes, measures and colour. All copies of
+// a mesh take one call.
 import type { Cells, Snapshot } from "./connection";
 import { hidden, shadow, surface } from "./light_shaders";
 import { Program, attributes } from "./program";
 
-/// A copy of a point of a mesh. Lengths of turns are 1.
+/// Moves a point of a mesh to its place in a copy. Quaternions (`turn`) have the length 1.
 const copy = `
 in vec3 position, normal, spot, stretch;
 in vec4 turn;
@@ -14,7 +15,7 @@ vec3 turned(vec3 along) {
 }
 vec3 copied() { return spot + turned(stretch * position); }`;
 
-/// Between cells there is less of the sky at their feet.
+/// The foot of a shape gets less light of the sky than its tip.
 const lit = `${shadow}${copy}
 in vec3 value;
 in float shade;
@@ -61,7 +62,7 @@ export class CellDrawer {
         gl.bindVertexArray(null);
     }
 
-    /// Those of a snapshot; nothing if it has none.
+    /// Takes the cells of a snapshot, or none if it has no cells that crawl.
     take({ cells, planes }: Snapshot) {
         if (cells === this.shown) return;
         this.shown = cells;
@@ -86,7 +87,7 @@ export class CellDrawer {
         gl.vertexAttribPointer(at, size, gl.FLOAT, false, stride, start);
     }
 
-    /// With a program in use.
+    /// Draws all copies with the program in use.
     draw() {
         const gl = this.gl, { shown, channels } = this;
         if (!shown) return;

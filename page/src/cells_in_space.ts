@@ -1,4 +1,4 @@
-// Cells that crawl as places in space, and the floor that they lie on without a model.
+// The positions of cells that crawl in space, and the floor below them if there is no model.
 import { type Vector, add, cross, dot } from "./camera";
 import type { Cells, Surface } from "./connection";
 
@@ -8,7 +8,8 @@ const place_at = ({ placements }: Cells, k: number): Vector => {
     return [placements[at], placements[at + 1], placements[at + 2]];
 };
 
-/// Corners of copies that stand farthest out, as their places in space; fewer of each where there are many copies.
+/// The positions in space of the vertices of each copy that are farthest out; fewer for each copy if there are many
+/// copies.
 export function corners_of(cells: Cells): Float32Array {
     const sides = [-1, 0, 1], { positions, triangles, placements } = cells;
     const directions = sides.flatMap((x) => sides.flatMap((y) => sides.map((z): Vector => [x, y, z])))
@@ -33,7 +34,7 @@ export function corners_of(cells: Cells): Float32Array {
     return Float32Array.from(found);
 }
 
-/// Of the cells that are drawn, the one whose place is nearest.
+/// The drawn cell that is nearest to a point.
 export function nearest_cell(cells: Cells, [x, y, z]: Vector): number {
     let nearest = Infinity, found = 0;
     cells.cells.forEach((cell, k) => {
@@ -43,22 +44,23 @@ export function nearest_cell(cells: Cells, [x, y, z]: Vector): number {
     return found;
 }
 
-/// 0 if it is not drawn.
+/// Half of the width of a cell; 0 if the cell is not drawn.
 export function half_width(cells: Cells, cell: number): number {
     const k = cells.cells.indexOf(cell);
     return k < 0 ? 0 : cells.placements[numbers_of_placement * k + 7];
 }
 
-/// Nothing if it is not drawn.
+/// The position of a cell; undefined if the cell is not drawn.
 export function place_of_cell(cells: Cells, cell: number): Vector | undefined {
     const k = cells.cells.indexOf(cell);
     return k < 0 ? undefined : place_at(cells, k);
 }
 
-/// A plane, or the corners of a box of space, which is not drawn. It lies flat: y of scripts comes towards the viewer.
+/// The floor of a plane, or of a box of space, whose corners are only used to frame the picture. y of scripts points
+/// towards the viewer.
 export function floor_of([wide, deep, high]: Vector): Surface {
     const corners: Vector[] = [[0, 0, 0], [0, 0, deep], [wide, 0, deep], [wide, 0, 0]];
-    // The ground with its shadows is a little below.
+    // The floor is a little above the ground, on which shadows fall.
     const others: Vector[] = high > 0 ? corners.map(([x, , z]) => [x, high, z]) : [[wide / 2, -0.01, deep / 2]];
     const positions = [...corners, ...others];
     return {

@@ -1,7 +1,7 @@
-// What shaders have in common: the palette, and contour lines.
+// Functions of all shaders: the palette and contour lines.
 
-/// The arithmetic of colours is that of core/palette.cpp and picture/paint.cpp. Uniforms low and high are declared by
-/// who uses it.
+/// Computes colours like core/palette.cpp and picture/paint.cpp. The including shader declares the uniforms low and
+/// high.
 export const colours = `
 uniform vec3 stops[64];
 uniform int last;

@@ -1,10 +1,11 @@
-// The line to the engine, a WebSocket or a worker: requests with answers, and the newest snapshot.
+// The connection to the engine (a WebSocket to the program, or a worker): requests with answers, and the newest
+// snapshot.
 import { EngineLine, type Line } from "./carried_engine";
 
 export interface Message { is_error: boolean; message: string; hint: string; from?: [number, number]; to?: [number, number]; notes?: string[] }
 export interface Answer { kind: "answer"; id: number; is_done: boolean; messages: Message[] }
 export interface KnownName { name: string; what: string; note: string }
-/// Without a name if the engine knows nothing of it.
+/// The meaning of a word. Without `name` if the word has no meaning.
 export interface Explanation { name?: string; what?: string; note?: string; value?: number; range?: [number, number]; smallest?: number; largest?: number; equation?: string }
 export interface Control { name: string; label: string; stage: number; doc: string; low: number; high: number; step?: number; value: number }
 export interface Script { kind: "script"; name: string; text: string; messages: Message[]; controls: Control[]; species: string[]; brushes: string[] }
@@ -15,32 +16,34 @@ export interface Snapshot {
     number: number; script: number; is_going_on: boolean; stage: number; steps: number; stages: Stage[];
     steps_per_second: number; can_undo: boolean; can_redo: boolean; failure: string; remarks: string[];
     columns: number; rows: number; low: number; high: number; planes: Float32Array[];
-    surface: number;    ///< That of the surface that the cells lie on; 0 for none.
-    is_model: boolean;  ///< Cells lie on a model, and have no columns and rows.
-    cells?: Cells;      ///< Those that crawl; the planes are one row, with a value for each.
+    repeats: [boolean, boolean];  ///< Whether the rows of the planes continue at their beginning, and the columns.
+    surface: number;    ///< The number of the surface on which the cells lie; 0 for none.
+    is_model: boolean;  ///< The cells are those of a model, and have no columns and rows.
+    cells?: Cells;      ///< Cells that crawl; the planes then have one row with a value for each cell.
     slice?: { axis: "x" | "y" | "z"; number: number; sides: [number, number, number] };  ///< Of a volume.
 }
 
-/// Cells that crawl: a few meshes, and where their copies stand.
+/// Cells that crawl: a few meshes, and the placements of their copies.
 export interface Cells {
     count: number; skin: [number, number, number];
-    is_flat: boolean;                   ///< z of scripts points upwards, and y towards the viewer.
-    extent?: [number, number, number];  ///< Of the plane or box that they lie in; nothing on a surface.
-    positions: Float32Array; normals: Float32Array; shades: Float32Array; triangles: Uint32Array;  ///< Of all meshes.
-    /// Mesh k has the triangles from triangle_ends[k − 1] to triangle_ends[k], and the copies from ends[k − 1] to ends[k].
+    is_flat: boolean;                   ///< If true, z of scripts points upwards, and y towards the viewer.
+    extent?: [number, number, number];  ///< The size of the plane or box of the cells; undefined on a surface.
+    positions: Float32Array; normals: Float32Array; shades: Float32Array; triangles: Uint32Array;  ///< All meshes together.
+    /// Mesh k has the triangles from triangle_ends[k − 1] to triangle_ends[k], and the copies from ends[k − 1] to
+    /// ends[k].
     triangle_ends: Uint32Array; ends: Uint32Array;
-    cells: Uint32Array;        ///< The cell that each copy shows, in the planes.
-    placements: Float32Array;  ///< Ten numbers each: the place, a quaternion x, y, z, w, and factors along the axes of the mesh.
+    cells: Uint32Array;        ///< For each copy, the index of its cell in the planes.
+    placements: Float32Array;  ///< Ten numbers for each copy: position, quaternion x, y, z, w, factors along the axes.
 }
 
-/// Triangles, and how much of the values of cells each vertex shows.
+/// A triangle mesh, and the cells that each vertex shows with their weights.
 export interface Surface {
     number: number; up: "y" | "z"; spacing: number;
     positions: Float32Array; normals: Float32Array;  ///< Three numbers for each vertex.
-    places?: Float32Array;  ///< Of the vertices on a plane: x and y.
+    places?: Float32Array;  ///< x and y of each vertex when the surface is shown as a plane.
     triangles: Uint32Array;
     ends: Uint32Array;      ///< Vertex v has the shares from ends[v − 1] to ends[v].
-    /// Of share k the cell is cells[2 k] and the weight is weights[2 k + 1].
+    /// Share k has the cell cells[2 k] and the weight weights[2 k + 1].
     cells: Uint32Array; weights: Float32Array;
 }
 
@@ -50,12 +53,12 @@ export interface Listener {
     script(script: Script): void;
     snapshot(snapshot: Snapshot): void;
     surface(surface: Surface): void;
-    progress(doing: string, part?: number): void;  ///< Of what takes long.
+    progress(doing: string, part?: number): void;  ///< A long task; empty after the task.
     lost(reason: string): void;
-    refused(why: Message): void;  ///< What was no question, or could not be read.
+    refused(why: Message): void;  ///< An error without a request, or about one that could not be read.
 }
 
-/// The token comes in the address once, and is taken out of it. A tab keeps it for reloads.
+/// The token of the session. It is removed from the address and stored in the tab for reloads.
 function take_token(): string {
     const given = new URLSearchParams(location.hash.slice(1)).get("token");
     if (given) {
@@ -65,8 +68,11 @@ function take_token(): string {
     return sessionStorage.getItem("token") ?? "";
 }
 
-/// Of the layout that spec/page.md describes.
-function read_frame(bytes: ArrayBuffer): Snapshot | Surface {
+/// A file that the page has requested.
+export interface SavedFile { ending?: string; bytes?: Uint8Array<ArrayBuffer>; notes?: string[] }
+
+/// Reads a binary frame, whose layout spec/page.md describes.
+function read_frame(bytes: ArrayBuffer): Snapshot | Surface | Required<SavedFile> & { id: number } {
     const size = new DataView(bytes).getUint32(0, true);
     const { kind, ...header } = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, size)));
     let start = 4 + size;
@@ -74,6 +80,7 @@ function read_frame(bytes: ArrayBuffer): Snapshot | Surface {
         start += 4 * length;
         return new Type(bytes, start - 4 * length, length);
     };
+    if (kind === "file") return { ...header, bytes: new Uint8Array(bytes, start, header.size) };
     if (kind === "snapshot") {
         const planes = Array.from({ length: header.fields }, () => take(Float32Array, header.columns * header.rows));
         if (!header.cells) return { ...header, planes };
@@ -92,23 +99,24 @@ function read_frame(bytes: ArrayBuffer): Snapshot | Surface {
     };
 }
 
-const largest_message = 1 << 20;  ///< Of what the engine reads, in bytes.
+const largest_message = 1 << 20;  ///< In bytes; the engine refuses larger messages.
 
 export class Connection {
     readonly token = EngineLine.is_carried ? "" : take_token();
-    /// By it the engine knows what this page has asked before its connection was lost.
+    /// Identifies this page to the engine after a lost connection.
     private readonly name = [...crypto.getRandomValues(new Uint32Array(4))].map((part) => part.toString(36)).join("");
     private socket?: Line;
     private last_id = 0;
-    /// What was not answered, in the order of its ids. It is sent again over a new connection.
+    /// Requests without an answer, in the order of their ids. They are sent again over a new connection.
     private readonly waiting = new Map<number, { text: string; resolve: (answer: Answer) => void }>();
 
     constructor(private readonly listener: Listener) { this.open(); }
 
-    /// The answer comes when the engine has obeyed or refused. A question is answered by what spec/page.md lists for it.
+    /// Sends a request. The answer comes when it has taken effect or was refused; spec/page.md lists the fields of
+    /// answers.
     ask<Reply = object>(what: string, fields: Record<string, unknown> = {}): Promise<Answer & Reply> {
         const id = ++this.last_id;
-        // Halves of characters, which a text may hold, are no JSON.
+        // Lone surrogates, which a string may contain, are not allowed in JSON.
         const text = JSON.stringify({ do: what, id, ...fields }, (_, value) => typeof value === "string" ? value.replace(/\p{Surrogate}/gu, "\ufffd") : value);
         if (new TextEncoder().encode(text).length > largest_message) {
             const message = { is_error: true, message: "the text is too long", hint: "" };
@@ -145,6 +153,7 @@ export class Connection {
     private take(data: string | ArrayBuffer) {
         if (typeof data !== "string") {
             const frame = read_frame(data);
+            if ("bytes" in frame) return this.answer(frame);
             return "planes" in frame ? this.listener.snapshot(frame) : this.listener.surface(frame);
         }
         const message = JSON.parse(data);
@@ -153,9 +162,11 @@ export class Connection {
         else if (message.kind === "progress") this.listener.progress(message.doing, message.part);
         else if (message.kind === "script") this.listener.script(message);
         else if (message.id === 0) this.listener.refused(message.messages.find(({ is_error }: Message) => is_error));
-        else {
-            this.waiting.get(message.id)?.resolve({ is_done: true, messages: [], ...message });
-            this.waiting.delete(message.id);
-        }
+        else this.answer(message);
+    }
+
+    private answer(message: { id: number }) {
+        this.waiting.get(message.id)?.resolve({ kind: "answer", is_done: true, messages: [], ...message });
+        this.waiting.delete(message.id);
     }
 }

@@ -1,4 +1,4 @@
-// Files that the browser keeps as it keeps all downloads.
+// Gives a file to the browser as a download.
 export function download(name: string, blob: Blob) {
     const href = URL.createObjectURL(blob);
     Object.assign(document.createElement("a"), { href, download: name }).click();

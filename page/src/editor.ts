@@ -1,4 +1,4 @@
-// The text of the script, with messages at their places.
+// The editor of the script, which shows messages at their positions.
 import { defaultKeymap, history, historyKeymap, indentWithTab } from "@codemirror/commands";
 import { HighlightStyle, StreamLanguage, bracketMatching, syntaxHighlighting } from "@codemirror/language";
 import { lintGutter, setDiagnostics } from "@codemirror/lint";
@@ -7,9 +7,11 @@ import { EditorView, drawSelection, highlightActiveLine, keymap, lineNumbers } f
 import { tags } from "@lezer/highlight";
 import type { Message } from "./connection";
 import { type EngineHelp, editor_help } from "./editor_help";
+import { type NameService, editor_names } from "./editor_names";
+import { locks } from "./locks";
 import { in_words } from "./words";
 
-// A Greek letter or a lowered digit in a name is read as its spelling in ASCII; ∂u is the beginning of a rate.
+// Names may contain Greek letters and subscript digits. ∂u is the beginning of a rate.
 const name = "∂?[A-Za-z_α-ωΓ-ΩµϵϕϑϰϱϖΩ][\\wα-ωΓ-ΩµϵϕϑϰϱϖΩ₀-₉]*";
 const called = new RegExp(`^${name}(?=\\s*\\()`), defined = new RegExp(`^${name}(?=\\s*('|′|/∂t|\\+?=|:))`), named = new RegExp(`^${name}`);
 
@@ -56,9 +58,9 @@ type Place = [line: number, column: number];
 export class Editor {
     readonly view: EditorView;
 
-    /// `typed` is called with every key, `changed` some time after the last one.
-    constructor(parent: HTMLElement, engine: EngineHelp, typed: () => void, changed: (text: string) => void) {
-        // In a shadow tree the editor's styles are sheets, which the page's policy lets be.
+    /// `typed` is called with every key, `changed` some time after the last key, `refuse` when a part is locked.
+    constructor(parent: HTMLElement, engine: EngineHelp & NameService, typed: () => void, changed: (text: string) => void, refuse: () => void) {
+        // In a shadow tree the editor's styles are style sheets, which the page's Content-Security-Policy allows.
         const root = parent.attachShadow({ mode: "open" });
         const listen = EditorView.updateListener.of((update) => {
             if (!update.docChanged || this.is_silent) return;
@@ -75,31 +77,43 @@ export class Editor {
                 lineNumbers(), lintGutter(), history(), drawSelection(), highlightActiveLine(), bracketMatching(),
                 language, syntaxHighlighting(colours), theme, listen, EditorView.lineWrapping,
                 EditorView.contentAttributes.of({ "aria-label": "Script; Tab indents, Escape leaves the text" }),
-                editor_help(engine),
+                editor_help(engine), editor_names(engine), locks(refuse), EditorView.domEventHandlers({ focus: () => void (this.has_caret = true) }),
                 keymap.of([{ key: "Escape", run: (view) => (view.contentDOM.blur(), true) }, indentWithTab, ...defaultKeymap, ...historyKeymap]),
             ] }),
         });
     }
 
+    private has_caret = false;
     private is_silent = false;
     private timer = 0;
 
-    /// Has something been typed that `changed` was not told yet?
+    /// Has text been typed for which `changed` has not been called yet?
     get is_changing() { return this.timer !== 0; }
 
     get text() { return this.view.state.doc.toString(); }
     set text(text: string) {
         if (text === this.text) return;
         this.is_silent = true;
-        this.view.dispatch({ changes: { from: 0, to: this.view.state.doc.length, insert: text } });
+        this.view.dispatch({ changes: { from: 0, to: this.view.state.doc.length, insert: text }, filter: false });
         this.is_silent = false;
     }
 
-    /// Writes a text as if it were typed.
+    /// Replaces a part of the text as if `text` were typed.
     replace(from: Place | number, to: Place | number, text: string) {
         const offset = (place: Place | number) => typeof place === "number" ? place : this.offset(place);
         this.view.dispatch({ changes: { from: offset(from), to: offset(to), insert: text }, scrollIntoView: true });
         this.view.focus();
+    }
+
+    /// Has the caret been put anywhere?
+    get was_entered() { return this.has_caret; }
+
+    /// Writes at the caret what `compose` makes of the text before and after it, and selects a part of that.
+    write(compose: (before: string, after: string) => { text: string; from: number; to: number }) {
+        const { text, view } = this, at = view.state.selection.main.to;
+        const { text: insert, from, to } = compose(text.slice(0, at), text.slice(at));
+        view.dispatch({ changes: { from: at, insert }, selection: { anchor: at + from, head: at + to }, scrollIntoView: true });
+        view.focus();
     }
 
     private offset([line, column]: Place) {

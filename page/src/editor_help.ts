@@ -1,4 +1,4 @@
-// What the engine knows about the text: the names that can follow, and what a name means.
+// Help from the engine for the text: the names that can follow, and the meaning of a name.
 import { type CompletionContext, autocompletion, completionKeymap } from "@codemirror/autocomplete";
 import { EditorView, hoverTooltip, keymap } from "@codemirror/view";
 import type { Explanation, KnownName } from "./connection";
@@ -9,7 +9,7 @@ export interface EngineHelp {
     explain(text: string): Promise<Explanation>;
 }
 
-/// What is worth a box: not what is plain to see.
+/// The box with an explanation; undefined if it would say nothing beyond the word itself.
 export function explanation_box(told: Explanation): HTMLElement | undefined {
     if (!told.name) return undefined;
     const box = document.createElement("div"), head = document.createElement("div");
@@ -22,7 +22,7 @@ export function explanation_box(told: Explanation): HTMLElement | undefined {
         : told.smallest !== undefined && told.largest !== undefined ? `from ${digits(told.smallest)} to ${digits(told.largest)}` : "";
     if (values) box.append(Object.assign(document.createElement("p"), { textContent: `now ${values}` }));
     if (told.equation) {
-        // Made by the engine, which escapes what the script says.
+        // MathML from the engine, which escapes text of the script.
         const equation = document.createElement("p");
         equation.innerHTML = told.equation;
         box.append(equation);
@@ -37,7 +37,7 @@ export function editor_help(engine: EngineHelp) {
         if (!is_asked) return null;
         const names = await engine.names(before);
         if (context.aborted) return null;
-        // What the text declares may be too new for the engine: it is not correct while it is being typed.
+        // The engine may not know names that are declared in the text while the text is still incorrect.
         if (names.some(({ what }) => what === "function")) {
             for (const [, name] of context.state.sliceDoc().matchAll(/(?:^|[;{])\s*∂?([A-Za-z_α-ωΓ-Ω][\wα-ωΓ-Ω₀-₉]*)\s*(?:['′=:]|\/∂t)/gm)) {
                 if (!names.some((known) => known.name === name)) names.push({ name, what: "parameter", note: "" });
@@ -47,7 +47,7 @@ export function editor_help(engine: EngineHelp) {
             from: word.from, validFor: /^[\wα-ωΓ-Ω₀-₉]*$/,
             options: names.map(({ name, what, note }) => ({
                 label: name, detail: note || what,
-                // What the script itself says comes first.
+                // Names of the script come first.
                 boost: ["species", "parameter", "definition", "stage"].includes(what) ? 1 : 0,
             })),
         };

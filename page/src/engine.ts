@@ -1,11 +1,11 @@
-// Hosts engine.wasm: what it imports, what it exports (tab/engine.cpp), and its turns.
+// Runs engine.wasm: provides its imports, calls its exports (tab/engine.cpp) and takes its turns.
 
-/// What a page carries for its engine.
+/// The script with its options and files in an exported page.
 export interface Carried {
     name: string;
     text: string;
     overrides: string;
-    is_exact: boolean;  ///< Have the bits of the program even where numbers are denormal, which is slow.
+    is_exact: boolean;  ///< Same bits as the program even if numbers are denormal, which is slow.
     files: [name: string, bytes: Uint8Array][];
 }
 
@@ -27,7 +27,7 @@ export interface Host {
 
 export class Engine {
     private exports!: Exports;
-    private words = "";  ///< What the engine has printed of a line.
+    private words = "";  ///< The beginning of a line that the engine is printing.
 
     constructor(module: WebAssembly.Module, private readonly host: Host) {
         const copy = (at: number, size: number) => this.bytes.slice(at, at + size);
@@ -45,17 +45,17 @@ export class Engine {
 
     carry([name, bytes]: [string, Uint8Array]) { this.exports.carry(...this.put(name), ...this.put(bytes)); }
 
-    /// If the run cannot start, the host is told why, and the previous run goes on.
+    /// Starts a run. If this fails, the page gets the reason, and the previous run continues.
     begin({ name, text, overrides, is_exact }: Carried): boolean {
         return this.exports.begin(...this.put(name), ...this.put(text), ...this.put(overrides), Number(is_exact)) !== 0;
     }
 
     receive(message: string) { this.exports.receive(...this.put(message)); }
 
-    /// Is there more to do before the next message?
+    /// Takes a turn. Returns whether there is more to do before the next message.
     turn(): boolean { return this.exports.turn() !== 0; }
 
-    // Views of memory end when it grows.
+    // Views of memory become invalid when it grows.
     private get bytes() { return new Uint8Array(this.exports.memory.buffer); }
 
     private put(what: string | Uint8Array): [number, number] {
@@ -77,7 +77,7 @@ export class Engine {
         }
     }
 
-    /// What the C library asks of its system: the time, and a place for last words.
+    /// The system calls of the C library: time, and output of error messages.
     private system(module: WebAssembly.Module): WebAssembly.ModuleImports {
         const view = () => new DataView(this.exports.memory.buffer);
         const known: Record<string, (...numbers: number[]) => number> = {

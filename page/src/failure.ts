@@ -1,9 +1,10 @@
-// Why the run stopped by itself, where, and the way back.
+// Shows why and where the run stopped by itself, and offers to go back.
 import type { Snapshot } from "./connection";
 import { Mark } from "./mark";
 import type { Pattern } from "./pattern";
 
-/// The cell of the grid where the run stopped, which the message names. On models it names none of the planes.
+/// The cell of the grid where the run stopped, from the message. Undefined on models, as messages number their cells in
+/// another order than planes.
 function cell_of({ failure, columns, slice }: Snapshot): number | undefined {
     const place = failure.match(/ column (\d+), row (\d+)/);
     return place ? Number(place[1]) + (slice?.sides[0] ?? columns) * Number(place[2]) : undefined;
@@ -15,7 +16,7 @@ export class Failure {
     private readonly mark: Mark;
     private snapshot?: Snapshot;
 
-    /// `ask` goes to the moment before the last change, or to the start of a stage.
+    /// `ask` sends the request to undo the last change, or to go to the start of a stage.
     constructor(pattern: Pattern, ask: (what: string, fields?: Record<string, unknown>) => void) {
         this.mark = new Mark(pattern, "failed");
         this.back.addEventListener("click", () => {

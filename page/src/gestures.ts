@@ -1,14 +1,14 @@
-// What pointers, fingers, and the wheel do to a view: they paint, or move what is seen.
+// Pointers, fingers and the wheel on a view: they paint, or move the picture.
 
-const finger_tremble = 8;    ///< A finger that moves less may be the first of two.
+const finger_tremble = 8;    ///< In pixels: a finger that has moved less may be the first of two.
 
 export type Held = "brush" | "plane" | "angle";
 
-/// What is shown on a canvas, moved by pixels of the page.
+/// A movable picture on a canvas. Movements are in pixels of the page.
 export interface View {
-    /// What a press with the left button or a finger takes hold of.
+    /// What the left button or a finger moves: the brush, the picture or the angle of view.
     held_at(event: PointerEvent): Held;
-    /// The same for the right button and for two fingers.
+    /// What the right button and two fingers move.
     readonly held_by_two: Held;
     shift(right: number, down: number): void;
     turn(right: number, down: number): void;
@@ -20,24 +20,24 @@ function distance(one: PointerEvent, other: PointerEvent) {
 }
 
 export class Gestures {
-    private readonly pressed = new Map<number, PointerEvent>();  ///< Where each pointer was last.
+    private readonly pressed = new Map<number, PointerEvent>();  ///< The last event of each pointer.
     private waiting?: PointerEvent;  ///< A finger's press that may become a stroke.
     private holds: Held | "nothing" = "nothing";
 
-    /// `paint` is called for each place of a stroke, `is_first` with its first one.
+    /// `paint` is called for each position of a stroke; `is_first` is true for the first.
     constructor(private readonly canvas: HTMLCanvasElement, private readonly view: View,
         private readonly paint: (event: PointerEvent, is_first: boolean) => void) {
         canvas.addEventListener("pointerdown", (event) => this.press(event));
         canvas.addEventListener("pointermove", (event) => this.move(event));
         for (const end of ["pointerup", "pointercancel"] as const) canvas.addEventListener(end, (event) => this.release(event));
-        // Else the middle button scrolls.
+        // Without this, the middle button would scroll.
         canvas.addEventListener("mousedown", (event) => event.button === 1 && event.preventDefault());
         canvas.addEventListener("contextmenu", (event) => view.held_by_two === "angle" && event.preventDefault());
         canvas.parentElement!.addEventListener("wheel", (event) => {
             if (canvas.hidden) return;
             event.preventDefault();
             const lines = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? 1 : 30;
-            // Two fingers on a touchpad come as a wheel with Ctrl, in small steps.
+            // Browsers report a pinch on a touchpad as a wheel with Ctrl, in small steps.
             view.scale(Math.exp(-event.deltaY * lines * (event.ctrlKey ? 0.01 : 0.002)), event.clientX, event.clientY);
         }, { passive: false });
     }
@@ -66,7 +66,7 @@ export class Gestures {
         this.paint(event, false);
     }
 
-    /// With two fingers the view follows both.
+    /// Moves the view; with two fingers it follows both.
     private drag(before: PointerEvent, event: PointerEvent) {
         const right = event.clientX - before.clientX, down = event.clientY - before.clientY;
         const other = [...this.pressed.values()].find(({ pointerId }) => pointerId !== event.pointerId);
@@ -81,7 +81,7 @@ export class Gestures {
         if (this.holds === "brush" && event.type === "pointerup") this.start_waiting();
         this.pressed.delete(event.pointerId);
         this.waiting = undefined;
-        // The finger that stays of two paints nothing.
+        // When one of two fingers is lifted, the other does not paint.
         if (this.pressed.size === 0) this.holds = "nothing";
     }
 

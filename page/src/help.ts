@@ -1,4 +1,4 @@
-// The keys, and four steps that teach the page at the first visit.
+// The list of keys, and the introduction in four steps at the first visit.
 import { keys } from "./keys";
 
 const steps: [string, string][] = [
@@ -26,7 +26,7 @@ export class Help {
 
     open() { this.dialog.showModal(); }
 
-    /// Once for each browser.
+    /// Shows the introduction once in each browser.
     greet() {
         if (localStorage.getItem("was_taught") === null && this.step === steps.length) this.go_to(0);
     }
@@ -40,7 +40,7 @@ export class Help {
         const taught = document.getElementById(id)!;
         taught.setAttribute("data-taught", "");
         this.card.scrollIntoView({ block: "nearest" });
-        // On a narrow screen the pattern stays in sight, and what is below it is told.
+        // On a narrow screen the pattern stays visible, and steps about elements below it are only described.
         const is_seen = taught.getBoundingClientRect().top < innerHeight;
         this.card.querySelector("p")!.textContent = is_seen ? words : `Below the pattern: ${words[0].toLowerCase()}${words.slice(1)}`;
         this.card.querySelector("small")!.textContent = `${step + 1} of ${steps.length}`;

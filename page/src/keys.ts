@@ -1,4 +1,4 @@
-// The keys of the page, and what they do. The text, choices and inputs have keys of their own.
+// The keys of the page and their effects. The text, menus and inputs have keys of their own.
 export interface Key { key: string; also?: string[]; act: string; does: string }
 
 export const keys: Key[] = [
@@ -17,11 +17,14 @@ export const keys: Key[] = [
     { key: "h", act: "hold", does: "hold the range" },
     { key: "m", act: "measure", does: "measure" },
     { key: "p", act: "pick", does: "choose a cell to measure" },
+    { key: "F12", act: "", does: "in the text: to the declaration of a name, like Ctrl with a click" },
+    { key: "F2", act: "", does: "in the text: rename a name" },
+    { key: "k", act: "point", does: "write positions that are clicked into the text" },
     { key: "Escape", act: "", does: "leave the text" },
     { key: "?", also: ["Shift+?"], act: "help", does: "this help" },
 ];
 
-/// Keys that do something in an element of their own.
+/// Keys that have another effect in some elements.
 const of_others: Record<string, string> = {
     " ": "button, summary, input[type=checkbox]", "Home": "input", "PageUp": "input[type=range]", "PageDown": "input[type=range]",
 };

@@ -1,8 +1,9 @@
-// Shaders of things in the light of a sun and a sky: what is seen of the sun, and the colours of what is lit.
+// Shaders for objects in the light of a sun and a sky: the visible part of the sun, and the colours of lit surfaces.
 import { colours } from "./colours";
 
-/// The visible part of the sun's disc at a place: what hides it is looked for first, since its distance says how soft its
-/// shadow is. Depth maps have coordinates of −1 … 1, larger away from the light, and 1 where there is nothing.
+/// The visible part of the sun's disc from a point. Objects that hide the sun are found first, since their distance
+/// determines how soft the shadow is. Depth maps contain coordinates of −1 … 1, larger away from the light, and 1
+/// without an object.
 export const shadow = `#version 300 es
 precision highp float;
 precision highp sampler2D;
@@ -44,7 +45,7 @@ out vec4 colour;
 vec3 light_of(vec3 stored) { return mix(stored / 12.92, pow((stored + 0.055) / 1.055, vec3(2.4)), step(0.04045, stored)); }
 vec3 stored_of(vec3 light) { return mix(light * 12.92, 1.055 * pow(light, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, light)); }`;
 
-/// Where values change much within a pixel, it has their mean colour.
+/// Draws the surface. If values change much within a pixel, the pixel has the mean of their colours.
 export const surface = `${shade}
 uniform float low, high;
 ${colours}
@@ -67,7 +68,7 @@ void main() {
   colour = vec4(stored_of(min(light * (bright * sun_light + 0.42 * (is_outside ? sky_parts.x : sky_parts.y)) + gleam * sun_light, 1.0)), 1);
 }`;
 
-/// Cells without a value let light through.
+/// Draws depth maps. Cells without a value are holes.
 export const hidden = `#version 300 es
 precision highp float;
 in vec3 seen;

@@ -1,9 +1,9 @@
-// The link to a script, as text and as a code to scan.
+// A link to a script, as text and as a QR code.
 import { encode } from "uqr";
 import { EngineLine } from "./carried_engine";
 import { pack } from "./linked_script";
 
-const largest_code = 25;         ///< Its version: larger ones are too fine for phones.
+const largest_code = 25;         ///< The largest version of QR codes: larger ones are too fine for phones.
 const pixels_of_module = 3;
 
 function draw_code(link: string, canvas: HTMLCanvasElement) {
@@ -16,7 +16,7 @@ function draw_code(link: string, canvas: HTMLCanvasElement) {
     data.forEach((row, y) => row.forEach((is_dark, x) => is_dark && context.fillRect(pixels_of_module * x, pixels_of_module * y, pixels_of_module, pixels_of_module)));
 }
 
-/// The dialog that shows the link to a script and copies it. `token` opens the page of a session again.
+/// The dialog that shows and copies the link to a script. `token` is the token of the session, which its links need.
 export class LinkDialog {
     private readonly dialog = document.getElementById("link_dialog") as HTMLDialogElement;
     private readonly field = this.dialog.querySelector("input")!;
@@ -34,7 +34,7 @@ export class LinkDialog {
         await this.copy();
     }
 
-    /// In words why there is none.
+    /// Shows the QR code, or says why there is none.
     private show_code() {
         this.code.hidden = true;
         if (!EngineLine.is_carried) return "It opens on this machine, while Cascade runs. A page that 'cascade export' writes gives links for everybody.";
@@ -50,7 +50,7 @@ export class LinkDialog {
 
     private async copy() {
         this.field.select();
-        // Pages of unsafe servers have no clipboard, but the old command.
+        // Without https there is no clipboard object, only the old command.
         const is_done = await navigator.clipboard?.writeText(this.field.value).then(() => true, () => false) || document.execCommand("copy");
         this.dialog.querySelector("p")!.textContent = is_done ? "The link to this script is copied." : "Copy the link to this script:";
     }

@@ -1,9 +1,9 @@
-// Scripts in the fragment of an address, which browsers send to nobody.
+// Scripts in the fragment of an address, which browsers do not send to servers.
 import { all_of, from_base64, in_base64 } from "./base64";
 
 const largest_script = 1 << 20;  ///< In bytes.
 
-/// Compressed as zlib does, in base64 of addresses.
+/// Compresses a script by zlib and encodes it in base64 for addresses.
 export async function pack(text: string) {
     const packed = await new Response(new Blob([text]).stream().pipeThrough(new CompressionStream("deflate"))).blob();
     return (await in_base64(packed)).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");

@@ -1,22 +1,23 @@
-// How values are shown: the range of the palette, contour lines and relief.
+// The settings for showing values: the range of the palette, contour lines and relief.
 import type { Palette, Snapshot } from "./connection";
 import { digits } from "./words";
 
 export interface Look {
-    low?: number;    ///< Held; else the smallest value that is shown.
+    low?: number;    ///< Fixed end of the range; if undefined, the smallest value that is shown.
     high?: number;
-    every?: number;  ///< Contour lines at multiples of it.
+    every?: number;  ///< The distance of contour lines in values.
     at?: number;     ///< A contour line at this value.
-    relief: number;  ///< 0 … 1.
+    relief: number;  ///< The strength of the relief, 0 … 1.
+    squares: boolean;  ///< Whether cells of planes are squares at every zoom.
 }
 
 export const is_held = ({ low, high }: Look) => low !== undefined || high !== undefined;
 
 export class LookControls {
-    readonly look: Look = { relief: 0 };
+    readonly look: Look = { relief: 0, squares: localStorage.getItem("squares") === "1" };
     private readonly box = document.getElementById("legend")!;
     private readonly hold = this.input<HTMLButtonElement>("hold");
-    private range: [number, number] = [0, 0];  ///< Of the values that are shown.
+    private range: [number, number] = [0, 0];  ///< The range of the values that are shown.
 
     constructor(private readonly changed: () => void) {
         for (const part of ["low", "high", "every", "at"] as const) {
@@ -33,11 +34,18 @@ export class LookControls {
             this.look.relief = relief.valueAsNumber;
             this.update();
         });
+        const squares = this.input("squares");
+        squares.checked = this.look.squares;
+        squares.addEventListener("change", () => {
+            this.look.squares = squares.checked;
+            localStorage.setItem("squares", squares.checked ? "1" : "0");
+            this.update();
+        });
     }
 
     private input<T extends HTMLElement = HTMLInputElement>(id: string) { return document.getElementById(id) as T; }
 
-    /// Holds the range as it is, or lets it follow the values again.
+    /// Fixes the present range, or lets it follow the values again.
     toggle_hold() {
         const was_held = is_held(this.look);
         [this.look.low, this.look.high] = was_held ? [undefined, undefined] : this.range;
@@ -51,7 +59,7 @@ export class LookControls {
         this.changed();
     }
 
-    /// With what is drawn now, before this look is applied.
+    /// Shows the range of a snapshot, before a fixed range is applied.
     show({ low, high, planes }: Snapshot) {
         this.box.toggleAttribute("data-is-colour", planes.length !== 1);
         this.range = [low, high];

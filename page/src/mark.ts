@@ -3,7 +3,7 @@ import type { Pattern } from "./pattern";
 
 export class Mark {
     private readonly ring = document.createElement("span");
-    cell?: number;  ///< Of the grid.
+    cell?: number;  ///< The marked cell of the grid.
 
     constructor(private readonly pattern: Pattern, name: string) {
         this.ring.className = `mark ${name}`;
@@ -11,7 +11,7 @@ export class Mark {
         this.show();
     }
 
-    /// Again whenever what is seen changes.
+    /// Must be called again whenever the visible part changes.
     show(is_wanted = true) {
         const box = this.cell === undefined || !is_wanted ? undefined : this.pattern.box_of_cell(this.cell);
         this.ring.hidden = !box;

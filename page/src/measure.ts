@@ -1,17 +1,17 @@
-// What is measured while the panel is open: a probe and the whole domain over time, and the distribution, the spectrum
-// and the pairs of values now. The engine computes it; the page keeps the curves.
+// The plots: values in a cell and in the whole domain over time, and the distribution, spectrum and pairs of present
+// values. The engine measures while the panel is open. The page stores the curves.
 import type { Answer, Snapshot } from "./connection";
 import { Mark } from "./mark";
 import type { Pattern, Place } from "./pattern";
 import { Plot, colour_of_curve, draw_density } from "./plots";
 import { digits } from "./words";
 
-interface Cost { seconds: number }  ///< That the engine spent.
+interface Cost { seconds: number }  ///< The time that the engine spent on an answer.
 interface Values extends Cost { t: number | null; stage: number; steps: number; species?: { name: string; mean: number; smallest: number; largest: number; value?: number | null }[] }
 interface Measures extends Cost { histogram?: number[]; density?: number[]; x?: [number, number]; y?: [number, number]; spectrum?: number[]; ring_width?: number; wavelength?: number | null }
 type Ask = <Reply>(what: string, fields: Record<string, unknown>) => Promise<Answer & Reply>;
 
-/// A moment of the curves.
+/// One point of the curves. `at` is stage and step.
 interface Moment { t: number; at: [number, number]; species: Values["species"] }
 
 const most_moments = 4000;
@@ -29,7 +29,7 @@ export class Measure {
     private next_values = 0;
     private next_measures = 0;
     private is_stale = false;
-    private is_picking = false;  ///< The press that chooses a cell is still held.
+    private is_picking = false;  ///< The button that chose a cell is still pressed.
 
     constructor(private readonly pattern: Pattern, private readonly ask: Ask) {
         this.probe = new Mark(pattern, "probe");
@@ -42,7 +42,7 @@ export class Measure {
 
     private figure(id: string) { return document.getElementById(id)!; }
     private plot(id: string, is_histogram = false) { return new Plot(this.figure(id).querySelector("div")!, is_histogram); }
-    /// A caption; names of curves have their colours.
+    /// Sets a caption; names of curves have the colours of the curves.
     private title(id: string, text: string, curves: string[] = []) {
         this.figure(id).querySelector("figcaption")!.replaceChildren(text, ...curves.map((name, k) => {
             const part = Object.assign(document.createElement("span"), { textContent: ` ${name}` });
@@ -53,13 +53,13 @@ export class Measure {
 
     toggle() { this.panel.open = !this.panel.open; }
 
-    /// The next click on the pattern chooses a cell.
+    /// Lets the next click on the pattern choose a cell.
     wait_for_pick(is_waiting = this.pick.ariaPressed !== "true") {
         if (is_waiting) this.panel.open = true;
         this.pick.ariaPressed = String(is_waiting);
     }
 
-    /// Takes a press on the pattern that chooses a cell: with Alt, or after the button.
+    /// Returns whether a press on the pattern chooses a cell: a press with Alt, or the first after the button.
     takes({ altKey }: PointerEvent, place: Place | undefined, is_first: boolean): boolean {
         if (is_first) this.is_picking = altKey || this.pick.ariaPressed === "true";
         if (!this.is_picking || !place || !is_first) return this.is_picking;
@@ -86,12 +86,12 @@ export class Measure {
 
     private refresh() {
         this.next_values = this.next_measures = 0;
-        // What is being asked may be about another cell.
+        // A request that is under way may be about another cell.
         this.is_stale = this.is_asking;
         if (this.pattern.snapshot) void this.look_at(this.pattern.snapshot);
     }
 
-    /// With every snapshot that is drawn. A page that draws slowly therefore has fewer points of the curves.
+    /// Called for every snapshot that is drawn. So a page that draws slowly has fewer points in the curves.
     async look_at(snapshot: Snapshot) {
         if (!this.panel.open || this.is_asking || !this.x.value) return;
         this.is_asking = true;
@@ -110,18 +110,18 @@ export class Measure {
         }
         this.is_asking = false;
         if (this.is_stale) return this.refresh();
-        // What was seen last counts when all is still.
+        // If the run has stopped meanwhile, the newest snapshot counts.
         const now = this.pattern.snapshot;
         if (now && now !== snapshot && !now.is_going_on) void this.look_at(now);
     }
 
     private add({ t, stage, steps, species }: Values) {
         const at: [number, number] = [stage, steps];
-        // Going back takes away what was later.
+        // Going back removes later points.
         this.moments = this.moments.filter((old) => old.at[0] < stage || (old.at[0] === stage && old.at[1] < steps));
         const last = this.moments.at(-1);
         this.moments.push({ t: t ?? (last ? last.t + 1 : 0), at, species });
-        // Older moments lie farther apart.
+        // Drops every other point of the older half.
         if (this.moments.length > most_moments) this.moments = this.moments.filter((_, k) => k % 2 === 0 || k > most_moments / 2);
         const ts = this.moments.map(({ t }) => t), names = species!.map(({ name }) => name);
         const of = (name: string, part: "mean" | "smallest" | "largest" | "value") =>
@@ -146,7 +146,7 @@ export class Measure {
         this.plots.histogram.show([{ name: "cells" }], [histogram!.map((_, k) => x![0] + (k + 0.5) * width), histogram!]);
         this.figure("spectrum").hidden = !spectrum;
         if (spectrum) {
-            // Beyond some ring there is next to nothing.
+            // Rings after the last with a thousandth of the largest power are not shown.
             const least = Math.max(...spectrum.slice(1)) / 1000, last = spectrum.findLastIndex((power, k) => k > 0 && power >= least);
             const powers = spectrum.slice(1, Math.max(last + 2, 9)), rings = powers.map((_, k) => (k + 1) * ring_width!);
             const is_wave = typeof wavelength === "number";

@@ -1,13 +1,14 @@
-// Models from files of the user: sent to the engine in parts, and named in the domain of the text.
+// Models from the user's files: they are sent to the engine in parts, and named in the domain of the text.
 import { in_base64 } from "./base64";
 import type { Answer } from "./connection";
 
-const part = 1 << 19;  ///< In bytes.
+const part = 1 << 19;  ///< The size of a part in bytes.
 const usual_cells = 20000;
 
 type Ask = <Reply>(what: string, fields: Record<string, unknown>) => Promise<Answer & Reply>;
 
-/// The name that scripts have for the model; nothing if it was refused. `tell` gets the part that is sent.
+/// Sends a model. Returns the name by which scripts read it; undefined if it was refused. `tell` gets the fraction
+/// sent.
 export async function send_model(file: File, ask: Ask, tell: (sent: number) => void): Promise<string | undefined> {
     for (let at = 0; at === 0 || at < file.size; at += part) {
         tell(at / Math.max(file.size, 1));
@@ -18,12 +19,12 @@ export async function send_model(file: File, ask: Ask, tell: (sent: number) => v
     }
 }
 
-/// A change of a text: what stands from `from` to `to` becomes `text`.
+/// A change of a text: the part from `from` to `to` is replaced by `text`.
 export interface TextChange { from: number; to: number; text: string }
 
 /// Makes a model the domain of a script, in place of its grid, its surface or another model.
 export function with_model(script: string, name: string): TextChange {
-    // Brackets and names in comments and texts count for nothing.
+    // Removes comments and texts, whose brackets and names do not count.
     const plain = script.replace(/#.*|"[^"\n]*"/g, (part) => part.replace(/[^"]/g, " "));
     const model = `mesh: "${name}"`, block = /^[ \t]*domain\s*\{/m.exec(plain);
     if (!block) return { from: 0, to: 0, text: `domain { ${model}; cells: ${usual_cells} }\n` };
@@ -35,7 +36,7 @@ export function with_model(script: string, name: string): TextChange {
     return { from, to: from + plain.slice(from, end_of(plain, from, /[;\n}]/)).trimEnd().length, text: model + cells };
 }
 
-/// Where a statement or a block ends: at the first such sign that is in no brackets opened after `start`.
+/// The end of a statement or block: the first `sign` outside of brackets that are opened after `start`.
 function end_of(text: string, start: number, sign = /\}/) {
     let depth = 0;
     for (let at = start; at < text.length; ++at) {
@@ -46,7 +47,7 @@ function end_of(text: string, start: number, sign = /\}/) {
     return text.length;
 }
 
-/// Files that are dropped anywhere on the page; scripts go to the text, which takes them itself.
+/// Calls `take` for files that are dropped anywhere on the page. The editor takes scripts itself.
 export function take_drops(take: (file: File) => void) {
     const has_files = ({ dataTransfer }: DragEvent) => dataTransfer?.types.includes("Files") === true;
     addEventListener("dragover", (event) => has_files(event) && event.preventDefault());

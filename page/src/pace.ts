@@ -1,30 +1,32 @@
-// How fast the pattern grows: slowly enough to be watched, or as fast as the machine can. What is over goes on when
-// it is touched.
+// How fast the pattern grows: slowly enough to watch, or as fast as the machine can compute. A pattern that has ended
+// continues after a change.
 import type { Answer, Snapshot, Stage } from "./connection";
 import { is_row, rows_of_time } from "./time_rows";
 
-const usual_seconds = 20;    ///< Of all stages, with the slider in its middle.
-const longest_pause = 0.1;   ///< In seconds: steps that were due before are left out.
-const very_fast = 1e12;      ///< In steps a second.
+const usual_seconds = 20;    ///< The duration of all stages, with the slider in the middle.
+const longest_pause = 0.1;   ///< In seconds: after a longer pause, steps that were due are left out.
+const very_fast = 1e12;      ///< In steps a second: as fast as possible.
 
 type Ask = (what: string, fields?: Record<string, unknown>) => Promise<Answer>;
 
 const is_over = ({ stages }: Snapshot) => stages.every((stage) => stage.has_ended);
 
-/// The steps that a stage takes, as far as is known.
+/// The number of steps of a stage, estimated if it ends by its duration.
 const steps_of = ({ steps, iterations, t, duration }: Stage) => duration > 0 && t > 0 ? steps * duration / t : iterations;
 
 export class Pace {
     private readonly slider = document.getElementById("speed") as HTMLInputElement;
     private seen?: Snapshot;
     private stages = "";
-    private usual = 60;      ///< Steps a second, with the slider in its middle.
-    private is_asking = false;  ///< The page asks for the steps of each frame itself.
-    private is_wanted = false;  ///< Nobody has paused what grows, though it may have ended.
-    private is_lengthened = false;   ///< The last stage will not be at its end any more.
-    private goes_on_after?: number;  ///< This script, if the next one is not at its end.
-    private asked = "";      ///< The moment from which steps were asked for last.
-    private due = 0;         ///< Steps that are due now.
+    private usual = 60;      ///< Steps a second, with the slider in the middle.
+    private is_asking = false;  ///< The page requests the steps for each frame.
+    private is_starting = false;  ///< The run has been started, but no snapshot shows it yet.
+    private is_wanted = false;  ///< The pattern was not paused, though it may have ended.
+    private is_changed = false;  ///< A number or the pattern was changed after the last snapshot.
+    private is_lengthened = false;   ///< The last stage is being lengthened.
+    private goes_on_after?: number;  ///< Continue if another script than this one has stages left.
+    private asked = "";      ///< The stage and step of the last request for steps.
+    private due = 0;         ///< The number of steps that are due.
     private then = 0;
 
     constructor(private readonly ask: Ask) {
@@ -37,18 +39,18 @@ export class Pace {
         });
     }
 
-    get is_going_on() { return this.is_asking || this.seen?.is_going_on === true; }
+    get is_going_on() { return this.is_asking || this.is_starting || this.seen?.is_going_on === true; }
 
-    /// Is it a moment that is no row of time?
+    /// Is the present moment between two rows of the picture of a one-row grid?
     get is_between_rows() { return this.is_asking && this.seen!.is_going_on && is_row(this.seen!); }
 
-    /// Can more steps be taken, be it beyond the end?
+    /// Can more steps be taken, possibly after lengthening the last stage?
     get is_possible() {
         const last = this.seen?.stages.at(-1);
         return last !== undefined && (!is_over(this.seen!) || last.duration > 0 || last.steps >= last.iterations);
     }
 
-    /// 0 while it is unknown.
+    /// The steps taken in a second; 0 if unknown.
     get steps_per_second() { return Math.min(this.seen?.steps_per_second ?? 0, this.is_asking ? this.rate : very_fast); }
 
     see(snapshot: Snapshot) {
@@ -59,14 +61,18 @@ export class Pace {
         }
         this.seen = snapshot;
         if (is_over(snapshot) || snapshot.failure) this.is_asking = false;
+        if (is_over(snapshot) || snapshot.failure || snapshot.is_going_on) this.is_starting = false;
         const is_new = this.goes_on_after !== undefined && this.goes_on_after !== snapshot.script;
         if (is_new) this.goes_on_after = undefined;
-        if (is_over(snapshot) || !is_new && !this.is_lengthened) return;
+        const was_changed = this.is_changed;
+        this.is_changed = false;
+        if (was_changed && this.has_ended_by_itself) return void this.lengthen(true);
+        if (is_over(snapshot) || !(is_new && !this.is_going_on) && !this.is_lengthened) return;
         this.is_lengthened = false;
         void this.start();
     }
 
-    /// Beyond the end of the last stage it goes on for as long again.
+    /// Continues the run. After the end of the last stage, this stage is lengthened.
     async start() {
         if (!this.seen) return;
         this.is_wanted = true;
@@ -74,6 +80,7 @@ export class Pace {
             await this.lengthen(false);
         } else if (this.is_unbounded) {
             this.is_asking = false;
+            this.is_starting = true;
             await this.ask("run");
         } else {
             this.begin_asking();
@@ -85,18 +92,23 @@ export class Pace {
         await this.ask("pause");
     }
 
-    /// Nothing is wanted any more, such as after an undo, which pauses by itself.
+    /// Forgets that the pattern should grow, for example after an undo, which pauses the session.
     forget() {
-        this.is_asking = this.is_wanted = this.is_lengthened = false;
+        this.is_asking = this.is_starting = this.is_wanted = this.is_lengthened = this.is_changed = false;
         this.goes_on_after = undefined;
     }
 
-    /// A number or the pattern was changed: what has ended by itself goes on.
-    touch() { if (this.has_ended_by_itself) void this.lengthen(true); }
+    /// Called after a change of a number or the pattern: a pattern that has ended by itself continues. The next snapshot
+    /// may be the first to show the end.
+    touch() {
+        this.is_changed = this.is_wanted && this.is_going_on;
+        if (this.has_ended_by_itself) void this.lengthen(true);
+    }
 
-    /// Another text is sent: what has ended by itself goes on with the stages that it adds.
+    /// Called with a new text: a pattern that has ended by itself continues with the stages that the text adds. The run
+    /// may have ended without the page having seen it.
     async send(text: Promise<Answer>) {
-        if (this.has_ended_by_itself) this.goes_on_after = this.seen!.script;
+        if (this.has_ended_by_itself || this.is_wanted && this.is_going_on) this.goes_on_after = this.seen!.script;
         if (!(await text).is_done) this.goes_on_after = undefined;
     }
 
@@ -114,13 +126,15 @@ export class Pace {
 
     private get rate() { return this.slider.value === this.slider.max ? very_fast : this.usual * 2 ** this.slider.valueAsNumber; }
 
-    /// Rows of time are the same number of steps apart, so the page always asks for them itself.
+    /// For a one-row grid the page always requests steps itself, since rows of the picture are equally many steps
+    /// apart.
     private get is_unbounded() { return this.rate === very_fast && !is_row(this.seen!); }
 
     private begin_asking() {
         this.asked = "";
         this.due = 0;
         this.then = performance.now();
+        this.is_starting = false;
         if (this.is_asking) return;
         this.is_asking = true;
         this.tick();
@@ -133,7 +147,7 @@ export class Pace {
         this.due += Math.min((now - this.then) / 1000, longest_pause) * this.rate;
         this.then = now;
         const moment = `${stage} ${steps}`;
-        // Rows of time are so far apart that a stage fills the picture.
+        // The steps between rows of a one-row grid's picture, with which a stage fills the picture.
         const least = is_row(this.seen!) ? Math.max(1, Math.ceil(stages[stage - 1].iterations / (rows_of_time(this.seen!) - 1))) : 1;
         if (is_going_on || moment === this.asked || this.due < least) return;
         const count = is_row(this.seen!) ? least : Math.floor(Math.min(this.due, longest_pause * this.rate + 1));

@@ -1,12 +1,15 @@
-// The page: text, sliders, pattern and stages of one session.
+// The page: connects text, sliders, pattern and stages of a session.
 import { EngineLine } from "./carried_engine";
-import { half_width } from "./cells_in_space";
+import { Brush } from "./brush";
 import { Answer, Connection, Explanation, KnownName, Message, Palette, Script, Snapshot } from "./connection";
 import { download } from "./download";
 import { Editor } from "./editor";
+import type { NameUses } from "./editor_names";
 import { Failure } from "./failure";
 import { Help } from "./help";
 import { obey_keys } from "./keys";
+import { speak } from "./languages";
+import { Lesson } from "./lesson";
 import { Library } from "./library";
 import { Gestures } from "./gestures";
 import { LinkDialog } from "./link";
@@ -18,21 +21,23 @@ import { Pace } from "./pace";
 import { Pattern } from "./pattern";
 import { picture_fields } from "./picture_fields";
 import { PlaneView } from "./plane_view";
+import { Points } from "./points";
 import { Pointed } from "./pointed";
 import { close_popups } from "./popups";
 import { Preparing } from "./preparing";
 import { Progress } from "./progress";
 import { Recording } from "./recording";
 import { Slices } from "./slices";
+import { ModelSaver } from "./save_model";
 import { show_sliders } from "./sliders";
 import { Stages } from "./stages";
 import { SolidView } from "./solid_view";
-import { Stroke, Trail } from "./stroke";
 import { in_words } from "./words";
 
 const element = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
 const button = (id: string) => element<HTMLButtonElement>(id);
 
+speak(element("language"));
 const has_shaders = !location.search.includes("2d");
 const solid = new SolidView(element<HTMLCanvasElement>("solid"), has_shaders);
 const pattern = new Pattern(element<HTMLCanvasElement>("pattern"), solid, has_shaders);
@@ -44,16 +49,17 @@ pattern.drawn = (shown) => {
     show_marks();
 };
 const palette_choice = element<HTMLSelectElement>("palette");
-const brush_choice = element<HTMLSelectElement>("brush");
 let palettes: Palette[] = [];
-let is_text_open = false;  ///< The editor holds a text that the session does not run.
+let is_text_open = false;  ///< The text in the editor is not the session's script.
+let replaced_script: number | undefined;  ///< The script before an accepted text whose pattern is not shown yet.
 let is_drawing = false;
 let was_opened = false;
-let is_to_start = false;  ///< With the next snapshot that shows a start.
+let is_to_start = false;  ///< Start the run with the next snapshot of a start.
 let noticed_until = 0;
 const preparing = new Preparing();
 
-/// A link that was opened brings a script along. Its token is that of the session, so no other site can send one.
+/// The script in the link by which the page was opened. The link must contain the session's token, so no other site can
+/// send a script.
 const linked = EngineLine.is_carried || !/token=.*&script=/.test(location.hash) ? undefined
     : script_of_address().catch(() => void notice(in_words(wrong_link), true, 10));
 addEventListener("hashchange", () => location.reload());
@@ -78,7 +84,7 @@ const connection = new Connection({
         if (pace.is_between_rows) return connection.next_snapshot();
         pattern.snapshot = snapshot;
         const is_start = snapshot.stage === 1 && snapshot.steps === 0;
-        // A session that nothing was done in yet starts when its page opens, or when a script is chosen.
+        // A new session starts when its page opens, or when a script is chosen.
         if (!was_opened && linked) void linked.then((text) => text && show_new(text));
         else if (!was_opened && is_start && !snapshot.can_undo) {
             if (library.is_filled) library.open();
@@ -88,7 +94,7 @@ const connection = new Connection({
         if (!library.is_open) help.greet();
         if (is_to_start && is_start) {
             is_to_start = false;
-            actions.run();
+            start_run();
         }
         if (performance.now() > noticed_until) notice("");
         if (is_drawing) return;
@@ -99,12 +105,13 @@ const connection = new Connection({
                 pattern.draw();
                 slices.show(pattern.snapshot!);
                 void measure.look_at(pattern.snapshot!);
+                lesson.look_at(pattern.snapshot!);
                 want_surface(pattern.snapshot!);
                 preparing.blank = pattern.snapshot!.is_model && solid.is_possible && !pattern.is_solid;
                 show_state(pattern.snapshot!);
                 if (!pattern.is_solid) keep_what_is_seen();
             } finally {
-                // Whatever goes wrong with one, the next one is seen.
+                // Requests the next snapshot even if this one fails.
                 connection.next_snapshot();
             }
         });
@@ -150,7 +157,7 @@ let asked_surface = 0;
 function want_surface({ surface, is_model, cells }: Snapshot) {
     button("flat").hidden = surface === 0 || is_model || cells !== undefined || !solid.is_possible;
     if (cells?.extent && !solid.is_possible) notice("Cells that crawl need WebGL2, which this browser does not offer.", true, 60);
-    // A floor may have taken its place.
+    // A floor may have replaced the surface.
     if (surface === 0 || (surface === asked_surface && solid.surface?.number !== 0)) return;
     asked_surface = surface;
     if (solid.is_possible) connection.ask_surface();
@@ -159,13 +166,13 @@ function want_surface({ surface, is_model, cells }: Snapshot) {
 
 const slices = new Slices((fields) => ask("slice", fields));
 
-/// A script in the place of the one that is shown.
+/// Replaces the script and starts the run.
 async function show_new(text: string) {
     is_text_open = false;
     await pace.stop();
     const answer = await ask("text", { text });
     if (!answer.is_done) return;
-    // What has the same name in the script before would keep its values.
+    // Otherwise stages and species with the old names would keep their values.
     await ask("restart");
     is_to_start = true;
 }
@@ -175,36 +182,45 @@ const link = new LinkDialog(() => connection.token);
 const engine_help = {
     names: async (text: string) => (await connection.ask<{ names?: KnownName[] }>("names", { text })).names ?? [],
     explain: (text: string) => connection.ask<Explanation>("explain", { text }),
+    uses: (text: string, byte: number) => connection.ask<NameUses>("uses", { text, byte }),
+    rename: (text: string, byte: number, name: string) => connection.ask<{ text?: string }>("rename", { text, byte, name }),
+    tell: (why: string | Message) => notice(typeof why === "string" ? why : in_words(why), typeof why !== "string", 6),
 };
-const editor = new Editor(element("editor"), engine_help, () => (element("text").ariaBusy = "true"), async (text) => {
+function mark_typing() {
+    replaced_script = undefined;
+    element("text").ariaBusy = "true";
+}
+const editor = new Editor(element("editor"), engine_help, mark_typing, async (text) => {
     is_text_open = true;
-    const asked = connection.ask("text", { text });
+    const before = pattern.snapshot?.script, asked = connection.ask("text", { text });
     void pace.send(asked);
     const answer = await asked;
     if (text !== editor.text) return;
-    element("text").ariaBusy = "false";
+    replaced_script = answer.is_done && pattern.snapshot?.script === before ? before : undefined;
+    if (replaced_script === undefined) element("text").ariaBusy = "false";
     is_text_open = !answer.is_done;
     show_messages(answer.messages);
     if (!answer.messages.some(({ is_error, hint }) => is_error && hint)) return;
     const { fixes } = await connection.ask<{ fixes: (string | null)[] }>("fixes", { text });
     if (text === editor.text) show_messages(answer.messages, fixes);
-});
+}, () => notice("This part of the exercise is locked.", false, 5));
+const lesson = new Lesson((what, fields) => connection.ask(what, fields), () => element<HTMLInputElement>("show").value);
 
-/// A notice stays for some seconds, or until the next one.
+/// Shows a notice for some seconds, or until the next notice.
 function notice(text: string, is_wrong = false, seconds = 0) {
     noticed_until = performance.now() + 1000 * seconds;
     element("notice").textContent = text;
     element("notice").classList.toggle("wrong", is_wrong);
     if (seconds === 0) return;
     setTimeout(() => {
-        // Without a pattern it is all there is to see.
+        // Without a pattern, the notice remains.
         if (performance.now() < noticed_until || !pattern.snapshot) return;
         notice("");
         show_state(pattern.snapshot);
     }, 1000 * seconds + 100);
 }
 
-/// With a button for each of the first errors that the engine has found a text against.
+/// Shows messages, with a button for each of the first errors for which the engine has found a correction.
 function show_messages(messages: Message[], fixes: (string | null)[] = []) {
     editor.show(messages);
     element("messages").replaceChildren(...messages.filter((m) => m.is_error).slice(0, 5).map((m, k) => {
@@ -218,7 +234,7 @@ function show_messages(messages: Message[], fixes: (string | null)[] = []) {
     }));
 }
 
-/// Asks, and shows why not where it is refused.
+/// Sends a request, and shows the message if it is refused.
 async function ask<Reply = object>(what: string, fields: Record<string, unknown> = {}): Promise<Answer & Reply> {
     const answer = await connection.ask<Reply>(what, fields);
     if (!answer.is_done && answer.messages.length > 0) notice(in_words(answer.messages[0]), true, 5);
@@ -227,7 +243,7 @@ async function ask<Reply = object>(what: string, fields: Record<string, unknown>
 
 const pace = new Pace(ask);
 const progress = new Progress(pace);
-/// Numbers and strokes: what has ended goes on after them.
+/// Sends a number or a stroke, after which a pattern that has ended continues.
 async function change(what: string, fields: Record<string, unknown>) {
     const answer = await ask(what, fields);
     if (answer.is_done) pace.touch();
@@ -239,16 +255,13 @@ function show_script(script: Script) {
     element("name").textContent = script.name.split("/").pop()!;
     if (!is_text_open && !editor.is_changing) {
         editor.text = script.text;
-        element("text").ariaBusy = "false";
+        if (replaced_script === undefined) element("text").ariaBusy = "false";
         show_messages(script.messages);
     }
+    lesson.script = script.text;
     show_sliders(script.controls, change);
     measure.species = script.species;
-    if ([...brush_choice.options].map((o) => o.value).join() !== script.brushes.join()) {
-        // The first brush is the usual one; another was chosen.
-        const chosen = brush_choice.selectedIndex > 0 ? brush_choice.value : "";
-        brush_choice.replaceChildren(...script.brushes.map((name) => new Option(name)));
-        if (script.brushes.includes(chosen)) brush_choice.value = chosen;
+    if (brush.offer(script.brushes)) {
         element("names").replaceChildren(...script.species.map((name) => new Option(name)));
     }
 }
@@ -261,6 +274,11 @@ function choose_palette() {
 
 function show_state(snapshot: Snapshot) {
     const { stages } = snapshot;
+    if (replaced_script !== undefined && replaced_script !== snapshot.script) {
+        replaced_script = undefined;
+        element("text").ariaBusy = "false";
+    }
+    element("view").dataset.script = String(snapshot.script);
     strip.show(snapshot);
     progress.show(snapshot);
     const { is_going_on } = pace;
@@ -276,6 +294,11 @@ function show_state(snapshot: Snapshot) {
     if (is_over && snapshot.remarks.length > 0 && performance.now() > noticed_until) notice(snapshot.remarks.at(-1)!);
 }
 
+function start_run() {
+    void pace.start();
+    if (pattern.snapshot) show_state(pattern.snapshot);
+}
+
 function go_back(what: "undo" | "redo") {
     pace.forget();
     is_text_open = false;
@@ -285,10 +308,12 @@ function go_back(what: "undo" | "redo") {
 const name_of_file = () => element("name").textContent!.replace(/\.cascade$/, "") || "pattern";
 const save = (ending: string, text: string) => download(`${name_of_file()}.${ending}`, new Blob([text], { type: "text/plain" }));
 
+const saver = new ModelSaver(pattern, ask, (words) => notice(words, false, words ? 60 : 0));
+const save_model = (what: "model" | "maps") => saver.save(what, name_of_file(), { show: shown.value, palette: palette_choice.value });
+
 const actions: Record<string, () => void> = {
-    run: () => {
-        void (pace.is_going_on ? pace.stop() : pace.start());
-    },
+    // What the button says: the run may just have ended.
+    run: () => void (button("run").hasAttribute("data-going") ? pace.stop() : start_run()),
     step: () => void ask("step", { count: 1 }),
     restart: () => void ask("restart"),
     undo: () => go_back("undo"),
@@ -304,6 +329,7 @@ const actions: Record<string, () => void> = {
     },
     hold: () => look.toggle_hold(),
     measure: () => measure.toggle(),
+    point: () => points.toggle(),
     pick: () => measure.wait_for_pick(),
     nearer: () => view().scale(1.5),
     farther: () => view().scale(1 / 1.5),
@@ -318,12 +344,14 @@ const actions: Record<string, () => void> = {
         const { png } = await ask<{ png?: string }>("picture", { show: shown.value, palette: palette_choice.value, ...picture_fields(pattern) });
         if (png) download(`${name_of_file()}.png`, new Blob([Uint8Array.from(atob(png), (sign) => sign.charCodeAt(0))], { type: "image/png" }));
     },
+    model: () => void save_model("model"),
+    maps: () => void save_model("maps"),
     script: () => save("cascade", editor.text),
     link: () => void link.open(editor.text),
     movie: () => recording.toggle_movie(),
     frames: () => {
         void recording.toggle_frames();
-        // The first frame is what is seen now.
+        // Draws the present moment as the first frame.
         pattern.draw();
         if (!pattern.is_solid) keep_what_is_seen();
     },
@@ -363,21 +391,7 @@ shown.addEventListener("change", async () => {
     if (answer.is_done) pattern.time.clear();
 });
 
-const trail = new Trail(() => pattern.seen.parentElement!);
-const stroke = new Stroke((fields) => change("paint", fields));
-function paint(event: PointerEvent, is_first: boolean) {
-    for (const at of trail.to(event, is_first)) dab(event, at, is_first && at === event);
-}
-function dab(event: PointerEvent, at: { clientX: number; clientY: number }, is_first: boolean) {
-    const place = pattern.place(at);
-    if (measure.takes(event, place, is_first) || !brush_choice.value || !place || !pattern.snapshot) return;
-    const item = brush_choice.value, value = element<HTMLInputElement>("amount").value || `${event.shiftKey ? "min" : "max"}(${item} over domain)`;
-    // As large on the screen at every zoom, but never so small that it misses all cells.
-    const { cells } = pattern.snapshot, is_model = pattern.snapshot.is_model && !cells, reach = 0.03 / view().zoom;
-    const spacing = is_model ? solid.surface!.spacing : 1 / pattern.longest;
-    const least = cells ? half_width(cells, place.cell) : (place.z === undefined || is_model ? 0.71 : 0.87) * spacing;
-    stroke.go_on({ item, value, place, is_model, radius: Math.max(reach, least) }, is_first);
-}
+const points = new Points(pattern, editor, (why) => notice(why, false, 5));
 const plane = new PlaneView(pattern.canvas, () => pattern.columns);
 const view = () => pattern.is_solid ? solid : plane;
 plane.moved = () => {
@@ -385,5 +399,5 @@ plane.moved = () => {
     show_marks();
 };
 solid.moved = show_marks;
-new Gestures(pattern.canvas, plane, paint);
-new Gestures(solid.canvas, solid, paint);
+const brush = new Brush(pattern, points, measure, change, () => view().zoom);
+for (const [canvas, seen] of [[pattern.canvas, plane], [solid.canvas, solid]] as const) new Gestures(canvas, seen, (event, is_first) => brush.press(event, is_first));

@@ -1,155 +1,48 @@
-// The pattern on a canvas of one pixel a cell: by WebGL2, or by the processor where that is missing.
-import { colours } from "./colours";
+// The pattern on a canvas: a plane, smooth or with a pixel for each cell, or a surface in space on a canvas of its own.
+import { divided, filled } from "./between_cells";
 import type { Palette, Snapshot } from "./connection";
+import { LineDrawer, has_lines } from "./line_drawer";
 import type { Look } from "./look";
+import { PlanePainter } from "./plane_painter";
 import type { SolidView } from "./solid_view";
 import { TimeRows, is_row } from "./time_rows";
 
-const vertex = `#version 300 es
-void main() { gl_Position = vec4(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3 : -1, 0, 1); }`;
+const sharp_from = 24;        ///< The width of cells, in pixels of the page, from which a zoomed plane shows squares.
+const most_pixels = 1 << 20;  ///< The most pixels of a smooth plane. The browser stretches them.
 
-/// Light is that of render/tracer.cpp without shadows.
-const fragment = `#version 300 es
-precision highp float;
-precision highp sampler2D;
-uniform sampler2D red, green, blue;
-uniform float low, high, rows, scale, relief;
-out vec4 colour;
-${colours}
-/// Between the middles of cells.
-float value_at(vec2 place) {
-  ivec2 end = textureSize(red, 0) - 1;
-  vec2 from = clamp(place - 0.5, vec2(0), vec2(end)), part = fract(from);
-  ivec2 one = ivec2(from), other = min(one + 1, end);
-  return mix(mix(texelFetch(red, one, 0).r, texelFetch(red, ivec2(other.x, one.y), 0).r, part.x),
-    mix(texelFetch(red, ivec2(one.x, other.y), 0).r, texelFetch(red, other, 0).r, part.x), part.y);
-}
-float height_at(vec2 place) { return 12.0 * relief * position_of(value_at(place)); }
-vec3 lit(vec3 seen, vec2 place) {
-  vec3 normal = normalize(vec3(height_at(place - vec2(1, 0)) - height_at(place + vec2(1, 0)),
-    height_at(place + vec2(0, 1)) - height_at(place - vec2(0, 1)), 2));
-  if (isnan(normal.x)) return seen;
-  vec3 sun = normalize(vec3(-0.7, 0.9, 1));
-  // As much light as before where it is flat.
-  float light = (0.72 * max(0.0, dot(normal, sun)) + 0.42) / (0.72 * sun.z + 0.42);
-  float gleam = 0.06 * pow(max(0.0, dot(normal, normalize(sun + vec3(0, 0, 1)))), 40.0);
-  return pow(pow(seen, vec3(2.2)) * light + gleam, vec3(1.0 / 2.2));
-}
-void main() {
-  vec2 place = vec2(gl_FragCoord.x, rows * scale - gl_FragCoord.y) / scale;
-  ivec2 cell = ivec2(place);
-  vec3 value = vec3(texelFetch(red, cell, 0).r, texelFetch(green, cell, 0).r, texelFetch(blue, cell, 0).r);
-  float smooth_value = value_at(place), change = fwidth(smooth_value);
-  if (isnan(value.r)) { colour = vec4(0); return; }
-  if (is_colour) { colour = vec4(clamp(value, 0.0, 1.0), 1); return; }
-  vec3 seen = colour_of(value.r);
-  if (relief > 0.0) seen = lit(seen, place);
-  colour = vec4(mix(seen, vec3(line_level(smooth_value)), line_part(smooth_value, change)), 1);
-}`;
-
-/// Where a pointer is: coordinates as scripts have them, z in a volume, and the index of the cell in the planes of
+/// A position on the pattern: coordinates of scripts, z only in a volume, and the index of the cell in the planes of
 /// snapshots.
 export interface Place { x: number; y: number; z?: number; cell: number }
 
-interface Drawer {
-    /// Lines and relief want more pixels than one for each cell.
-    readonly has_lines: boolean;
-    draw(snapshot: Snapshot, palette: Palette, look: Look, scale: number): void;
-}
-
-class ShaderDrawer implements Drawer {
-    readonly has_lines = true;
-    private readonly program: WebGLProgram;
-    private readonly textures: WebGLTexture[];
-
-    constructor(private readonly gl: WebGL2RenderingContext) {
-        this.program = gl.createProgram()!;
-        for (const [type, text] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]] as const) {
-            const shader = gl.createShader(type)!;
-            gl.shaderSource(shader, text);
-            gl.compileShader(shader);
-            gl.attachShader(this.program, shader);
-        }
-        gl.linkProgram(this.program);
-        if (!gl.getProgramParameter(this.program, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(this.program) ?? "");
-        gl.useProgram(this.program);
-        this.textures = ["red", "green", "blue"].map((name, unit) => {
-            gl.uniform1i(this.at(name), unit);
-            const texture = gl.createTexture()!;
-            gl.activeTexture(gl.TEXTURE0 + unit);
-            gl.bindTexture(gl.TEXTURE_2D, texture);
-            gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
-            gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
-            return texture;
-        });
-    }
-
-    private at(name: string) { return this.gl.getUniformLocation(this.program, name); }
-
-    draw(snapshot: Snapshot, palette: Palette, look: Look, scale: number) {
-        const gl = this.gl, { columns, rows, planes } = snapshot;
-        gl.viewport(0, 0, columns * scale, rows * scale);
-        this.textures.forEach((_, unit) => {
-            gl.activeTexture(gl.TEXTURE0 + unit);
-            if (unit > 0 && planes.length === 1) return;
-            gl.texImage2D(gl.TEXTURE_2D, 0, gl.R32F, columns, rows, 0, gl.RED, gl.FLOAT, planes[unit]);
-        });
-        gl.uniform3fv(this.at("stops"), palette.stops.flat());
-        gl.uniform1i(this.at("last"), palette.stops.length - 1);
-        const numbers = { low: snapshot.low, high: snapshot.high, rows, scale, every: look.every ?? 0, at: look.at ?? 0, relief: look.relief };
-        for (const [name, value] of Object.entries(numbers)) gl.uniform1f(this.at(name), value);
-        gl.uniform1i(this.at("has_line"), look.at === undefined ? 0 : 1);
-        gl.uniform1i(this.at("is_colour"), planes.length === 3 ? 1 : 0);
-        gl.drawArrays(gl.TRIANGLES, 0, 3);
-    }
-}
-
-class ProcessorDrawer implements Drawer {
-    readonly has_lines = false;
-    constructor(private readonly context: CanvasRenderingContext2D) {}
-
-    draw({ columns, rows, planes, low, high }: Snapshot, { stops }: Palette) {
-        const image = this.context.createImageData(columns, rows), last = stops.length - 1;
-        for (let k = 0; k < columns * rows; ++k) {
-            if (Number.isNaN(planes[0][k])) continue;
-            const part = high === low ? 0.5 : Math.min(Math.max((planes[0][k] - low) / (high - low), 0), 1);
-            const left = Math.min(Math.floor(part * last), last - 1), rest = part * last - left;
-            for (let c = 0; c < 3; ++c) {
-                const level = planes.length === 3 ? planes[c][k] : stops[left][c] + (stops[left + 1][c] - stops[left][c]) * rest;
-                image.data[4 * k + c] = Math.round(255 * level);
-            }
-            image.data[4 * k + 3] = 255;
-        }
-        this.context.putImageData(image, 0, 0);
-    }
-}
+/// How a plane is drawn: the pixels along a side of a cell, and whether values between cells are shown.
+interface Form { scale: number; is_smooth: boolean }
 
 export class Pattern {
-    private readonly drawer: Drawer;
+    private readonly painter = new PlanePainter();
+    private readonly lines: LineDrawer;
+    private drawn_as = "";  ///< The form of the plane on the canvas.
     readonly time = new TimeRows();
     snapshot?: Snapshot;
     palette?: Palette;
-    look: Look = { relief: 0 };
-    columns = 1;  ///< Of what is drawn.
+    look: Look = { relief: 0, squares: false };
+    columns = 1;  ///< The columns of cells on the canvas.
     rows = 1;
-    is_laid_flat = false;  ///< Is a surface of parameters shown as their plane?
-    /// Is told what is drawn, with the range of its values.
+    is_laid_flat = false;  ///< Is a surface given by formulas shown as a plane?
+    /// Called with the snapshot that is drawn and the range of its values.
     drawn: (shown: Snapshot) => void = () => {};
 
     constructor(readonly canvas: HTMLCanvasElement, readonly solid: SolidView, use_shader = true) {
-        // Kept for whoever reads the picture after it was drawn.
-        const gl = use_shader ? canvas.getContext("webgl2", { preserveDrawingBuffer: true, premultipliedAlpha: true }) : null;
-        this.drawer = gl ? new ShaderDrawer(gl) : new ProcessorDrawer(canvas.getContext("2d")!);
+        this.lines = new LineDrawer(use_shader);
     }
 
-    /// Is it drawn in space?
+    /// Is the pattern drawn in space?
     get is_solid() {
         const { snapshot, solid } = this, { surface } = solid;
         return !!snapshot && !!surface && solid.is_possible && surface.number === snapshot.surface
             && (surface.number > 0 || !!snapshot.cells) && !(this.is_laid_flat && surface.places);
     }
 
-    /// The canvas that is seen.
+    /// The visible canvas.
     get seen() { return this.is_solid ? this.solid.canvas : this.canvas; }
 
     draw() {
@@ -162,33 +55,49 @@ export class Pattern {
         this.drawn(values);
         const shown = { ...values, ...this.range_of(values) };
         if (this.is_solid || snapshot.cells) return solid.draw(shown, palette, look);
-        const scale = this.pixels_of_cell(columns, rows);
-        canvas.style.imageRendering = scale > 1 ? "auto" : "";
+        const form = this.form_of(columns, rows), { scale, is_smooth } = form;
+        canvas.style.imageRendering = scale > 1 || is_smooth ? "auto" : "";
         if (canvas.width !== columns * scale || canvas.height !== rows * scale) {
             canvas.width = columns * scale;
             canvas.height = rows * scale;
-            // As large as its frame, in the shape of the grid.
+            // The canvas fills its frame, with the proportions of the grid.
             const ratio = columns / rows;
             canvas.style.width = `min(100cqw, ${100 * ratio}cqh)`;
             canvas.style.height = `min(100cqh, ${100 / ratio}cqw)`;
         }
         this.columns = columns;
         this.rows = rows;
-        this.drawer.draw(shown, palette, look, scale);
+        this.drawn_as = JSON.stringify(form);
+        this.draw_plane(shown, palette, form);
     }
 
-    /// Along a side of a cell: 1, or for lines and relief about as many as the screen has.
-    private pixels_of_cell(columns: number, rows: number) {
-        const { relief, every, at } = this.look, is_smooth = relief > 0 || every !== undefined || at !== undefined;
-        if (!is_smooth || !this.drawer.has_lines) return 1;
-        const seen = this.canvas.getBoundingClientRect().width * devicePixelRatio / columns;
-        return Math.max(1, Math.min(Math.ceil(seen), 16, Math.floor(4096 / Math.max(columns, rows))));
+    private draw_plane(shown: Snapshot, palette: Palette, { scale, is_smooth }: Form) {
+        const { columns, rows, repeats } = shown, pen = this.canvas.getContext("2d")!;
+        const cells = shown.planes.map((numbers) => ({ columns, rows, numbers }));
+        const is_lined = this.has_lines(shown), whole = cells.map((plane) => filled(plane, repeats)), [{ there }] = whole;
+        if (scale === 1 && !is_lined) return pen.putImageData(this.painter.paint(cells, shown, palette, there), 0, 0);
+        const values = whole.map((plane) => divided(plane.values, scale, repeats));
+        const image = is_smooth ? this.painter.paint(values, shown, palette, there && divided(there, scale, repeats)) : this.painter.paint(cells, shown, palette, there);
+        if (!is_lined) return pen.putImageData(image, 0, 0);
+        pen.clearRect(0, 0, this.canvas.width, this.canvas.height);
+        pen.drawImage(this.lines.draw(values[0], image, scale, shown, palette, this.look), 0, 0);
     }
 
-    /// Again if what is seen has more pixels now.
-    redraw() { if (this.pixels_of_cell(this.columns, this.rows) !== this.canvas.width / this.columns) this.draw(); }
+    private has_lines({ planes }: Snapshot) { return this.lines.is_possible && has_lines(this.look) && planes.length === 1; }
 
-    /// The values of the palette's ends: held, or those of a snapshot.
+    /// A smooth plane has about as many pixels as the screen. Squares have one pixel, and more below lines and relief.
+    private form_of(columns: number, rows: number): Form {
+        const { canvas, snapshot } = this, wide = canvas.getBoundingClientRect().width, seen = wide * devicePixelRatio / columns;
+        const is_near = wide > canvas.offsetWidth * 1.01 && wide >= sharp_from * columns;
+        const is_smooth = !this.look.squares && !is_near && !is_row(snapshot!);
+        if (this.has_lines(snapshot!)) return { is_smooth, scale: Math.max(1, Math.min(Math.ceil(seen), 16, Math.floor(4096 / Math.max(columns, rows)))) };
+        return { is_smooth, scale: is_smooth ? Math.max(1, Math.min(Math.round(seen), Math.floor(Math.sqrt(most_pixels / (columns * rows))))) : 1 };
+    }
+
+    /// Draws again if the plane has another form now.
+    redraw() { if (this.snapshot && JSON.stringify(this.form_of(this.columns, this.rows)) !== this.drawn_as) this.draw(); }
+
+    /// The values at the palette's ends: fixed, or those of the snapshot.
     range_of({ low, high }: Snapshot) { return { low: this.look.low ?? low, high: this.look.high ?? high }; }
 
     /// The number of cells along the longest side of the grid.
@@ -197,7 +106,7 @@ export class Pattern {
         return snapshot ? Math.max(...(snapshot.slice?.sides ?? [snapshot.columns, snapshot.rows])) : 1;
     }
 
-    /// Where a pointer is on the pattern; nothing beside it.
+    /// The position of a pointer on the pattern; undefined beside the pattern.
     place(event: { clientX: number; clientY: number }): Place | undefined {
         const { canvas, snapshot, longest, columns: width, rows: height } = this, box = canvas.getBoundingClientRect();
         if (!snapshot || snapshot.is_model || snapshot.cells || this.is_solid) return this.is_solid ? this.solid.place(event) : undefined;
@@ -211,8 +120,8 @@ export class Pattern {
         return { x: x / longest, y: y / longest, ...(slice && { z: z / longest }), cell };
     }
 
-    /// The number of a cell in the grid: column + width · (row + height · slice). On planes and models it is the
-    /// index in the planes of snapshots; of a volume these hold a slice only.
+    /// The number of a cell in the grid: column + width · (row + height · slice). On planes and models it is the index
+    /// in the planes of snapshots. For a volume these contain one slice only.
     cell_in_grid(cell: number) {
         const { columns, slice } = this.snapshot!, column = cell % columns, row = Math.floor(cell / columns);
         if (!slice) return cell;
@@ -221,7 +130,7 @@ export class Pattern {
         return i + width * (j + height * k);
     }
 
-    /// Where a cell of the grid is on the page; nothing if it is not seen.
+    /// The rectangle of a cell on the page; undefined if the cell is not visible.
     box_of_cell(cell: number): DOMRect | undefined {
         const { canvas, snapshot, columns } = this;
         if (!snapshot || snapshot.is_model || snapshot.cells || this.is_solid) return this.is_solid ? this.solid.box_of_cell(cell) : undefined;
@@ -240,7 +149,7 @@ export class Pattern {
         return [cell % width, line % height, Math.floor(line / height)];
     }
 
-    /// A cell of the grid in words.
+    /// The name of a cell: its column, row and slice, or its number.
     name_of(cell: number) {
         const { slice, rows, is_model, cells } = this.snapshot!;
         return is_model || cells ? `cell ${cell}` : `cell ${this.place_of(cell).slice(0, slice ? 3 : rows === 1 ? 1 : 2).join(", ")}`;

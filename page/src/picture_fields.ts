@@ -1,11 +1,11 @@
-// What the engine is told of the page so that it draws the picture that is seen.
+// The fields of a request for a picture, with which the engine draws the picture that the page shows.
 import { is_held } from "./look";
 import type { Pattern } from "./pattern";
 
-const side = 960;          ///< About the longest one of a picture of cells, in pixels.
+const side = 960;          ///< The longest side of a picture of cells, approximately, in pixels.
 const most_enlarged = 64;
 
-/// The fields of the message `picture`, except for what is shown and in which colours.
+/// The fields of the message `picture`, except `show` and `palette`.
 export function picture_fields(pattern: Pattern): Record<string, unknown> {
     const { snapshot, look, solid, columns, rows } = pattern, fields: Record<string, unknown> = { scale: 1 };
     if (!snapshot) return fields;
@@ -13,7 +13,7 @@ export function picture_fields(pattern: Pattern): Record<string, unknown> {
     if (pattern.is_solid) Object.assign(fields, solid.view);
     else fields.scale = Math.min(most_enlarged, Math.max(1, Math.floor(side / Math.max(columns, rows))));
     if (!pattern.is_solid && surface > 0 && !is_model) fields.flat = true;
-    // Where all values are the same, the engine takes the range that it takes for such pictures.
+    // If all values are the same, the engine chooses the range as in other pictures.
     if (is_held(look) && low !== high) Object.assign(fields, { low, high });
     if (slice) Object.assign(fields, { axis: slice.axis, place: (slice.number + 0.5) / slice.sides["xyz".indexOf(slice.axis)] });
     return fields;

@@ -1,16 +1,16 @@
-// Which part of a plane is seen. The canvas itself is moved and scaled, so places on it stay those of cells.
+// The visible part of a plane. The canvas itself is moved and scaled, so positions on it still correspond to cells.
 import type { View } from "./gestures";
 
-const largest_cell = 64;  ///< In pixels of the page.
+const largest_cell = 64;  ///< The largest side of a cell in pixels of the page.
 
 export class PlaneView implements View {
     readonly held_by_two = "plane";
     zoom = 1;
-    moved: () => void = () => {};  ///< Is called when another part is seen.
-    private left = 0;  ///< Of the canvas, from where it lies without zoom.
+    moved: () => void = () => {};  ///< Called when another part becomes visible.
+    private left = 0;  ///< The shift of the canvas from its position without zoom.
     private top = 0;
 
-    /// `columns` tells how many cells lie side by side.
+    /// `columns` returns the number of columns of cells.
     constructor(private readonly canvas: HTMLCanvasElement, private readonly columns: () => number) {
         new ResizeObserver(() => this.shift(0, 0)).observe(canvas);
     }
@@ -32,7 +32,7 @@ export class PlaneView implements View {
         this.shift(((x ?? frame.x + frame.width / 2) - box.x) * (1 - change), ((y ?? frame.y + frame.height / 2) - box.y) * (1 - change));
     }
 
-    /// By pixels of the page, but never so far that the frame shows less of the pattern than it could.
+    /// Moves by pixels of the page, but leaves no empty space in the frame that the pattern could fill.
     shift(right: number, down: number) {
         const { canvas, zoom } = this, frame = canvas.parentElement!;
         const inside = (place: number, start: number, size: number, room: number) => {

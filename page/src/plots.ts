@@ -1,16 +1,16 @@
-// The drawings of what was measured.
+// Draws the plots of measured values.
 import uPlot from "uplot";
 
 const compact = new Intl.NumberFormat("en", { notation: "compact", maximumSignificantDigits: 3 });
-/// Numbers that keep axes narrow.
+/// A short form of a number, for narrow axes.
 function short(value: number | null) {
     if (value === null || value === undefined) return "";
     return value !== 0 && Math.abs(value) < 1e-3 ? value.toExponential(0) : compact.format(value);
 }
-/// One of those in the style sheet.
+/// A colour for curve k, from the style sheet.
 export const colour_of_curve = (k: number) => `var(--curve-${k % 6})`;
 const swatch = document.createElement("span");
-/// A colour of the style sheet as canvases understand it.
+/// A colour of the style sheet in a form that canvases accept.
 function css(colour: string) {
     if (!swatch.isConnected) document.body.append(Object.assign(swatch, { hidden: true }));
     swatch.style.color = colour;
@@ -21,7 +21,7 @@ const plot_height = 120;
 
 export interface Curve { name: string; is_dashed?: boolean }
 
-/// Curves over one axis, in the place of a figure.
+/// Curves over one axis, inside an element.
 export class Plot {
     private plot?: uPlot;
     private shape = "";
@@ -74,7 +74,7 @@ export class Plot {
     }
 }
 
-/// How often two values occur together: darker where more cells are.
+/// Draws how often two values occur together: darker for more cells.
 export function draw_density(canvas: HTMLCanvasElement, counts: number[]) {
     const side = Math.round(Math.sqrt(counts.length)), most = Math.log(1 + Math.max(...counts));
     canvas.width = canvas.height = side;

@@ -18,7 +18,7 @@ export class Pointed {
         this.show();
     }
 
-    /// Again whenever values or what is seen change.
+    /// Must be called again whenever values or the visible part change.
     show() {
         const { snapshot } = this.pattern, place = this.last && this.pattern.place(this.last);
         if (!place || !snapshot) {

@@ -1,4 +1,4 @@
-// Small boxes that open over the page close with Escape, which gives the focus back, and with a press beside them.
+// Closes small boxes over the page by Escape, which returns the focus, and by a press beside the box.
 export function close_popups(ids: string[]) {
     const close = (is_kept: (box: HTMLDetailsElement) => boolean) => {
         for (const id of ids) {

@@ -1,6 +1,6 @@
-// A program of two shaders, whose attributes have the same locations in all programs.
+// A program of two shaders. Attributes have the same locations in all programs.
 
-/// In the order of their locations. Those after `before` are of copies of a mesh.
+/// The attributes in the order of their locations. Attributes after `before` belong to copies of a mesh.
 export const attributes = ["position", "normal", "value", "sky", "before", "spot", "turn", "stretch", "shade"];
 
 export class Program {
@@ -20,7 +20,7 @@ export class Program {
         if (!gl.getProgramParameter(this.handle, gl.LINK_STATUS) && !gl.isContextLost()) throw new Error(gl.getProgramInfoLog(this.handle) ?? "");
     }
 
-    /// Numbers, vectors and matrices by their names; textures are of unit 0.
+    /// Uses the program and sets numbers, vectors and matrices by name. Textures have unit 0.
     use(uniforms: Record<string, number | number[] | Float32Array>) {
         const gl = this.gl;
         gl.useProgram(this.handle);

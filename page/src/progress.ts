@@ -1,10 +1,10 @@
-// How far the run is, in words beside its buttons: the step, how fast it grows, or that it is paused.
+// The text beside the buttons of the run: the step, the speed, or that it is paused.
 import type { Snapshot } from "./connection";
 import type { Pace } from "./pace";
 import { in_numbers } from "./stages";
 
 const compact = new Intl.NumberFormat("en", { notation: "compact", maximumSignificantDigits: 2 });
-const milliseconds_of_rest = 500;  ///< Another page may ask for the steps one by one.
+const milliseconds_of_rest = 500;  ///< Without a step for so long, the run counts as paused.
 
 export class Progress {
     private readonly place = document.getElementById("place")!;

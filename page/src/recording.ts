@@ -1,11 +1,11 @@
-// What is seen as a movie, or as a picture for each moment that was drawn.
+// Records the visible pattern as a movie, or as a picture for each moment that is drawn.
 import { download } from "./download";
 import { type ZippedFile, zip } from "./zip";
 
-const side_of_movie = 960;  ///< About the longest side, in pixels: cells are enlarged by whole numbers.
+const side_of_movie = 960;  ///< The longest side, approximately, in pixels: cells are enlarged by whole factors.
 const most_frames = 3000;
 
-/// Pictures of a canvas whose cells are squares of several pixels.
+/// Draws a canvas enlarged, so that cells are squares of several pixels.
 function enlarged(from: HTMLCanvasElement, into: HTMLCanvasElement) {
     const context = into.getContext("2d")!;
     context.imageSmoothingEnabled = false;
@@ -16,9 +16,9 @@ function enlarged(from: HTMLCanvasElement, into: HTMLCanvasElement) {
 export class Recording {
     private movie?: { canvas: HTMLCanvasElement; recorder: MediaRecorder };
     private frames?: Promise<ZippedFile | undefined>[];
-    private last = 0;  ///< The number of the snapshot that became a frame last.
+    private last = 0;  ///< The number of the last snapshot that became a frame.
 
-    /// `changed` is told whether a movie and whether frames are being recorded.
+    /// `changed` is called with whether a movie and whether frames are being recorded.
     constructor(private readonly seen: () => HTMLCanvasElement, private readonly name: () => string, private readonly changed: (is_movie: boolean, are_frames: boolean) => void) {}
 
     private get canvas() { return this.seen(); }
@@ -45,7 +45,7 @@ export class Recording {
         this.movie = { canvas, recorder };
     }
 
-    /// Begins frames, to which what is seen has to be given at once, or ends them and downloads them.
+    /// Starts recording frames (the caller must draw the first at once), or ends it and downloads the frames.
     async toggle_frames() {
         const { frames } = this;
         this.frames = frames ? undefined : [];
@@ -58,7 +58,8 @@ export class Recording {
 
     private tell() { this.changed(this.movie !== undefined, this.frames !== undefined); }
 
-    /// After each drawing of a snapshot. Of several drawings of one the first becomes a frame.
+    /// Called after each drawing of a snapshot. If a snapshot is drawn several times, the first drawing becomes a
+    /// frame.
     take(number: number) {
         if (this.movie) enlarged(this.canvas, this.movie.canvas);
         if (!this.frames || number === this.last) return;

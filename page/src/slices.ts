@@ -1,4 +1,4 @@
-// The slice of a volume that is shown: an axis, and a place along it.
+// The controls for the slice of a volume: an axis, and a position along it.
 import type { Snapshot } from "./connection";
 
 const axes = ["x", "y", "z"];
@@ -8,10 +8,10 @@ export class Slices {
     private readonly axis = this.box.querySelector("select")!;
     private readonly number = this.box.querySelector("input")!;
     private sides: number[] = [];
-    private wanted = "";  ///< What was asked for last.
+    private wanted = "";  ///< The last requested slice.
     private is_asking = false;
 
-    /// `ask` gets an axis and the part of the way along it, and answers when snapshots show that.
+    /// `ask` requests an axis and a position, 0 … 1, and answers when snapshots show this slice.
     constructor(private readonly ask: (fields: { axis: string; place: number }) => Promise<unknown>) {
         this.axis.addEventListener("change", () => {
             this.number.max = String(this.count - 1);
@@ -21,7 +21,7 @@ export class Slices {
         this.number.addEventListener("input", () => void this.choose());
     }
 
-    /// Fits the controls to what is shown; those that are being used keep their values.
+    /// Sets the controls to the slice that is shown, except controls in use.
     show({ slice }: Snapshot) {
         this.box.hidden = !slice;
         if (!slice) return;
@@ -42,7 +42,7 @@ export class Slices {
 
     private get count() { return this.sides[axes.indexOf(this.axis.value)]; }
 
-    /// Asks for one slice after the other, and of those that are passed quickly only for the last.
+    /// Requests one slice after the other. If several are chosen quickly, only the last is requested.
     private async choose() {
         const fields = () => ({ axis: this.axis.value, place: (this.number.valueAsNumber + 0.5) / this.count });
         this.wanted = JSON.stringify(fields());

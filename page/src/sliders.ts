@@ -1,12 +1,12 @@
 // A slider, and a field for a typed value, for each parameter with a range.
 import type { Answer, Control } from "./connection";
 
-/// As many digits as the step may need, but not those by which binary32 differs from decimals.
+/// A value with 7 digits: enough for steps of sliders, without the rounding error of binary32.
 const exact = (value: number) => String(Number(value.toPrecision(7)));
 
 type Ask = (what: string, fields: Record<string, unknown>) => Promise<Answer>;
 
-/// They stay the same elements while the parameters do, so that one that is held is not lost.
+/// Shows the sliders. While the parameters are the same, elements are reused, so that a slider being moved is not lost.
 export function show_sliders(controls: Control[], ask: Ask) {
     const box = document.getElementById("controls")!, shape = JSON.stringify(controls.map(({ value, ...rest }) => rest));
     if (box.dataset.shape !== shape) {
@@ -14,14 +14,14 @@ export function show_sliders(controls: Control[], ask: Ask) {
         box.replaceChildren(...controls.flatMap((control, k) => {
             const slider = make_slider(control, ask);
             if (controls[k - 1]?.stage === control.stage) return [slider];
-            const title = document.createElement("h2");
+            const title = Object.assign(document.createElement("h2"), { translate: false });
             title.textContent = control.name.slice(0, -control.label.length - 1);
             return [title, slider];
         }));
     }
     box.querySelectorAll<HTMLElement>(".slider").forEach((slider, k) => {
         const [typed, input] = slider.querySelectorAll("input");
-        // What comes now is older than what its user wants.
+        // The received value is older than the one that the user is choosing.
         if (input.matches(":active") || "isBusy" in input.dataset || "isTyped" in typed.dataset) return;
         input.value = String(controls[k].value);
         typed.value = exact(controls[k].value);
@@ -42,9 +42,10 @@ function make_slider(control: Control, ask: Ask): HTMLElement {
     slider.title = control.doc;
     name.textContent = control.label;
     name.htmlFor = input.id;
+    name.translate = false;
     slider.append(name, typed, input);
-    if (control.doc) slider.append(Object.assign(document.createElement("small"), { textContent: control.doc }));
-    // All values of one move are undone together. A move may have ended when its values are still being sent.
+    if (control.doc) slider.append(Object.assign(document.createElement("small"), { textContent: control.doc, translate: false }));
+    // All values of one move are undone together. When a move ends, its values may still be waiting to be sent.
     let move = 0, taken = -1, is_sending = false, wanted = { text: "", move };
     const send = async () => {
         if (is_sending) return;

@@ -1,5 +1,5 @@
-// Draws a surface by WebGL2 in the light of render/tracer.cpp: a sun with soft shadows behind the viewer's left
-// shoulder, and a sky that hollows see less of, over a ground that is seen by its shadow alone.
+// Draws a surface by WebGL2 in the light of render/tracer.cpp: a sun with soft shadows from the viewer's upper left, a
+// sky whose light is weaker in hollows, and an invisible ground on which shadows fall.
 import { Camera, Vector, add, cross, dot, unit } from "./camera";
 import type { Palette, Snapshot, Surface } from "./connection";
 import type { Look } from "./look";
@@ -7,15 +7,16 @@ import { CellDrawer } from "./cell_drawer";
 import { hidden, shade, shadow, surface } from "./light_shaders";
 import { Program, attributes } from "./program";
 
-/// Directions from which the visible part of the sky is found, some for each picture; fewer where pictures take long.
+/// Numbers of directions for testing which part of the sky is visible: the usual total, the total if drawing is slow,
+/// and the number for each picture.
 const sky_directions = 160, few_sky_directions = 64, many_at_once = 8;
-const long = 100;  ///< Milliseconds.
+const long = 100;  ///< In milliseconds: pictures that take longer are slow.
 const shadow_side = 1024;
-const ground_side = 64;     ///< Quadrilaterals of the ground.
-const ground_reach = 1.2;   ///< In diagonals of the surface.
+const ground_side = 64;     ///< Quadrilaterals along a side of the ground.
+const ground_reach = 1.2;   ///< Half the side of the ground in diagonals of the surface.
 
-/// Light varies slowly along a surface, so it is found for vertices, of which there are fewer than pixels of small
-/// triangles. Of the two sides only that towards the sun needs it.
+/// Computes the light for vertices: it varies slowly along a surface, and there are fewer vertices than pixels. The sun
+/// is tested only for the side that faces it.
 const vertex = `${shadow}
 in vec3 position, normal, value;
 in vec4 sky;
@@ -39,7 +40,8 @@ void main() {
   colour = vec4(0, 0, 0, edge * (1.0 - stored_of(vec3(1.0 - lost)).r));
 }`;
 
-/// Adds to the part of the sky that a vertex sees, and to the part that there is, on either side.
+/// Adds a direction's light of the sky to each vertex, for both sides: the light that arrives, and the light without
+/// obstacles.
 const sky = `#version 300 es
 precision highp float;
 precision highp sampler2D;
@@ -70,7 +72,7 @@ precision lowp float;
 out vec4 colour;
 void main() { colour = vec4(0); }`;
 
-/// What light from a direction sees, as the matrix of a depth map.
+/// A light from a direction, with the matrix of its depth map.
 interface Light { to_sun: Float32Array; sun: Vector }
 
 export class SolidDrawer {
@@ -78,15 +80,15 @@ export class SolidDrawer {
     private readonly buffers: Record<string, WebGLBuffer> = {};
     private readonly frame: WebGLFramebuffer;
     private readonly feedback: WebGLTransformFeedback;
-    private readonly points: WebGLVertexArrayObject;  ///< Those that look at the sky.
+    private readonly points: WebGLVertexArrayObject;  ///< The vertices for which the light of the sky is computed.
     private shown?: Surface;
-    private vertices = 0;  ///< Of the surface; those of the ground follow.
+    private vertices = 0;  ///< The number of vertices of the surface; those of the ground follow.
     private middle: Vector = [0, 0, 0];
     private size = 1;      ///< The diagonal of the surface's box.
-    private began = 0;     ///< When the first one was looked along.
+    private began = 0;     ///< The time of the first tested direction.
     private is_slow = false;
-    private holes = 0;     ///< Vertices without a value.
-    private directions = 0;  ///< Of the sky that have been looked along.
+    private holes = 0;     ///< The number of vertices without a value.
+    private directions = 0;  ///< The number of tested directions of the sky.
     private readonly cells: CellDrawer;
 
     constructor(private readonly gl: WebGL2RenderingContext) {
@@ -109,7 +111,7 @@ export class SolidDrawer {
         gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     }
 
-    /// Is the light of the sky still being found? Then another picture is better than the last.
+    /// Is the light of the sky still being computed? Then another picture will be better than the last.
     get is_getting_better() { return this.directions < (this.is_slow ? few_sky_directions : sky_directions); }
 
     take(shown: Surface) {
@@ -209,7 +211,7 @@ export class SolidDrawer {
 
     private look_along_sky() {
         const gl = this.gl, k = this.directions++;
-        // A spiral over the whole sphere, in an order that soon covers it evenly.
+        // Directions on a spiral over the sphere, in an order that soon covers it uniformly.
         const height = 1 - 2 * ((k * 0.6180339887 + 0.5) % 1), angle = 2.39996 * k, flat = Math.sqrt(1 - height * height);
         const light = this.light_from([flat * Math.cos(angle), height, flat * Math.sin(angle)]);
         this.draw_depth(light);
@@ -256,7 +258,7 @@ export class SolidDrawer {
             program.whole("last", palette.stops.length - 1);
             program.whole("is_colour", is_colour ? 1 : 0);
         };
-        // Below cells that crawl the surface has one colour.
+        // A surface below cells that crawl has one colour and no lines.
         use(surface, has_cells || snapshot.planes.length === 3, !has_cells);
         this.draw_triangles("triangles");
         use(this.cells.lit, snapshot.planes.length === 3, false);

@@ -1,5 +1,5 @@
-// A surface in space: turned and enlarged by pointers and keys, with the values of cells filtered for its vertices.
-import { Camera, Vector } from "./camera";
+// A view of a surface in space: pointers and keys turn and enlarge it, and vertices show filtered values of cells.
+import { Camera, Vector, add, unit } from "./camera";
 import { corners_of, floor_of, nearest_cell, place_of_cell } from "./cells_in_space";
 import type { Cells, Palette, Snapshot, Surface } from "./connection";
 import type { View } from "./gestures";
@@ -8,22 +8,22 @@ import type { Place } from "./pattern";
 import { SolidDrawer } from "./solid_drawer";
 
 const most_zoom = 64;
-const degrees = 0.4;    ///< That a pixel turns.
-const key_pixels = 20;  ///< That a key moves.
+const degrees = 0.4;    ///< The angle for a movement by one pixel.
+const key_pixels = 20;  ///< The movement for a key.
 
 export class SolidView implements View {
     readonly held_by_two = "angle";
     readonly camera = new Camera();
     surface?: Surface;
-    moved: () => void = () => {};  ///< Is called when it is seen from elsewhere.
-    drawn: () => void = () => {};  ///< Is called after each drawing, which comes with the next frame of the page.
+    moved: () => void = () => {};  ///< Called when the view changes.
+    drawn: () => void = () => {};  ///< Called after each drawing, which happens in the page's next frame.
     private drawer?: SolidDrawer;
     private shown?: { snapshot: Snapshot; palette: Palette; look: Look };
-    private values: Float32Array = new Float32Array();  ///< Of the vertices.
+    private values: Float32Array = new Float32Array();  ///< The values of the vertices.
     private is_waiting = false;
     private has_moved = true;
-    private corners: Float32Array[] = [];  ///< Of cells that crawl.
-    private projected?: Float32Array;  ///< The vertices as the camera shows them.
+    private corners: Float32Array[] = [];  ///< The corners of cells that crawl.
+    private projected?: Float32Array;  ///< The vertices projected by the camera.
 
     constructor(readonly canvas: HTMLCanvasElement, use_shader = true) {
         if (use_shader) this.begin();
@@ -41,11 +41,11 @@ export class SolidView implements View {
             const at = event.target as HTMLElement;
             if (!arrow || canvas.hidden || at.id === "editor" || at.closest("dialog, input, select")) return;
             event.preventDefault();
-            // The camera goes where the arrow points.
+            // The camera moves in the direction of the arrow, so the picture moves the other way.
             if (event.shiftKey) this.shift(-key_pixels * arrow[0], -key_pixels * arrow[1]);
             else this.turn(-key_pixels * arrow[0], -key_pixels * arrow[1]);
         });
-        // The pointer shows what it would do.
+        // The form of the pointer shows what a press would do.
         canvas.addEventListener("pointermove", (event) => {
             if (event.buttons === 0) canvas.style.cursor = this.place(event) ? "" : "grab";
         });
@@ -56,9 +56,9 @@ export class SolidView implements View {
         this.drawer = gl ? new SolidDrawer(gl) : undefined;
     }
 
-    /// Can this browser draw it?
+    /// Can this browser draw surfaces in space?
     get is_possible() { return this.drawer !== undefined; }
-    /// The direction that it is seen from, in whole degrees, as pictures want it.
+    /// The direction of view in whole degrees, as in requests for pictures.
     get view() {
         const { azimuth, elevation } = this.camera;
         return { around: Math.round(azimuth - 360 * Math.round(azimuth / 360)), above: Math.round(elevation) };
@@ -74,7 +74,7 @@ export class SolidView implements View {
         this.drawer?.take(surface);
     }
 
-    /// Below cells that crawl without a model.
+    /// Puts a floor below cells that crawl without a model.
     lay_floor({ extent }: Cells) {
         const floor = floor_of(extent!);
         if (this.surface?.number === 0 && this.surface.positions.every((part, k) => part === floor.positions[k])) return;
@@ -108,7 +108,7 @@ export class SolidView implements View {
         this.look();
     }
 
-    /// About a point of the window, or about the middle.
+    /// Scales about a point of the window, or about the middle.
     scale(factor: number, x?: number, y?: number) {
         const { camera } = this, [right, up] = this.seen_at(x, y), zoom = Math.min(Math.max(camera.zoom * factor, 1), most_zoom);
         const change = zoom / camera.zoom;
@@ -117,7 +117,7 @@ export class SolidView implements View {
         this.look();
     }
 
-    /// Turns the surface about what is in the middle.
+    /// Turns the surface about the middle of the picture.
     turn(right: number, down: number) {
         const { camera } = this, held = camera.zoom > 1 ? this.hit(0, 0)?.place : undefined;
         camera.azimuth -= degrees * right / Math.sqrt(camera.zoom);
@@ -130,7 +130,7 @@ export class SolidView implements View {
         this.look();
     }
 
-    /// Where a pointer is on the surface; nothing beside it.
+    /// The position of a pointer on the surface; undefined beside the surface.
     place(event: { clientX: number; clientY: number }): Place | undefined {
         const hit = this.hit(...this.seen_at(event.clientX, event.clientY)), { surface } = this;
         if (!hit || !surface) return undefined;
@@ -139,7 +139,7 @@ export class SolidView implements View {
         const cells = this.shown?.snapshot.cells;
         if (cells) return { ...(cells.extent ? { x, y: z } : cells.is_flat ? { x, y: z, z: y } : { x, y, z }), cell: nearest_cell(cells, hit.place) };
         const where = surface.places ? { x: mixed(surface.places, 2, 0), y: mixed(surface.places, 2, 1) } : { x, y, z };
-        // The cell that counts most there is the nearest.
+        // The cell with the largest weight at this point counts as the nearest.
         const weights = new Map<number, number>();
         corners.forEach((corner, c) => {
             for (let k = corner === 0 ? 0 : surface.ends[corner - 1]; k < surface.ends[corner]; ++k) {
@@ -150,7 +150,15 @@ export class SolidView implements View {
         return { ...where, cell };
     }
 
-    /// Where a cell is in the window; nothing if it is on the far side.
+    /// Outwards, of length 1, where a pointer is on the surface.
+    normal(event: { clientX: number; clientY: number }): Vector | undefined {
+        const hit = this.hit(...this.seen_at(event.clientX, event.clientY)), { surface } = this;
+        if (!hit || !surface) return undefined;
+        const { normals } = surface;
+        return unit(hit.corners.reduce((sum, corner, c) => add(sum, [normals[3 * corner], normals[3 * corner + 1], normals[3 * corner + 2]], hit.parts[c]), [0, 0, 0] as Vector));
+    }
+
+    /// The position of a cell in the window; undefined if it is on the far side.
     box_of_cell(cell: number): DOMRect | undefined {
         const { surface } = this;
         if (!surface) return undefined;
@@ -168,7 +176,7 @@ export class SolidView implements View {
         return this.box_of_place(best < 0 ? undefined : [positions[3 * best], positions[3 * best + 1], positions[3 * best + 2]]);
     }
 
-    /// Nothing on the far side.
+    /// The position of a point in the window; undefined if it is on the far side.
     private box_of_place(place?: Vector): DOMRect | undefined {
         const { camera, canvas } = this;
         if (!place) return undefined;
@@ -178,13 +186,14 @@ export class SolidView implements View {
         return new DOMRect(box.x + (x + 1) / 2 * box.width, box.y + (1 - y) / 2 * box.height, 0, 0);
     }
 
-    /// A point of the window in the picture, −1 … 1.
+    /// Converts a point of the window to coordinates of the picture, −1 … 1.
     private seen_at(x?: number, y?: number): [number, number] {
         const box = this.canvas.getBoundingClientRect();
         return x === undefined || y === undefined ? [0, 0] : [2 * (x - box.x) / box.width - 1, 1 - 2 * (y - box.y) / box.height];
     }
 
-    /// The nearest triangle at a point of the picture: the place there, its corners, and their parts in it.
+    /// The nearest triangle at a point of the picture: the position in space, its corners, and their barycentric
+    /// weights.
     private hit(x: number, y: number): { place: Vector; corners: number[]; parts: number[] } | undefined {
         const { surface } = this;
         if (!surface) return undefined;
@@ -199,7 +208,7 @@ export class SolidView implements View {
             const ay = seen[a + 1] - y, by = seen[b + 1] - y, cy = seen[c + 1] - y;
             const of_a = bx * cy - cx * by, of_b = cx * ay - ax * cy, of_c = ax * by - bx * ay, whole = of_a + of_b + of_c;
             if (!(of_a / whole >= 0 && of_b / whole >= 0 && of_c / whole >= 0)) continue;
-            // What is linear in space, divided by the distance, is linear in the picture.
+            // A value that is linear in space, divided by the distance, is linear in the picture.
             const parts = [of_a / seen[a + 2], of_b / seen[b + 2], of_c / seen[c + 2]], sum = parts[0] + parts[1] + parts[2];
             if (whole / sum >= nearest || is_hole(triangles[t]) || is_hole(triangles[t + 1]) || is_hole(triangles[t + 2])) continue;
             nearest = whole / sum;
@@ -249,7 +258,7 @@ export class SolidView implements View {
     }
 }
 
-/// The values of cells, filtered for each vertex. Cells without a value count for nothing.
+/// The filtered value of each vertex. Cells without a value are left out.
 function values_of_vertices({ positions, ends, cells, weights }: Surface, { planes }: Snapshot): Float32Array {
     const channels = planes.length, values = new Float32Array(positions.length / 3 * channels);
     for (let c = 0; c < channels; ++c) {

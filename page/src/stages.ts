@@ -1,10 +1,10 @@
-// The strip of stages: name, progress, and what each looked like when it was last seen.
+// The strip of stages: name, progress, and a small picture of how each stage last looked.
 import type { Snapshot, Stage } from "./connection";
 
 const milliseconds_between_pictures = 400;
-const side = 40;  ///< Of a picture's longest side, in pixels of the page.
+const side = 40;  ///< The longest side of a small picture, in pixels of the page.
 
-/// What has become of the cells of a stage, in words.
+/// The numbers of cells, births and deaths of a stage, as text.
 export function in_numbers({ count, births, deaths }: NonNullable<Stage["cells"]>) {
     return [[count, "cells"], [births, "births"], [deaths, "deaths"]].map(([number, what]) => `${number.toLocaleString("en")} ${what}`).join(", ");
 }
@@ -12,9 +12,9 @@ export function in_numbers({ count, births, deaths }: NonNullable<Stage["cells"]
 export class Stages {
     private readonly list = document.getElementById("stages")!;
     private drawn_at = 0;
-    private drawn = 0;  ///< The stage that was drawn last.
+    private drawn = 0;  ///< The last stage whose picture was drawn.
 
-    /// `go_to` gets the number of a stage, from 1.
+    /// `go_to` is called with the number of a stage, from 1.
     constructor(private readonly go_to: (stage: number) => void) {}
 
     show({ stages, stage: current }: Snapshot) {
@@ -36,16 +36,17 @@ export class Stages {
 
     private make(stage: number) {
         const item = document.createElement("li"), go = document.createElement("button"), picture = document.createElement("canvas");
-        // Else the progress is a part of the button's name; its title tells it.
+        // Hidden from screen readers, so that the progress is not part of the button's name. The button's title
+        // contains it.
         const progress = Object.assign(document.createElement("progress"), { ariaHidden: "true" });
         picture.hidden = true;
-        go.append(picture, document.createElement("span"), progress);
+        go.append(picture, Object.assign(document.createElement("span"), { translate: false }), progress);
         go.addEventListener("click", () => this.go_to(stage));
         item.append(go);
         return item;
     }
 
-    /// Keeps a picture of what is seen now: a few times a second, and at the last moment.
+    /// Stores a small picture of the present pattern, a few times a second and when the run stops.
     keep_picture({ stage, is_going_on }: Snapshot, pattern: HTMLCanvasElement) {
         const now = performance.now();
         const is_due = stage !== this.drawn || !is_going_on || now - this.drawn_at > milliseconds_between_pictures;

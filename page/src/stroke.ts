@@ -1,10 +1,11 @@
-// Strokes as the engine wants them: expressions. Places that come while it is busy are painted together.
+// Turns strokes into expressions for the engine. Positions that are added while the engine is busy are painted
+// together.
 import type { Answer } from "./connection";
 import type { Place } from "./pattern";
 
-const most_places = 50;  ///< Of one expression.
+const most_places = 50;  ///< The largest number of positions in one expression.
 
-/// A dab of the brush. On a model its radius is measured along the surface.
+/// A painted disc. On a model its radius is measured along the surface.
 export interface Dab { item: string; value: string; place: Place; radius: number; is_model: boolean }
 
 export class Stroke {
@@ -13,7 +14,7 @@ export class Stroke {
 
     constructor(private readonly ask: (fields: Record<string, unknown>) => Promise<Answer>) {}
 
-    /// `is_first`: a new stroke begins, which is undone by itself.
+    /// Adds a disc. `is_first` begins a new stroke, which is undone separately.
     go_on(dab: Dab, is_first: boolean) {
         this.waiting.push({ dab, is_first });
         if (!this.is_painting) void this.paint();
@@ -37,11 +38,11 @@ export class Stroke {
 
 interface Spot { clientX: number; clientY: number }
 
-/// Where a pointer has been between its events, so near each other that discs leave no gaps.
+/// Positions of a pointer between two events, so close to each other that discs leave no gaps.
 export class Trail {
     private last?: Spot;
 
-    /// `frame` is what the pattern fills.
+    /// `frame` returns the element that the pattern fills.
     constructor(private readonly frame: () => HTMLElement) {}
 
     to(event: PointerEvent, is_first: boolean): Spot[] {

@@ -1,10 +1,10 @@
-// A grid of one row is shown with time running downwards: a row for each snapshot at another step.
+// The picture of a grid of one row: time runs downwards, with a row for each snapshot of another step.
 import type { Snapshot } from "./connection";
 
-/// The rows of such a picture: as many as a row has cells, within bounds.
+/// The number of rows of such a picture: the number of cells, within limits.
 export const rows_of_time = ({ columns }: Snapshot) => Math.min(Math.max(columns, 16), 512);
 
-/// Is it of a grid of one row?
+/// Is this snapshot of a grid of one row?
 export const is_row = ({ rows, slice, cells }: Snapshot) => rows === 1 && !slice && !cells;
 
 export class TimeRows {
@@ -12,14 +12,14 @@ export class TimeRows {
 
     clear() { this.seen = []; }
 
-    /// What to draw once this snapshot has come. Going back takes away what was later.
+    /// Adds a snapshot and returns the picture of all rows. Going back removes later rows.
     with(snapshot: Snapshot): Snapshot {
-        const { columns, stage, steps, planes } = snapshot, rows = rows_of_time(snapshot);
+        const { columns, stage, steps, planes, repeats } = snapshot, rows = rows_of_time(snapshot);
         this.seen = this.seen.filter((old) => old.columns === columns && old.planes.length === planes.length
             && (old.stage < stage || (old.stage === stage && old.steps < steps))).slice(1 - rows);
         this.seen.push(snapshot);
         return {
-            ...snapshot, rows,
+            ...snapshot, rows, repeats: [repeats[0], false],
             low: Math.min(...this.seen.map(({ low }) => low)), high: Math.max(...this.seen.map(({ high }) => high)),
             planes: planes.map((_, k) => {
                 const plane = new Float32Array(columns * rows).fill(NaN);

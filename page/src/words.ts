@@ -1,4 +1,4 @@
-// Numbers and messages as the page writes them.
+// How the page writes numbers and messages.
 import type { Message } from "./connection";
 
 export const digits = (value: number) => String(Number(value.toPrecision(4)));

@@ -1,12 +1,12 @@
-// The worker of a page that carries its engine. The first message is the compiled engine and what it begins
-// with; all further ones are those of spec/page.md, in both directions.
+// The worker of an exported page. Its first message is the compiled engine and the script to begin with. All further
+// messages, in both directions, are those of spec/page.md.
 import { type Carried, Engine } from "./engine";
 
-/// A linked script takes the place of the one that the page carries, if it is right.
+/// A linked script replaces the script of the page if it has no errors.
 export interface Beginning { engine: WebAssembly.Module; carried: Carried; linked?: Carried }
 
 const page = self as unknown as { postMessage(message: unknown, transfer?: Transferable[]): void; onmessage: unknown };
-// Turns are tasks of their own, so that messages come between them.
+// Each turn is a task of its own, so that messages are received between turns.
 const turns = new MessageChannel();
 let engine: Engine | undefined;
 let is_turning = false;
@@ -24,7 +24,7 @@ turns.port1.onmessage = () => {
 
 page.onmessage = ({ data }: MessageEvent<Beginning | string>) => {
     if (typeof data === "string") {
-        // The page has been told why there is none.
+        // The engine could not start, and the page already knows why.
         if (!engine) return;
         engine.receive(data);
         return go_on();

@@ -1,4 +1,4 @@
-// A ZIP file of files that are stored as they are: what PNGs need.
+// Makes ZIP files without compression, since PNG files are compressed already.
 export interface ZippedFile { name: string; bytes: Uint8Array }
 
 const remainders = Uint32Array.from({ length: 256 }, (_, byte) => {
@@ -13,7 +13,7 @@ function crc32(bytes: Uint8Array): number {
     return (value ^ 0xffffffff) >>> 0;
 }
 
-/// Numbers of 2 or 4 bytes, the least significant first.
+/// The bytes of numbers of 2 or 4 bytes, least significant byte first.
 function numbers(...parts: [number, 2 | 4][]): Uint8Array {
     const bytes = new Uint8Array(parts.reduce((sum, [, size]) => sum + size, 0)), view = new DataView(bytes.buffer);
     let at = 0;
@@ -25,9 +25,9 @@ function numbers(...parts: [number, 2 | 4][]): Uint8Array {
     return bytes;
 }
 
-/// Names are ASCII. At most 65,535 files and 4 GiB.
+/// Names must be ASCII. There may be at most 65,535 files and 4 GiB.
 export function zip(files: ZippedFile[]): Blob {
-    const parts: Uint8Array[] = [], list: Uint8Array[] = [], day = 1 << 5 | 1;  // The first one of ZIP's calendar.
+    const parts: Uint8Array[] = [], list: Uint8Array[] = [], day = 1 << 5 | 1;  // The first day of ZIP's calendar.
     let at = 0;
     const add = (...pieces: Uint8Array[]) => {
         for (const piece of pieces) at += piece.length;

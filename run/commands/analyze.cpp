@@ -1,4 +1,4 @@
-// Analyses the stage that was asked for, its parameters, and writes words, JSON or a plot.
+// Analyses the requested stage and parameters, and writes the result as sentences, JSON or a plot.
 #include "run/commands/analyze.h"
 
 #include "analysis/describe_parameters.h"
@@ -24,10 +24,11 @@ namespace {
 
 using namespace analysis;
 
-/// Pairs of values along each side of a map.
+/// The number of values along each side of a map.
 constexpr std::size_t values_along_map = 400;
 
-/// "feed", or with the name of the stage or system before it.
+/// Finds a parameter by its name, such as "feed". The name of its stage or system may precede the
+/// name.
 Result<ParameterSpan> find_parameter(const Program& program, std::uint32_t stage,
                                      const VariedRange& range) {
     const System& system = program.system_of(stage);
@@ -135,7 +136,7 @@ private:
         return text;
     }
 
-    /// "of the pairs, 40 % are Turing, 60 % stable".
+    /// The fractions of a map that its classes have: "of the pairs, 40 % are Turing, 60 % stable".
     std::string shares() const {
         std::vector<std::optional<Stability>> classes = map_->classes;
         std::sort(classes.begin(), classes.end());
@@ -208,7 +209,8 @@ std::string outlook(const Program& program, std::uint32_t stage) {
     if (const auto words = analysis::negative_diffusion(program, stage)) {
         return fmt::format("stage '{}': {}", program.stages[stage].name, *words);
     }
-    // Lengths are not yet those of the run, whose trial will show whether something grows.
+    // The lengths of this stage are not scaled yet. The trial run of the stage will show whether
+    // any pattern grows.
     const auto& size = program.stages[stage].size;
     if (size && size->factor == 1) return "";
     const auto reason = analysis::why_nothing_grows(program, stage);

@@ -1,5 +1,5 @@
-// `cascade analyze`: what will grow, from the equations alone. Takes no step, except for the trial
-// run of a stage with a size.
+// The command `cascade analyze` predicts from the equations alone which patterns will grow. It
+// takes no steps, except in the trial run of a stage with a size.
 #pragma once
 
 #include "core/result.h"
@@ -14,33 +14,38 @@
 namespace cascade {
 
 struct AnalyzeRequest {
-    std::string stage;  ///< Name, or number from 1; empty for the first one.
-    /// Without one, critical values of every parameter that has a range; with one, of this one;
-    /// with two, a map over both.
+    /// The name of a stage, or its number, counted from 1. Empty: the first stage.
+    std::string stage;
+    /// Parameters to vary. If empty, the analysis finds critical values of every parameter that has
+    /// a range. With one parameter it finds the critical values of that parameter. With two it
+    /// makes a map over both.
     std::vector<VariedRange> varied;
-    bool as_json = false;          ///< The report is JSON instead of words.
-    std::filesystem::path output;  ///< A file for the result, by its ending; may be empty.
-    /// Where the sizes of stages are kept (SimulationOptions::kernel_cache); empty: nowhere.
+    bool as_json = false;  ///< Whether the report is JSON instead of sentences.
+    /// A file for the result, in the format of its ending. May be empty.
+    std::filesystem::path output;
+    /// The folder that stores the sizes of stages for later runs (SimulationOptions::kernel_cache).
+    /// Empty: sizes are not stored.
     std::filesystem::path kernel_cache = {};
 };
 
-/// The endings that an output may have: .svg and .png, a plot; .json.
+/// Whether an analysis can be written to a file with this ending. .svg and .png give a plot, .json
+/// the report.
 bool is_analysis_output(const std::filesystem::path& path);
 
 struct AnalyzeReport {
-    std::string text;  ///< For standard output.
+    std::string text;  ///< The report, for standard output.
     std::vector<std::filesystem::path> written;
 };
 
-/// Fails if the stage has no flat states by its nature or cannot have its size, if a parameter
-/// cannot be varied, or if the output cannot be written.
+/// Analyses a stage. Fails if the stage is of a kind without flat states, if its requested size
+/// cannot be computed, if a parameter cannot be varied, or if the output cannot be written.
 Result<AnalyzeReport> analyze(Script& script, const AnalyzeRequest& request);
 
-/// A remark for each stage of fields from whose start no pattern can come, or whose diffusion is
-/// negative, which its equations tell before it runs: "stage 'a': nothing will grow: no wave grows
-/// from …".
+/// Warnings that the equations allow before a run. There is one for each stage of fields whose
+/// start cannot lead to a pattern or whose diffusion is negative, such as "stage 'a': nothing will
+/// grow: no wave grows from …".
 std::vector<std::string> outlooks(const Script& script);
-/// That of one stage, or nothing.
+/// The warning for the stage number `stage`. Empty if there is none.
 std::string outlook(const Program& program, std::uint32_t stage);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// One object for the stage, one for each of its flat states.
+// Writes one object for the stage, with one object for each of its flat states.
 #include "run/commands/analyze_json.h"
 
 #include "analysis/describe_parameters.h"
@@ -64,7 +64,7 @@ Json class_of(const std::optional<Stability>& stability) {
     return stability ? Json(class_name(stability)) : Json(nullptr);
 }
 
-/// Of an onset; null if they are not known.
+/// The amplitude equations at an onset. Null if they are unknown.
 Json amplitudes_of(const CriticalValue& change) {
     if (!change.amplitudes) return nullptr;
     const AmplitudeEquations& by = *change.amplitudes;
@@ -91,7 +91,7 @@ Json scan_as_json(const System& system, const ParameterScan& scan) {
             {"changes", changes}};
 }
 
-/// Rows of numbers, each an index into the list of classes.
+/// The map as rows of numbers. Each number is an index into the list of classes.
 Json map_as_json(const System& system, const ParameterMap& map) {
     const std::vector<std::optional<Stability>> all{std::nullopt,      Stability::stable,
                                                     Stability::turing, Stability::wave,

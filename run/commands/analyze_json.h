@@ -8,8 +8,8 @@
 
 namespace cascade {
 
-/// Indented, with a line break at its end. Numbers that do not exist are null.
-/// `map` may be null.
+/// JSON with indentation and a line break at its end. Missing and infinite numbers are null. `map`
+/// may be null.
 std::string analysis_as_json(const analysis::StageAnalysis& analysis,
                              std::span<const analysis::ParameterScan> scans,
                              const analysis::ParameterMap* map);

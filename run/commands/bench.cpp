@@ -1,6 +1,7 @@
-// Warms up with growing numbers of steps, then times batches of whole tiles; the time of a step is
-// the median over the batches. Cells that crawl become more, so each step of theirs is timed, and
-// the time of a step is the mean. A stage that ends too soon is started again.
+// Takes increasing numbers of steps to warm up, and then measures the time of batches of whole
+// tiles. The time of a step is the median over the batches. Crawling cells increase in number, so
+// each of their steps is measured alone, and the time of a step is the mean. If a stage ends too
+// soon, it is started again.
 #include "run/commands/bench.h"
 
 #include "ir/solver.h"
@@ -39,13 +40,13 @@ public:
             if (control_.cancel) watched_.cancel = true;
         };
         watched_.warn = [this](const std::string& message) {
-            // Each message once, even if the stage is started again.
+            // Each message is reported only once, even if the stage is started again.
             if (said_.insert(message).second && control_.warn) control_.warn(message);
         };
         last_step_ = simulation_.domain().stage(k_).iterations;
     }
 
-    /// The first step, and then enough steps that caches and threads are warm.
+    /// Takes the first step, and then enough steps to warm up caches and threads.
     Result<void> warm_up(StageBench& bench) {
         const auto begin = Clock::now();
         const auto first = advance(1, 1);
@@ -67,7 +68,7 @@ public:
         return {};
     }
 
-    /// Batches consist of whole tiles of `steps_of_tile` steps.
+    /// Measures the time of batches of whole tiles. A tile has `steps_of_tile` steps.
     Result<void> measure(StageBench& bench, std::int64_t steps_of_tile) {
         begin_ = Clock::now();
         const double batch = std::clamp(seconds_ / batches_wanted, 1e-4, 0.25);
@@ -83,7 +84,7 @@ public:
             if (!taken) return tl::unexpected(taken.error());
             if (*taken == 0) break;
             if (batches_.size() > before) continue;
-            // A stage too short for batches is measured as a whole.
+            // A stage that is too short for batches is measured as a whole.
             if (every == 1) add_batch(seconds_since(start), *taken);
             every = std::max<std::int64_t>(1, std::min(every, *taken) / 4);
         }
@@ -100,8 +101,8 @@ public:
 private:
     bool is_enough() const {
         if (measured_ >= seconds_ && batches_.size() >= least_batches) return true;
-        // Starting values may take longer than all steps of a stage, and a step longer than a
-        // batch.
+        // The limit is longer than the requested time, because computing starting values may take
+        // longer than all steps of a stage, and a step may take longer than a batch.
         return !batches_.empty() && seconds_since(begin_) > 4 * seconds_ + 1;
     }
 
@@ -121,7 +122,7 @@ private:
         return simulation_.start_stage(k_);
     }
 
-    /// Takes `count` steps, or fewer at the stage's end. Returns the number taken.
+    /// Takes `count` steps, or fewer if the stage ends. Returns the number of steps taken.
     Result<std::int64_t> advance(std::int64_t count, std::int64_t every) {
         const std::int64_t before = simulation_.state(k_).steps;
         const std::int64_t last = count < last_step_ - before ? before + count : last_step_;
@@ -131,7 +132,8 @@ private:
         const auto look = [&] {
             const auto now = Clock::now();
             const std::int64_t step = simulation_.state(k_).steps;
-            // Skips the first batch, which wakes threads and fetches planes.
+            // The first batch is not measured, because it also wakes the threads and reads the
+            // planes into the caches.
             if (seen && step > seen_step) {
                 add_batch(std::chrono::duration<double>(now - *seen).count(), step - seen_step);
             }
@@ -156,7 +158,7 @@ private:
     std::uint32_t k_;
     double seconds_;
     RunControl& control_;
-    RunControl watched_;  ///< Ends a batch of steps without cancelling the bench.
+    RunControl watched_;  ///< Ends a batch of steps without cancelling the whole bench.
     std::set<std::string>& said_;
     std::int64_t last_step_ = 0;
     Clock::time_point begin_;
@@ -164,7 +166,7 @@ private:
     std::vector<double> batches_;  ///< Seconds per step.
     double measured_ = 0;
     std::int64_t steps_ = 0;
-    double cell_steps_ = 0;  ///< Of cells that crawl.
+    double cell_steps_ = 0;  ///< For crawling cells, the sum of their number over the steps.
 };
 
 class ScriptBench {
@@ -184,14 +186,14 @@ public:
             if (!found) return tl::unexpected(found.error());
             only = *found;
         }
-        // Only the full grid is measured, not coarser ones before it.
+        // The steps that stages take on coarser grids before the full grid are not measured.
         auto measured = std::make_shared<Program>(*script_.program);
         for (Stage& stage : measured->stages) stage.time.coarse = 1;
         script_.program = std::move(measured);
         SimulationOptions options = request_.simulation;
         options.account = &account_;
         options.control = &control_;
-        options.starts_interpreted = false;  // Native code is to be measured.
+        options.starts_interpreted = false;  // The speed of compiled code is to be measured.
         auto made = Simulation::create(script_, options);
         if (!made) return control_.cancel ? Result<void>() : tl::unexpected(made.error());
         simulation_ = std::move(*made);
@@ -249,7 +251,7 @@ private:
         bench.stepping = account_.stage(k).stepping;
         bench.work = step_work(*simulation_, k);
         if (account_.stage(k).has_refused) {
-            // What cannot compile the steps cannot compile what measures the machine.
+            // If the steps could not be compiled, neither can the kernels that measure the machine.
             bench.is_native = false;
             return bench;
         }
@@ -258,11 +260,12 @@ private:
     }
 
     double spent(std::uint32_t k, Spent what) {
-        account_.seconds();  // Attributes the time up to now.
+        account_.seconds();  // Adds the time up to now to the account.
         return account_.stage(k).seconds[static_cast<std::size_t>(what)];
     }
 
-    /// Measures the machine with the stage's number of threads, once per number.
+    /// Measures the machine with as many threads as the stage used. Each number of threads is
+    /// measured only once.
     Result<void> find_limits(StageBench& bench) {
         if (!request_.has_limits || !fastest_backend().is_native) return {};
         auto& known = limits_[bench.threads];
@@ -286,7 +289,7 @@ private:
     RunControl& control_;
     TimeAccount account_;
     std::unique_ptr<Simulation> simulation_;
-    double compiled_ = 0;                                 ///< Seconds of compiling so far.
+    double compiled_ = 0;                                 ///< Seconds spent on compiling so far.
     std::map<int, std::optional<MachineLimits>> limits_;  ///< By number of threads.
     std::set<std::string> said_;
 };

@@ -1,4 +1,4 @@
-// `cascade bench`: the speed of a script's steps, and what limits it.
+// The command `cascade bench` measures the speed of a script's steps, and finds out what limits it.
 #pragma once
 
 #include "core/result.h"
@@ -18,30 +18,35 @@ namespace cascade {
 
 struct BenchRequest {
     SimulationOptions simulation;
-    std::string stage;   ///< Name, or number from 1, of the only stage to measure; empty for all.
-    double seconds = 1;  ///< Time to measure each stage for; above 0.
-    bool has_limits = true;  ///< Measure the machine's peaks, too; not of interpreted steps.
+    /// The name or number (from 1) of the stage to measure. Empty: all stages are measured.
+    std::string stage;
+    double seconds = 1;  ///< The time spent on measuring each stage. Above 0.
+    /// Whether the machine's peak speeds are measured as well. Ignored if steps are interpreted.
+    bool has_limits = true;
 };
 
-/// The result of one stage.
+/// The measurements of one stage.
 struct StageBench {
     std::string stage;
     std::string solver;
     Grid grid;
-    double mean_cells = 0;  ///< In a stage of cells that crawl: the mean number over its steps.
+    /// For crawling cells, their mean number over the measured steps. Otherwise 0.
+    double mean_cells = 0;
     Precision precision = Precision::single;
-    bool fast = false;      ///< With --fast.
-    bool is_native = true;  ///< False if steps were interpreted.
-    std::string nothing;    ///< Why there is nothing to measure; all other members are then empty.
+    bool fast = false;      ///< Whether the script was run with --fast.
+    bool is_native = true;  ///< Whether steps were compiled. Otherwise they were interpreted.
+    /// The reason why there is nothing to measure. All other members are then empty.
+    std::string nothing;
 
-    double step = 0;  ///< Seconds: the median over the batches; of cells that crawl the mean.
+    /// Seconds for a step: the median over the batches, or the mean for crawling cells.
+    double step = 0;
     std::size_t batches = 0;
-    std::int64_t steps = 0;  ///< Steps that were measured.
-    int threads = 1;         ///< Threads that took the last of these steps.
-    int most_threads = 1;    ///< Threads that were available.
-    Stepping stepping;       ///< How these steps went through memory.
-    double starting = 0;     ///< Seconds to compute the starting values, each time.
-    double compiling = 0;    ///< Seconds of compiling.
+    std::int64_t steps = 0;  ///< The number of steps measured.
+    int threads = 1;         ///< The number of threads that took the last of these steps.
+    int most_threads = 1;    ///< The number of threads available.
+    Stepping stepping;       ///< How these steps divided the planes into tiles and sweeps.
+    double starting = 0;     ///< Seconds for computing the starting values once.
+    double compiling = 0;    ///< Seconds for compiling.
     double first_step = 0;   ///< Seconds from the starting values to the end of the first step.
     StepWork work;
     std::optional<MachineLimits> limits;
@@ -58,37 +63,42 @@ struct Bound {
     enum class Kind { operations, divisions, nearest, tiles, home, meetings };
     Kind kind = Kind::operations;
     std::string name;
-    double reached = 0;  ///< Operations, divisions, bytes or barriers per second.
-    double most = 0;     ///< The measured peak of the same.
+    /// The measured rate: operations, divisions, bytes or barriers per second.
+    double reached = 0;
+    double most = 0;  ///< The measured peak of this machine, in the same unit.
     double share() const { return most > 0 ? reached / most : 0; }
 };
 
-/// The resources used by the steps of a stage, in the order of Kind; empty without limits. `home`
-/// is the memory level that holds all planes. In tiles, several sweeps share one pass through it,
-/// and `tiles` is the cache that holds the layers in use for all of them. A share above 1 means
-/// that fewer bytes came from this level than are counted.
+/// The resources that the steps of a stage use, in the order of Kind. Empty if the machine was not
+/// measured. `home` is the cache or memory that holds all planes. If steps are computed in tiles,
+/// the planes are read from `home` once for several sweeps, and `tiles` is the cache that holds the
+/// layers of a tile. A share above 1 means that fewer bytes came from that cache or memory than
+/// were counted.
 std::vector<Bound> bounds_of(const StageBench& bench);
 
-/// The resource with the largest share, except those far above 1, which limit nothing.
+/// The resource with the largest share. Ignores resources for which is_outdone() is true, because
+/// they cannot be the limit.
 const Bound& tightest(const std::vector<Bound>& bounds);
-/// True if the share is so far above 1 that less was asked of the resource than is counted.
+/// Whether the share is so far above 1 that the steps must have used less of the resource than was
+/// counted.
 bool is_outdone(const Bound& bound);
 
-/// The limit of the roofline model.
+/// The largest possible speed by the roofline model.
 struct Roof {
     double cell_steps_per_second = 0;
-    std::string name;  ///< The resource that limits it.
+    std::string name;  ///< The resource that sets the limit.
 };
 
-/// The minimum of the peak of arithmetic over the operations of a cell-step, and the bandwidths of
-/// `tiles` and `home` over the bytes that it moves there (Williams, Waterman, Patterson,
-/// "Roofline", CACM 52(4), 2009). Nothing without limits.
+/// The smallest of three limits: the peak of arithmetic divided by the operations for a step of one
+/// cell, and the bandwidths of `tiles` and `home` (see bounds_of()) divided by the bytes that such
+/// a step moves there (Williams, Waterman, Patterson, "Roofline", CACM 52(4), 2009). Empty if the
+/// machine was not measured.
 std::optional<Roof> attainable(const StageBench& bench);
 
 /// Measures the stages one after the other and passes each result to `tell`. Every stage starts
-/// from the present state of earlier stages, and is started again whenever it ends. Fails as runs
-/// fail; errors in the script go to `script.diagnostics`. After a cancel it returns without an
-/// error.
+/// from the state in which the measurement has left earlier stages, and starts again whenever it
+/// ends. Fails like run(). Errors in the script are added to `script.diagnostics`. After a cancel
+/// it returns without an error.
 Result<void> bench(Script& script, const BenchRequest& request, RunControl& control,
                    const std::function<void(const StageBench&)>& tell);
 

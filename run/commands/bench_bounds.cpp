@@ -1,5 +1,6 @@
-// The roofline model (S. Williams, A. Waterman, D. Patterson, CACM 52(4), 2009): measured work over
-// measured peaks, for each level of the memory.
+// Uses the roofline model (S. Williams, A. Waterman, D. Patterson, CACM 52(4), 2009): divides the
+// work of a step by the measured peak speed of the machine, for the arithmetic and for each cache
+// and memory.
 #include "core/check.h"
 #include "run/commands/bench.h"
 
@@ -9,13 +10,14 @@ namespace cascade {
 
 namespace {
 
-/// The memory level that holds the layers in use by all threads; null without tiles.
+/// The cache or memory that holds the layers of all threads together. Null if steps are not
+/// computed in tiles.
 const MachineLimits::Memory* cache_of_tiles(const StageBench& bench) {
     const double bytes = bench.stepping.bytes_in_use * bench.threads;
     return bytes > 0 ? &bench.limits->home_of(bytes) : nullptr;
 }
 
-/// Bytes of a cell-step to and from `home`, which the sweeps of a tile share.
+/// The bytes that a step of one cell moves to and from `home`. The sweeps of a tile share them.
 double home_bytes(const StageBench& bench) {
     return bench.work.bytes / bench.stepping.sweeps_at_once;
 }

@@ -1,4 +1,4 @@
-// The finer cells belong to a second simulation, of the same script loaded for them.
+// The smaller cells belong to a second simulation, for which the same script is loaded again.
 #include "run/commands/detailed_run.h"
 
 #include "run/commands/run_checks.h"
@@ -13,7 +13,7 @@ namespace cascade {
 
 namespace {
 
-/// What is wrong with a script in finer cells, as an error of the option.
+/// The first error of the script with smaller cells, worded as an error of the option --detail.
 Failure refusal(Script& script, const Script& finer, int detail) {
     const std::vector<Diagnostic> all = finer.diagnostics.sorted();
     const auto error = std::find_if(all.begin(), all.end(), [](const Diagnostic& each) {
@@ -26,7 +26,8 @@ Failure refusal(Script& script, const Script& finer, int detail) {
     return {"the request does not fit the script", ""};
 }
 
-/// The limit for the finer cells, which are there beside those of the run.
+/// The memory that remains below `limit` for the smaller cells, while the run's own cells use
+/// `used` bytes.
 std::uint64_t memory_left(std::uint64_t limit, double used) {
     if (limit == 0) return 0;
     return static_cast<std::uint64_t>(std::max(1.0, static_cast<double>(limit) - used));
@@ -53,13 +54,13 @@ Result<std::unique_ptr<DetailedRun>> DetailedRun::create(Script& script, const R
     std::unique_ptr<DetailedRun> made(new DetailedRun(script.detailed(detail)));
     Script& finer = made->script_;
     if (!finer.program) return tl::unexpected(refusal(script, finer, detail));
-    finer.diagnostics = {};  // Its warnings are those of the script.
+    finer.diagnostics = {};  // The same messages were printed when the script was first loaded.
 
     SimulationOptions options = request.simulation;
     options.memory_limit = memory_left(options.memory_limit, coarse.domain().memory);
     options.control = &control;
     options.known_sizes = coarse.domain().known_sizes;
-    // What is said of the model and of sizes has been said of the run's own cells.
+    // Messages about the model and about sizes have already been printed for the run's own cells.
     auto warn = std::exchange(control.warn, {}), note = std::exchange(control.note, {});
     auto simulation = Simulation::create(finer, options);
     control.warn = std::move(warn);

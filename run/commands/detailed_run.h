@@ -1,7 +1,8 @@
-// `--detail`: the end of a run, carried to finer cells of the same domain, where it settles.
+// The option `--detail` carries the end of a run to smaller cells of the same domain, in which the
+// last stage then settles.
 //
-// The run itself, its log and what is saved of it are those of the script's own cells. Pictures,
-// models and everything else that is written show the finer cells.
+// The run itself, its log and the saved run use the script's own cells. Pictures, models and all
+// other outputs show the smaller cells.
 #pragma once
 
 #include "core/result.h"
@@ -16,14 +17,15 @@ namespace cascade {
 
 class DetailedRun {
 public:
-    /// Makes the finer cells and checks all that could be refused, before the run takes a step.
-    /// `coarse` is a simulation of the script. Fails, too, if `control` cancels. `script`, which
-    /// gets the errors, must outlive the result.
+    /// Makes the smaller cells, and checks before the first step whether anything must be refused.
+    /// `coarse` is a simulation of the script. Also fails if `control` cancels. Errors are added to
+    /// `script.diagnostics`. `script` must outlive the result.
     static Result<std::unique_ptr<DetailedRun>> create(Script& script, const RunRequest& request,
                                                        const Simulation& coarse,
                                                        RunControl& control);
 
-    /// Carries the run, whose stages have ended, and lets its last stage settle.
+    /// Carries the state of `coarse`, whose stages have ended, to the smaller cells, and lets the
+    /// last stage settle there.
     Result<StageEnd> settle(const Simulation& coarse, RunControl& control);
 
     const Script& script() const { return script_; }
@@ -37,10 +39,10 @@ private:
     Script script_;
     std::unique_ptr<Simulation> simulation_;
     std::optional<Painter> painter_;
-    std::vector<Painter> panels_;  ///< Of figures.
+    std::vector<Painter> panels_;  ///< One for each panel of a figure.
 };
 
-/// The painters of `--panel`. Errors go to `script.diagnostics`.
+/// Makes a painter for each `--panel`. Errors are added to `script.diagnostics`.
 Result<std::vector<Painter>> panel_painters(Script& script, const RunRequest& request);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Each kind of dump uses the printer of the room that owns the data.
+// Prints each kind of dump by a function of the room that the data belongs to.
 #include "run/commands/dump.h"
 
 #include "ir/cell_kernel.h"
@@ -20,7 +20,7 @@ constexpr std::array<std::string_view, 10> kinds = {"tokens",  "ast",   "equatio
                                                     "program", "graph", "plan",      "ir",
                                                     "llvm",    "asm"};
 
-/// The plans of a run.
+/// Options that make the same plans as a run.
 constexpr PlanOptions as_run{Materialise::when_cheaper, false, true};
 
 std::string dump_tokens(const Script& script) {
@@ -28,7 +28,7 @@ std::string dump_tokens(const Script& script) {
     return print_tokens(lex(0, script.sources, already_reported), script.sources);
 }
 
-/// ", pass 2 of 3" if there are several.
+/// The words ", pass 2 of 3". Empty if the plan has a single pass.
 std::string pass_words(const StepPlan& plan, std::size_t pass) {
     if (plan.passes.size() == 1) return "";
     return fmt::format(", pass {} of {}", pass + 1, plan.passes.size());
@@ -53,7 +53,8 @@ std::string dump_ir(const Program& program) {
     return text;
 }
 
-/// The systems of the stages; if there are no stages, the script's own systems.
+/// The equations of the systems that stages use. If the script has no stages, the equations of all
+/// its systems.
 std::string dump_equations(const Script& script, Notation notation) {
     const Program& program = *script.program;
     IdVector<SystemId, bool> shown(program.systems.size(), false);

@@ -1,4 +1,4 @@
-// `--dump`: any intermediate form of a script, from tokens to assembly, as text.
+// The option `--dump` prints any intermediate form of a script as text, from tokens to assembly.
 #pragma once
 
 #include "core/result.h"
@@ -10,10 +10,10 @@
 
 namespace cascade {
 
-/// tokens, ast, equations, tex, program, graph, plan, ir, llvm, asm.
+/// The kinds of dumps: tokens, ast, equations, tex, program, graph, plan, ir, llvm, asm.
 std::span<const std::string_view> dump_kinds();
 
-/// The dump of a loaded script. tokens and ast work for a script with errors, too.
+/// Dumps a loaded script. If the script has errors, only the kinds `tokens` and `ast` work.
 Result<std::string> dump(const Script& script, std::string_view kind);
 
 }  // namespace cascade

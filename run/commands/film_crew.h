@@ -1,9 +1,10 @@
-// Films of one run that are written together, so that each frame is drawn once.
+// Writes several films of one run at the same time, so that each frame is drawn only once.
 #pragma once
 
 #include "core/result.h"
 #include "film/film.h"
 #include "run/commands/film_request.h"
+#include "run/pictures/frames.h"
 
 #include <atomic>
 #include <cstddef>
@@ -17,19 +18,19 @@
 
 namespace cascade {
 
-/// Which frames a film shows, and how fast.
+/// The frames that a film shows, and its speed.
 struct FilmPlan {
-    std::vector<std::size_t> frames;  ///< Their numbers, rising.
+    std::vector<std::size_t> frames;  ///< The numbers of the frames, in ascending order.
     double frames_per_second = 10;
 };
 
-/// The plan for `count` frames. Where there are more than `most`, or a film is to last so few
-/// seconds that players could not follow, frames are left out evenly between the first and the
-/// last.
+/// Plans a film of `count` frames. Leaves out frames at equal distances if there are more than
+/// `most`, or more per second than players can show in the requested duration. The first and the
+/// last frame always remain.
 FilmPlan film_plan(const FilmRequest& request, std::size_t count, bool has_gif,
                    std::size_t most = std::numeric_limits<std::size_t>::max());
 
-/// Writes all films. One that fails does not prevent the others.
+/// Writes all films. If one fails, the others are still written.
 class FilmCrew {
 public:
     /// Draws frame `number` of the plan.
@@ -37,15 +38,16 @@ public:
 
     FilmCrew(std::vector<std::filesystem::path> films, FilmSettings settings);
 
-    /// Begins the films with their first frame still to be added. The colours of GIF films are
-    /// those of some frames of the plan, which `draw` draws. Fails if no film can be begun.
+    /// Begins all films. Must be called before the first frame is added. The colours of GIF films
+    /// are chosen from a sample of frames, which `draw` draws. Fails if no film can be begun.
     Result<void> begin(const FilmPlan& plan, const Draw& draw);
-    /// Adds a frame. Fails once no film is left that takes it.
+    /// Adds a frame to all films. Fails if every film has failed.
     Result<void> add(const FilmFrame& frame);
-    /// Completes the films, which have a frame. Returns the paths of those that are written.
+    /// Completes the films. At least one frame must have been added. Returns the paths of the films
+    /// that were written.
     std::vector<std::filesystem::path> finish();
 
-    /// The frame `number` of the plan if begin() has drawn it; else null.
+    /// Frame `number` of the plan, if begin() has drawn it. Otherwise null.
     const FilmFrame* drawn(std::size_t number) const;
     bool has_gif() const;
     std::size_t frames() const { return frames_; }
@@ -55,17 +57,23 @@ public:
 private:
     struct Film {
         std::filesystem::path path;
-        std::unique_ptr<FilmWriter> writer;  ///< Null before the beginning and after a failure.
+        std::unique_ptr<FilmWriter> writer;  ///< Null before begin() and after a failure.
     };
     void note(const Failure& failure);
 
     std::vector<Film> films_;
-    std::vector<std::size_t> numbers_;  ///< Of the samples.
+    std::vector<std::size_t> numbers_;  ///< The numbers of the frames in `samples_`.
     std::vector<FilmFrame> samples_;
     FilmSettings settings_;
     std::int64_t width_ = 0, height_ = 0;
     std::size_t frames_ = 0;
-    std::optional<Failure> failure_;  ///< The first one.
+    std::optional<Failure> failure_;  ///< The first failure of any film.
 };
+
+/// Draws the planned frames of a recording and adds them to the films, until `stop` is set. Calls
+/// `say` with the number of each frame in the films, from 1.
+Result<void> film_recorded(FilmCrew& crew, FrameRecorder& frames, Painter& painter,
+                           const FilmPlan& plan, int threads, const std::atomic<bool>& stop,
+                           const std::function<void(std::size_t number)>& say);
 
 }  // namespace cascade

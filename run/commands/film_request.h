@@ -1,12 +1,12 @@
-// How fast a film is.
+// The requested speed of a film.
 #pragma once
 
 namespace cascade {
 
 /// How long the frames of a film are shown.
 struct FilmRequest {
-    double frames_per_second = 0;  ///< 0 for 10, or what `seconds` gives.
-    double seconds = 0;            ///< Of the whole film; 0 for what its frames take.
+    double frames_per_second = 0;  ///< 0: computed from `seconds`, or 10 if that is 0, too.
+    double seconds = 0;            ///< The duration of the whole film. 0: computed from the rate.
 };
 
 }  // namespace cascade

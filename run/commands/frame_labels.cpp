@@ -1,4 +1,4 @@
-// Whole numbers are written out, others with four digits.
+// Prints integers with all digits, and other numbers with four digits.
 #include "run/commands/frame_labels.h"
 
 #include <fmt/format.h>

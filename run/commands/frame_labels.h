@@ -1,4 +1,4 @@
-// What is written into the corner of frames.
+// Makes the text in the corner of frames.
 #pragma once
 
 #include "core/result.h"
@@ -11,19 +11,20 @@
 
 namespace cascade {
 
-/// The words of `--label`: "stage" for the name of the stage, and numbers as of `--log`.
+/// The words of `--label`: "stage" for the name of the stage, and expressions or features like
+/// those of `--log`.
 class FrameLabels {
 public:
-    /// Errors in the expressions go to `script.diagnostics`.
+    /// Errors in the expressions are added to `script.diagnostics`.
     static Result<FrameLabels> create(Script& script, std::vector<std::string> words);
 
-    /// "small  step = 3400  mean(b over domain) = 1.25", at this moment of a started stage. Numbers
-    /// that have no meaning in the stage are left out.
+    /// The text at the present moment of a started stage, such as "small  step = 3400  mean(b over
+    /// domain) = 1.25". Expressions that have no meaning in the stage are left out.
     std::string text(const Simulation& simulation, std::uint32_t stage) const;
 
 private:
     std::vector<std::string> words_;
-    UniformNumbers numbers_;  ///< Of the words that are expressions.
+    UniformNumbers numbers_;  ///< The values of those words that are expressions.
 };
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
-// Twelve independent chains of sums and products, a kernel of divisions and a triad, run on planes
-// sized for each cache; the best of several times counts.
+// Runs twelve independent chains of sums and products, a kernel of divisions, and a triad (a + s ·
+// b), on planes that fill each cache. Each is measured several times, and the best result counts.
 #include "run/commands/machine_limits.h"
 
 #include "core/cache_sizes.h"
@@ -29,15 +29,16 @@ std::string level_name(int number) {
     return fmt::format("{}-level cache", names[static_cast<std::size_t>(at)]);
 }
 
-/// The caches of this machine; if unknown, sizes common among present processors.
+/// The caches of this machine. If they are unknown, caches with the sizes of common present
+/// processors.
 std::vector<CacheLevel> known_caches() {
     std::vector<CacheLevel> levels = cache_levels();
     if (levels.empty()) levels = {{1, 32 << 10, 1}, {2, 512 << 10, 1}, {3, 8 << 20, 1}};
     return levels;
 }
 
-/// Twelve independent chains of sums and products, joined at the end, so that none waits for
-/// another.
+/// Twelve chains of sums and products, whose results are added at the end. The chains are
+/// independent, so the processor can compute them at the same time.
 CellKernel arithmetic_kernel(Precision precision) {
     KernelBuilder builder(precision);
     const ValueId x = builder.field(builder.field_slot("x"));
@@ -77,14 +78,15 @@ CellKernel triad_kernel(Precision precision) {
     return std::move(builder).finish();
 }
 
-/// Runs kernels on a team, each thread on its own planes; the best of several times counts.
+/// Measures the time of kernels on a team of threads, each with separate planes. The best of
+/// several times counts.
 template <typename Number>
 class Meter {
 public:
     Meter(Team& team, const std::atomic<bool>& cancel) : team_(team), cancel_(cancel) {}
 
-    /// Cells per second of all threads together. Each thread has planes of `columns` × `rows`
-    /// cells.
+    /// The cells that all threads together compute in a second. Each thread has planes of `columns`
+    /// × `rows` cells.
     double cells_per_second(const Kernel& kernel, std::size_t fields, std::int64_t columns,
                             std::int64_t rows) {
         Grid grid;
@@ -95,7 +97,7 @@ public:
         for (auto& of_thread : planes) {
             for (std::size_t k = 0; k <= fields; ++k) of_thread.emplace_back(layout);
         }
-        // The thread that writes a page first gets it in its own memory node.
+        // Each thread fills its own planes, so that the memory is allocated near its processor.
         team_.run([&](int thread) {
             for (auto& plane : planes[static_cast<std::size_t>(thread)]) fill(plane);
         });
@@ -118,7 +120,7 @@ public:
         return best;
     }
 
-    /// Seconds of a barrier of all threads.
+    /// Seconds for a barrier of all threads.
     double meeting() {
         if (team_.size() == 1) return 0;
         constexpr int times = 2000;
@@ -133,7 +135,7 @@ public:
     }
 
 private:
-    /// The time of `work`, which all threads begin at once, in seconds.
+    /// Seconds for `work`, which all threads begin at the same time.
     template <typename Work>
     double time(Work work) {
         Clock::time_point begin, end;
@@ -211,8 +213,7 @@ Result<MachineLimits> limits_with(Backend& backend, int threads, const std::atom
     };
     double largest = 0;
     for (const CacheLevel& level : known_caches()) {
-        // A cache shared by cores is also shared by threads; one that is private to a core exists
-        // once per core.
+        // Cores that share a cache share its capacity. A private cache exists once for each core.
         const auto caches = static_cast<double>(std::max<std::int64_t>(1, threads / level.cores));
         const auto bytes = static_cast<double>(level.bytes) * caches;
         largest = std::max(largest, bytes);

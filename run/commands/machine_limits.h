@@ -1,8 +1,8 @@
-// Measured limits of this machine: arithmetic, the bandwidths of its caches and of its memory, and
-// barriers of threads.
+// Measures the limits of this machine: the speed of arithmetic, the bandwidths of its caches and
+// memory, and the time for a barrier of threads.
 //
-// They are measured with our own kernels, compiled like those of steps, so that they use the same
-// vectors and the same strict arithmetic: products and sums are separate operations.
+// The measurements use kernels compiled in the same way as kernels of steps, with the same vector
+// width and the same strict arithmetic, in which products and sums are separate operations.
 #pragma once
 
 #include "core/precision.h"
@@ -18,22 +18,24 @@ namespace cascade {
 
 struct MachineLimits {
     struct Memory {
-        std::string name;             ///< "first-level cache", …, "memory".
-        double bytes = 0;             ///< Capacity available to all threads; infinite for memory.
-        double bytes_per_second = 0;  ///< For a triad, a + s · b: two planes read, one written.
+        std::string name;  ///< "first-level cache", …, "memory".
+        /// The capacity for all threads together. Infinite for memory.
+        double bytes = 0;
+        /// Measured with the triad a + s · b, which reads two planes and writes one.
+        double bytes_per_second = 0;
     };
     int threads = 1;
-    double operations = 0;         ///< Sums and products per second, of all lanes and threads.
-    double divisions = 0;          ///< Per second.
-    double meeting = 0;            ///< Seconds of a barrier; 0 for one thread.
-    std::vector<Memory> memories;  ///< From the nearest to main memory.
+    double operations = 0;         ///< Sums and products per second, over all lanes and threads.
+    double divisions = 0;          ///< Divisions per second, over all lanes and threads.
+    double meeting = 0;            ///< Seconds for a barrier; 0 with one thread.
+    std::vector<Memory> memories;  ///< From the first-level cache to main memory.
 
-    /// The nearest level that holds `bytes`.
+    /// The cache nearest to the processor that holds `bytes`, or main memory.
     const Memory& home_of(double bytes) const;
 };
 
-/// Takes some tenths of a second. Fails if a kernel cannot be compiled, and if `cancel` is set
-/// meanwhile. Throws std::bad_alloc.
+/// Measures for some tenths of a second. Fails if a kernel cannot be compiled or if `cancel` is set
+/// during the measurement. Throws std::bad_alloc.
 Result<MachineLimits> measure_limits(Backend& backend, Precision precision, int threads,
                                      const std::atomic<bool>& cancel);
 

@@ -1,4 +1,4 @@
-// Moments are counted in the time of stages whose steps have one length for all cells.
+// Moments are times. They exist only in stages whose `speed` is uniform.
 #include "run/commands/moments.h"
 
 #include "run/commands/run_option.h"

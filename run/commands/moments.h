@@ -1,4 +1,4 @@
-// The moments of time at which a run is observed, between its steps: --at and --every.
+// The options --at and --every observe a run at given times between its steps.
 #pragma once
 
 #include "core/result.h"
@@ -10,20 +10,20 @@ namespace cascade {
 
 struct RunRequest;
 
-/// Times since the start of the run. Without any, each stage's `interval` counts.
+/// Times since the start of the run. If none is given, each stage is observed at its `interval`.
 struct MomentsRequest {
-    std::vector<double> at;  ///< Rising.
-    double every = 0;        ///< Above 0: all multiples of it.
+    std::vector<double> at;  ///< In ascending order.
+    double every = 0;        ///< If above 0, the run is observed at all multiples of this time.
 
     bool any() const { return !at.empty() || every > 0; }
 };
 
-/// The first moment after t, both since the start of a stage that begins `start` after the run
-/// does; infinity if there is none.
+/// The first moment after `t`, for a stage that begins at time `start` of the run. `t` and the
+/// result are times since the start of the stage. Infinity if there is no such moment.
 double next_moment(const MomentsRequest& moments, double start, double t);
 
-/// Adds an error to `script.diagnostics` if nothing is observed, or if a stage has no such moments:
-/// one of cells that crawl, or one whose steps differ from cell to cell.
+/// Adds an error to `script.diagnostics` if no output of the run uses the moments, or if the cells
+/// of a stage have no common time, because they crawl or its `speed` varies.
 void check_moments(Script& script, const RunRequest& request);
 
 }  // namespace cascade

@@ -1,4 +1,5 @@
-// Errors that only the checker finds are in the texts of `--set`, which have a cell each.
+// Each cell of the table becomes the text of an option `--set`. If the checker reports an error in
+// this text, the message names the cell.
 #include "run/commands/parameter_sets.h"
 
 #include "core/counted.h"
@@ -87,7 +88,7 @@ private:
         return {};
     }
 
-    /// The row of names passes once.
+    /// Checks a row of values. The header must be checked first, by the same function.
     Result<void> check_row(const std::vector<CsvCell>& row) {
         if (row.size() != names_.size()) {
             return wrong(row.size() < names_.size() ? row.back() : row[names_.size()],
@@ -114,16 +115,13 @@ private:
             return wrong(cell, fmt::format("'{}' is not a number", printable(cell.text)),
                          "a cell is a number such as 0.025, 2e-3 or 1/40");
         }
-        const bool is_seed = *number >= 0 && *number <= 4294967295.0 &&
-                             cell.text.find_first_not_of("0123456789") == std::string::npos;
-        if (name != "seed" || is_seed) return {};
-        return wrong(cell, fmt::format("'{}' is not a seed", cell.text),
-                     "seeds are whole numbers from 0 to 4294967295");
+        if (name != "seed" || read_seed(cell.text)) return {};
+        return wrong(cell, fmt::format("'{}' is not a seed", cell.text), what_seeds_are);
     }
 
     std::string file_;
     std::vector<std::string> names_;
-    std::map<std::string, std::size_t> lines_;  ///< Of rows, by their values.
+    std::map<std::string, std::size_t> lines_;  ///< For the values of each row, its line number.
     bool is_first_ = true;
 };
 

@@ -1,5 +1,5 @@
-// The table of `cascade sweep --sets`: a row of numbers for each run, under the names of
-// parameters.
+// The table of `cascade sweep --sets`: the header has names of parameters, and each row has the
+// numbers of one run.
 #pragma once
 
 #include "core/result.h"
@@ -15,17 +15,19 @@
 namespace cascade {
 
 struct ParameterSets {
-    Variation variation;  ///< All names, which vary together.
-    /// By row, the header first, and column: "sets.csv:3:7", for messages.
+    Variation variation;  ///< All names of the table, which vary together.
+    /// For each cell of the table, where it stands in the file, such as "sets.csv:3:7", for
+    /// messages. By row (the header first) and column.
     std::vector<std::vector<std::string>> places;
 };
 
-/// Reads a table of comma-separated values. Its first row has names as for `--set`, or `seed`; the
-/// others have a number, or a fraction of two, for each. Fails, with the place in the file, on
-/// anything else, on a name or a row that is there twice, and on more than `most_runs` rows.
+/// Reads a table of comma-separated values. Its first row has names as for `--set`, or `seed`.
+/// Every other row has a number, or a fraction of two numbers, for each name. Fails with the
+/// position in the file if a cell contains anything else, if a name or a row occurs twice, or if
+/// there are more than `most_runs` rows.
 Result<ParameterSets> read_parameter_sets(const std::filesystem::path& path);
 
-/// The first error of the script of run `number`, where it is in a name or a value of the table.
+/// The first error in the script of run `number` that a name or a value of the table has caused.
 std::optional<Failure> fault_in(const ParameterSets& sets, const Script& script,
                                 std::size_t number);
 

@@ -1,5 +1,4 @@
-// Options and outputs that do not fit the script or each other, before the first step. Each message
-// is reported at the option's text, and its hint says what would give the option a meaning.
+// Checks before the first step whether options and outputs suit the script and can be combined.
 #include "core/file_format.h"
 #include "film/film.h"
 #include "lang/check/check.h"
@@ -60,7 +59,7 @@ public:
         check_films();
         check_detail();
         check_panels();
-        if (request_.session) check_with_session();
+        if (writes_one_moment(request_)) check_with_session();
         if (request_.stop_at) check_stop_at(script_, *request_.stop_at);
     }
 
@@ -71,7 +70,7 @@ private:
                 const std::string& hint) {
         script_.diagnostics.error(option_span(script_.sources, option, text), message, hint);
     }
-    /// Refuses each of these options that is given.
+    /// Refuses all of `options` that are given.
     void refuse(Options options, const std::string& message, const std::string& hint = "") {
         for (const RunOption each : options) {
             refuse_if(is_given(request_, each), each, message, hint);
@@ -97,7 +96,7 @@ private:
         return *std::find_if(request_.outputs.begin(), request_.outputs.end(), is_film);
     }
 
-    /// What no domain of this kind has.
+    /// Refuses options that are impossible for the kind of the script's domain.
     void check_of_domain() {
         const bool is_volume = domain_.grid.depth > 1;
         const std::int64_t rows = domain_.grid.height * domain_.grid.depth;
@@ -133,7 +132,7 @@ private:
         }
     }
 
-    /// Outputs with rows and columns, which a model does not have.
+    /// Refuses outputs that need rows and columns, because the cells of a model have none.
     void check_on_model() {
         const std::string message = "the cells of a model have no rows and columns";
         refuse({flat}, message, "-o model.ply has the pattern without light");
@@ -157,7 +156,7 @@ private:
                   hint);
     }
 
-    /// Outputs of rows and columns, which cells that crawl do not lie in.
+    /// Refuses outputs that need rows and columns, because crawling cells have none.
     void check_with_cells() {
         const std::string message = "cells that crawl have no rows and columns";
         refuse({space_time}, message, shows_every_interval);
@@ -183,12 +182,12 @@ private:
                "--bake N says how many texels");
     }
 
-    /// Of cells that crawl in a plane or in space, and of bodies.
+    /// Refuses options that need a model, if there are bodies or crawling cells without a model.
     void check_without_surface() {
         refuse({bake, texels_per_cell, exr, unwrap}, not_a_model, how_to_get_a_model);
     }
 
-    /// What is done with the cells of a model alone.
+    /// Refuses options that need the cells of a model.
     void check_cells_of_model() {
         refuse({retile, displace, animate, bump, cache}, not_a_model, how_to_get_a_model);
     }
@@ -198,7 +197,7 @@ private:
         refuse({lods}, "no model is written", how_to_write(FormatKind::model));
     }
 
-    /// Models that show how they grew.
+    /// Checks the options for models that show how the pattern grew.
     void check_animated() {
         if (!files_.animate) return;
         refuse_if(!has_output([&](const auto& output) { return files_.is_animated(output); }),
@@ -210,12 +209,12 @@ private:
         refuse_if(files_.levels > 1, animate, "levels of detail do not move", "leave out --lods");
         refuse_if(files_.retile, animate, "the triangles of --retile do not move",
                   "leave out --retile");
-        refuse_if(request_.session.has_value(), animate,
+        refuse_if(writes_one_moment(request_), animate,
                   "a session is played to its end before anything is written",
                   "a run of its script shows how it grows");
     }
 
-    /// On a model: options without a file that they apply to.
+    /// On a model: refuses options that apply to files which are not requested.
     void check_model_files() {
         const auto is_baked = [&](const auto& output) { return files_.is_baked(output); };
         const bool is_tiled = has_output([&](const auto& output) {
@@ -249,11 +248,11 @@ private:
                "-o NAME.png draws pictures NAME-001.png, …, and -o NAME.gif a film");
     }
 
-    /// Of the body of a volume, which has a surface and no cells on it.
+    /// Checks the outputs of a body. A body has a surface, but the surface has no cells.
     void check_of_body() {
         for (const auto& output : request_.outputs) {
             if (!is_of_kind(output, FormatKind::cells)) continue;
-            refuse_output(output, "only what grows on a model is written so",
+            refuse_output(output, "only models can be written so",
                           "--volume FILE.vti has all species of a volume");
         }
         check_without_surface();
@@ -261,7 +260,7 @@ private:
         check_levels();
     }
 
-    /// On grids. A plane has maps, too.
+    /// On a grid: refuses options that need a model. Planes have maps, too, if `is_plane`.
     void check_without_model(bool is_plane) {
         bool has_model = false;
         for (const auto& output : request_.outputs) {
@@ -270,9 +269,7 @@ private:
             has_model = true;
             const bool has_maps = is_plane && can_hold(output, FormatTrait::maps);
             if (has_maps && files_.has_maps()) continue;
-            refuse_output(output,
-                          fmt::format("only what grows on a model is written so, and {}",
-                                      not_a_model),
+            refuse_output(output, fmt::format("only models can be written so, and {}", not_a_model),
                           has_maps ? "--bake N writes a rectangle with maps of N texels"
                                    : how_to_get_a_model);
         }
@@ -280,16 +277,14 @@ private:
         refuse({lods}, not_a_model, how_to_get_a_model);
         if (!is_plane) return check_without_surface();
         refuse({unwrap}, not_a_model, how_to_get_a_model);
-        if (!files_.has_maps()) {
-            refuse({exr}, "no maps are written", how_to_write_maps());
-        }
+        if (!files_.has_maps()) refuse({exr}, "no maps are written", how_to_write_maps());
         if (!has_model) {
             refuse({bake, texels_per_cell}, "no model is written with its maps",
                    output_of(FormatTrait::maps) + " writes a rectangle with them");
         }
     }
 
-    /// Smooth pictures, and copies side by side.
+    /// Refuses sizes and numbers of copies that are impossible for a flat picture.
     void check_flat_picture() {
         const PictureRequest& picture = request_.picture;
         if (draws_scene(script_, picture)) {
@@ -305,12 +300,12 @@ private:
         const auto [columns, rows] = sides_that_repeat(domain_.grid, picture.slice);
         const std::string hint = "a domain with boundary: periodic repeats";
         refuse_if(picture.copies.across > 1 && !columns, copies,
-                  "the pattern does not go on at its left and right sides", hint);
+                  "the pattern does not repeat across its left and right sides", hint);
         refuse_if(picture.copies.down > 1 && !rows, copies,
-                  "the pattern does not go on at its upper and lower sides", hint);
+                  "the pattern does not repeat across its upper and lower sides", hint);
     }
 
-    /// Options for films without a film, and films that cannot be.
+    /// Refuses options for films if no film is requested, and films that cannot be drawn.
     void check_films() {
         const bool has_film = has_output(is_film);
         const std::string message = "no film is written";
@@ -328,7 +323,7 @@ private:
         for (const auto& output : request_.outputs) {
             if (is_film(output)) check_film_format(output);
         }
-        if (request_.session && films_steps(request_)) {
+        if (writes_one_moment(request_) && films_steps(request_)) {
             refuse_output(first_film(), "a session is played to its end before anything is written",
                           "of a surface, --turntable N films its end from all around");
         }
@@ -344,7 +339,7 @@ private:
                   output_of(FormatTrait::transparency) + " has them, or give a colour");
     }
 
-    /// The end of the run is carried to finer cells, and nothing but the end.
+    /// Checks --detail. It carries only the end of a run, so other outputs are refused.
     void check_detail() {
         if (request_.picture.detail == 1) return;
         const auto& model = domain_.model;
@@ -358,7 +353,7 @@ private:
                                       is_draw_in_cell),
                   detail, "the mask draws a random number in each cell",
                   "noise(…) has the same outlines in finer cells");
-        refuse_if(request_.session.has_value(), detail, "a session ends with its own cells",
+        refuse_if(writes_one_moment(request_), detail, "a session ends with its own cells",
                   "-o tile.glb --bake 2048 writes smooth maps of a plane");
         const std::string message =
             "it shows every step, and only the end is carried to finer cells";
@@ -368,7 +363,7 @@ private:
     }
 
     void check_panels() {
-        constexpr std::size_t most = 26;  // They have letters.
+        constexpr std::size_t most = 26;  // Panels are labelled with the letters of the alphabet.
         if (!has_output_of(FormatKind::figure)) {
             refuse({panel}, "no figure is drawn", output_of(FormatKind::figure) + " draws one");
         }
@@ -376,11 +371,11 @@ private:
                   fmt::format("a figure has at most {} panels", most));
     }
 
-    /// What is written while a run takes its steps.
+    /// For a repeated session: refuses outputs that are written while a run takes its steps.
     void check_with_session() {
         refuse({frames, series, space_time, log, at, every, stop_at, checkpoint},
                "a session is played to its end before anything is written",
-               "'cascade repl' plays it, and goes on from there");
+               "'cascade repl' plays it and continues from there");
     }
 
     Script& script_;

@@ -1,8 +1,8 @@
-// The order of a run: requests that cannot be met are refused first, then the stages run, then the
-// results are written.
+// Refuses requests that cannot be fulfilled, runs the stages, and writes the results.
 #include "run/commands/run.h"
 
 #include "core/with_commas.h"
+#include "lang/program/stage_kinds.h"
 #include "run/commands/analyze.h"
 #include "run/commands/runner.h"
 #include "run/pictures/measured.h"
@@ -26,7 +26,8 @@ Result<StageEnd> Runner::run_stage(std::uint32_t k) {
             if (control_.cancel) return StageEnd::cancelled;
             return tl::unexpected(started.error());
         }
-        // Until a later stage takes a step, pictures show the stage before, which has its frame.
+        // Until a later stage has taken a step, pictures show the previous stage, whose last frame
+        // has already been recorded.
         if (stage.iterations > 0 && simulation_->state(shown_stage(*simulation_)).steps == 0) {
             look();
         }
@@ -38,7 +39,7 @@ Result<StageEnd> Runner::run_stage(std::uint32_t k) {
         request_.stop_at && request_.stop_at->stage == stage.name && request_.stop_at->step <= last;
     if (stops_here) last = request_.stop_at->step;
     const std::int64_t before = simulation_->state(k).steps;
-    tenths_seen_ = tenths_done(k);
+    marks_seen_ = marks_done(k);
     const auto start = Clock::now();
     auto end = simulation_->advance_stage(
         k, std::max(last, before), control_, [&] { observe(k); }, observation_interval(stage),
@@ -49,6 +50,12 @@ Result<StageEnd> Runner::run_stage(std::uint32_t k) {
     if (series_ && simulation_->state(k).steps > before) add_to_series(k);
     if (stops_here && end && *end == StageEnd::finished) return StageEnd::stopped;
     return end;
+}
+
+/// Is nothing computed before the first stage takes its first step? The stage then sets `may_end`
+/// to false. Stages of cells do not.
+bool Runner::has_nothing_to_lose() const {
+    return request_.resume.empty() && !is_of_cells(*simulation_->domain(0).program, 0);
 }
 
 Result<void> Runner::run_stages() {
@@ -68,7 +75,7 @@ Result<void> Runner::run_stages() {
     return {};
 }
 
-/// Carries a run that has ended to the finer cells of --detail.
+/// Carries a finished run to the smaller cells of --detail.
 Result<void> Runner::settle_in_detail() {
     if (!detailed_ || report_.status != RunStatus::finished) return {};
     const auto start = Clock::now();
@@ -91,7 +98,7 @@ void Runner::remark(std::string words) {
     report_.remarks.push_back(std::move(words));
 }
 
-/// Remarks on stages of a resumed run that could not take more steps.
+/// Adds remarks on the stages of a resumed run whose `steps` allowed no more steps.
 void Runner::remark_on_resumed() {
     const auto& stages = script_.program->stages;
     for (std::uint32_t k = 0; k + 1 < script_.stage_count(); ++k) {
@@ -106,24 +113,28 @@ void Runner::remark_on_resumed() {
     remark(fmt::format("the saved run was complete already, so no steps were taken: {}", place()));
 }
 
-/// Steps between observations, such that neither a frame nor a row of the log is missed.
+/// The largest number of steps between observations with which no frame and no row of the log is
+/// missed.
 std::int64_t Runner::observation_interval(const Stage& stage) const {
     if (!log_) return stage.interval;
     return frames_ || series_ ? std::gcd(log_->every(stage), stage.interval) : log_->every(stage);
 }
 
-/// Frames are drawn at the stage's interval, or else at tenths of its duration.
+/// Whether it is time for a frame. Frames are drawn at the stage's interval, or else at its marks:
+/// multiples of `every` or tenths of its duration.
 bool Runner::frame_is_due(std::uint32_t k) {
     const std::int64_t interval = script_.program->stages[k].interval;
     if (interval > 0) return simulation_->state(k).steps % interval == 0;
-    const double before = std::exchange(tenths_seen_, tenths_done(k));
-    return tenths_seen_ > before;
+    const double before = std::exchange(marks_seen_, marks_done(k));
+    return marks_seen_ > before;
 }
 
-double Runner::tenths_done(std::uint32_t k) const {
+double Runner::marks_done(std::uint32_t k) const {
     const StageState& state = simulation_->state(k);
     const Program& program = *script_.program;
-    return tenths_reached(state.t, duration_of(program.stages[k], program.system_of(k), state));
+    const Stage& stage = program.stages[k];
+    return marks_reached(state.t, duration_of(stage, program.system_of(k), state),
+                         stage.time.every);
 }
 
 void Runner::observe(std::uint32_t k) {
@@ -151,7 +162,8 @@ void Runner::look() {
                     labels_ ? labels_->text(*simulation_, stage) : "");
 }
 
-/// Each moment once: the end of a stage may be one of its intervals.
+/// Adds the present moment to the series, unless the series already contains it because a stage has
+/// ended at one of its intervals.
 void Runner::add_to_series(std::uint32_t stage) {
     const double t = time_of(*simulation_, stage);
     const std::pair moment(stage, std::isnan(t)
@@ -162,7 +174,7 @@ void Runner::add_to_series(std::uint32_t stage) {
     series_->add(*simulation_);
 }
 
-/// The moments of --at and --every in a stage; none without them.
+/// The moments of --at and --every in a stage. Empty if neither option is given.
 NextMoment Runner::moments_of(std::uint32_t stage) const {
     if (!request_.moments.any()) return {};
     double start = 0;
@@ -170,13 +182,13 @@ NextMoment Runner::moments_of(std::uint32_t stage) const {
     return [this, start](double t) { return next_moment(request_.moments, start, t); };
 }
 
-/// A run that has ended before a time of --at.
+/// Adds remarks on times of --at that are later than the end of the run.
 void Runner::remark_on_moments() {
     const std::uint32_t stage = shown_stage(*simulation_);
     const double end = time_since_start(*simulation_);
     if (request_.moments.at.empty() || stage + 1 < script_.stage_count()) return;
     if (request_.moments.at.back() <= end * (1 + 1e-9)) return;
-    remark(fmt::format("the run ends at t = {:.6g}, before {:.6g} of --at", end,
+    remark(fmt::format("the run ends at t = {:.6g}, before the time {:.6g} of --at", end,
                        next_moment(request_.moments, 0, end)));
 }
 
@@ -207,26 +219,28 @@ Result<RunReport> Runner::run() {
     if (auto ready = prepare(); !ready) return tl::unexpected(ready.error());
     if (report_.status == RunStatus::cancelled) return std::move(report_);
     report_.has_begun = true;
-    if (request_.session) {
+    control_.may_end = has_nothing_to_lose();
+    if (writes_one_moment(request_)) {
         report_.where = place();
     } else if (auto done = run_stages(); !done) {
-        // The log shows what led to the divergence.
+        // The log is written because it shows the values that led to the failure.
         if (log_) (void)results().write_log();
         return tl::unexpected(done.error());
     }
+    control_.may_end = false;
     if (auto done = settle_in_detail(); !done) return tl::unexpected(done.error());
     if (!request_.resume.empty()) remark_on_resumed();
     if (report_.status == RunStatus::finished) remark_on_moments();
-    // First, as pictures may fail or be cut off.
-    const Result<void> saved = results().save();
-    // Made once: that of a body may take longer than the steps.
+    const RunResults::Early early = results().write_early();
+    control_.may_end = true;
+    // The canvas is made only once, because for a body it may take longer than the steps.
     const Canvas canvas = [&] {
         const TimeAccount::Scope spent(request_.simulation.account, Spent::drawing);
         return painter().canvas(shown());
     }();
     if (report_.status == RunStatus::finished && report_.steps > 0) {
         remark(remark_on_picture(painter(), shown(), canvas));
-        // A sheet draws numbers, so it uses palette and range.
+        // A sheet shows numbers, so palette and range have an effect.
         if (request_.sheet.empty()) remark(remark_on_look(painter(), shown(), canvas));
         if (frames_ && frames_->holds_starts_alone()) {
             remark(fmt::format(
@@ -238,7 +252,7 @@ Result<RunReport> Runner::run() {
         const TimeAccount::Scope spent(request_.simulation.account, Spent::drawing);
         report_.features = measure_shown(painter(), shown());
     }
-    if (auto written = results().write(canvas, saved); !written)
+    if (auto written = results().write(canvas, early); !written)
         return tl::unexpected(written.error());
     return std::move(report_);
 }

@@ -1,4 +1,5 @@
-// `cascade run`: takes a loaded script through its stages and writes pictures, frames and fields.
+// The command `cascade run` runs the stages of a loaded script, and writes pictures, frames and
+// fields.
 #pragma once
 
 #include "core/result.h"
@@ -20,7 +21,9 @@
 
 namespace cascade {
 
-/// A step at which the run stops as if by Ctrl-C.
+class LiveRun;
+
+/// The step at which the run stops, as if the user had pressed Ctrl-C.
 struct StopAt {
     std::string stage;
     std::int64_t step = 0;
@@ -30,78 +33,93 @@ struct StopAt {
 struct RunRequest {
     SimulationOptions simulation;
     PictureRequest picture;
-    /// Pictures, films, models and cells, by their endings (output_kind); if empty, SCRIPT.png in
-    /// the current folder.
+    /// The files of option -o: pictures, films, models and cells, in the formats of their endings
+    /// (see output_kind()). If empty, SCRIPT.png in the current folder.
     std::vector<std::filesystem::path> outputs;
     ModelFileOptions model_files;
-    int turntable = 0;  ///< Number of pictures from all around; 0 for one.
+    int turntable = 0;  ///< The number of pictures around an object, from equally spaced
+                        ///< directions. 0: a single picture.
     FilmRequest film;
-    int slices = 0;                   ///< Of a volume, filmed one after the other; 0 for none.
-    std::vector<std::string> panels;  ///< Expressions of `--panel`: figures show them in turn.
-    std::vector<std::string> labels;  ///< What is written into frames: `--label`.
-    std::filesystem::path sheet;      ///< `--sheet FILE`; empty for none.
-    std::filesystem::path frames;     ///< `--frames DIR`; empty for none.
-    std::filesystem::path save;       ///< `--save DIR`; empty for none.
-    double checkpoint_seconds = 0;    ///< Above 0: seconds between saves during the run.
-    std::filesystem::path volume;     ///< `--volume FILE`; empty for none.
-    std::filesystem::path series;     ///< `--series FILE`; empty for none.
-    std::vector<std::string> fields;  ///< Expressions of `--field`: the arrays of `series`.
-    std::filesystem::path resume;     ///< `--resume DIR`; empty to start anew.
+    /// The number of slices of a volume that a film shows one after the other. 0: none.
+    int slices = 0;
+    std::vector<std::string> panels;  ///< Expressions of `--panel`. Figures have a panel for each.
+    /// Words of `--label`, which are drawn into the corner of frames.
+    std::vector<std::string> labels;
+    std::filesystem::path sheet;    ///< `--sheet FILE`. Empty: none.
+    std::filesystem::path frames;   ///< `--frames DIR`. Empty: none.
+    std::filesystem::path save;     ///< `--save DIR`. Empty: the run is not saved.
+    double checkpoint_seconds = 0;  ///< If above 0, the seconds between saves during the run.
+    std::filesystem::path volume;   ///< `--volume FILE`. Empty: none.
+    std::filesystem::path series;   ///< `--series FILE`. Empty: none.
+    /// Expressions of `--field`, which give the arrays of `series`.
+    std::vector<std::string> fields;
+    std::filesystem::path resume;  ///< `--resume DIR`. Empty: the run starts anew.
     std::optional<StopAt> stop_at;
-    /// Played instead of the stages; its script at the end is the one that is run.
+    /// The log of a session that is repeated instead of running the stages. Afterwards the run
+    /// continues with the last script of the session.
     std::optional<SessionLog> session;
-    MomentsRequest moments;  ///< When it is observed.
+    /// The live run of this script whose present moment is written instead of running the stages.
+    /// Null: none. `session` is then only the log that pictures contain, if any.
+    const LiveRun* present = nullptr;
+    MomentsRequest moments;  ///< The times at which the run is observed.
     LogRequest log;
-    bool features = false;  ///< Measure the values that the picture shows.
+    bool features = false;  ///< Whether features of the values in the picture are measured.
 };
 
 enum class RunStatus {
     finished,
-    stopped,    ///< At `stop_at`.
-    cancelled,  ///< By the user.
+    stopped,    ///< The run reached the step `stop_at`.
+    cancelled,  ///< The user cancelled the run.
 };
 
-/// True if a film of the run's steps is written, and not one of its end.
+/// Whether only the last moment of a session or of a live run is written.
+inline bool writes_one_moment(const RunRequest& request) {
+    return request.session || request.present != nullptr;
+}
+
+/// Whether a film shows the run's steps, rather than its end from several sides.
 bool films_steps(const RunRequest& request);
 
 struct RunReport {
     RunStatus status = RunStatus::finished;
-    std::string where;                           ///< "stage 'small', step 312 of 7000".
-    bool has_begun = false;                      ///< True if there is something to write.
-    std::vector<std::filesystem::path> written;  ///< In order.
-    std::vector<std::string> notes;              ///< On these files, a sentence each.
-    std::int64_t steps = 0;                      ///< Steps taken by this run.
-    double seconds = 0;                          ///< Time of stepping.
-    std::optional<measure::Features> features;   ///< If they were requested.
-    /// Remarks on the result, a sentence each; `control.warn` has received them, too.
+    /// The stage and step at which the run ended: "stage 'small', step 312 of 7000".
+    std::string where;
+    bool has_begun = false;                      ///< Whether there is anything to write.
+    std::vector<std::filesystem::path> written;  ///< The written files, in the order of writing.
+    std::vector<std::string> notes;             ///< Notes on the written files. Each is a sentence.
+    std::int64_t steps = 0;                     ///< Steps taken by this run.
+    double seconds = 0;                         ///< Seconds spent on stepping.
+    std::optional<measure::Features> features;  ///< If requested.
+    /// Remarks on the result. Each is a sentence. They were also passed to `control.warn`.
     std::vector<std::string> remarks;
 };
 
 /// Runs the script and writes the requested outputs. All outputs are checked before the first step.
-/// After a cancel the results so far are written. The text of a failure is complete; if it is an
-/// error in the script, `script.diagnostics` has errors.
+/// After a cancel, the results so far are written. The text of a failure needs no addition. If the
+/// failure is an error in the script, it is also in `script.diagnostics`.
 Result<RunReport> run(Script& script, const RunRequest& request, RunControl& control);
 
 /// Writes every field of the started stages as STAGE.NAME.npy, the script, and `run.json`. A saved
-/// run in the folder is replaced atomically (run/commands/saved_folder.h): it stays valid until the
-/// new one is complete. Fails, and changes nothing, if a file that is not part of that run has one
-/// of these names.
+/// run in the same folder is replaced atomically (run/commands/saved_folder.h), so it stays valid
+/// until the new one is complete. Fails without changing anything if the folder has a file with one
+/// of these names that is not part of the saved run.
 Result<std::vector<std::filesystem::path>> save_run(const std::filesystem::path& folder,
                                                     const Script& script,
                                                     const Simulation& simulation);
 
-/// Checks before a run that it can be saved in the folder.
+/// Checks before a run whether it can be saved in the folder.
 Result<void> check_savable(const std::filesystem::path& folder, const Script& script);
 
-/// Starts the stages of a saved run again and restores their species. The script must be the one
-/// that was saved (load it with load_saved_script).
+/// Starts the stages of a saved run and restores their species. `script` must be the result of
+/// load_saved_script() for this folder.
 Result<void> restore_run(const std::filesystem::path& folder, const Script& script,
                          Simulation& simulation, const std::atomic<bool>& cancel = never_cancelled);
 
-/// The script and overrides of a saved run. `changes` may lift or set `steps` and `until_stage`,
-/// grant reads and name the place of the model. Files of the script are looked up in
-/// `script_folder` if the user named it, else where find_script_folder() says. `look` is a script
-/// that differs from the saved one in pictures only and takes its place.
+/// Loads the script and overrides of a saved run. `changes` may remove or set `steps` and
+/// `until_stage`, permit folders to be read, and give a new path of the model. Files that the
+/// script names are searched in `script_folder` if the user has given it, and otherwise in
+/// find_script_folder(). If `look` is not null, it replaces the saved script, from which it may
+/// differ only in pictures.
 Result<Script> load_saved_script(const std::filesystem::path& folder, const Overrides& changes,
                                  const std::filesystem::path& script_folder = {},
                                  const Script* look = nullptr);

@@ -1,4 +1,4 @@
-// Files and folders are tested for writing, and the place to stop at is looked up.
+// Tests whether files and folders can be written, and checks the step of --stop-at.
 #include "run/commands/run_checks.h"
 
 #include "core/file.h"
@@ -26,7 +26,7 @@ namespace cascade {
 std::vector<std::filesystem::path> outputs_of(const Script& script, const RunRequest& request) {
     if (!request.outputs.empty()) return request.outputs;
     const std::filesystem::path picture = output_stem(script) + ".png";
-    // Running a picture again may overwrite it.
+    // If the script is itself a picture of that name, writing the output would replace the script.
     std::error_code error;
     if (std::filesystem::equivalent(picture, script.file, error))
         return {output_stem(script) + "-again.png"};
@@ -55,7 +55,7 @@ std::vector<std::filesystem::path> turntable_paths(const std::filesystem::path& 
 
 namespace {
 
-/// A file that a run writes, and the name of the output in messages.
+/// A file that a run writes, with the words for the file in messages.
 struct OutputFile {
     std::filesystem::path path;
     std::string_view what;

@@ -1,4 +1,4 @@
-// Checks a request against its script and the disk before the first step.
+// Checks a request for a run against its script and against the disk, before the first step.
 #pragma once
 
 #include "run/commands/run.h"
@@ -7,32 +7,35 @@
 
 namespace cascade {
 
-/// The outputs of -o, or SCRIPT.png by default.
+/// The paths of option -o, or SCRIPT.png if there are none.
 std::vector<std::filesystem::path> outputs_of(const Script& script, const RunRequest& request);
 
-/// The file of the log: as requested, else beside the first output.
+/// The path of the log: the requested path, or else a file in the folder of the first output.
 std::filesystem::path log_path(const RunRequest& request,
                                const std::filesystem::path& first_output);
 
-/// The pictures of a turntable: NAME-001.png …, with enough digits for the last one.
+/// The paths of a turntable's pictures, NAME-001.png and so on. The numbers have as many digits as
+/// the last one.
 std::vector<std::filesystem::path> turntable_paths(const std::filesystem::path& picture, int count);
 
-/// Checks that the request fits the script; reports errors in the script's diagnostics.
+/// Checks whether the request can be fulfilled for this script. Errors are added to the script's
+/// diagnostics.
 Result<void> check_request(Script& script, const RunRequest& request);
 
-/// Reports a `--stop-at` that the run never reaches.
+/// Reports an error if the run never reaches the step of `--stop-at`.
 void check_stop_at(Script& script, const StopAt& wanted);
 
-/// Tests all outputs for writing, so that a long run does not fail at its end. Leaves no files, and
-/// removes temporary files of killed runs.
+/// Tests whether all outputs can be written, so that a long run does not fail at its end. Leaves no
+/// new files, and removes temporary files of runs that were killed.
 Result<void> check_outputs(const Script& script, const RunRequest& request,
                            std::span<const std::filesystem::path> outputs);
-/// Checks that the formats of the films hold frames of the size that the run draws, and that these
-/// have room for labels. Fails once `cancel` is set.
+/// Checks whether the formats of the films allow frames of the size that the run draws, and whether
+/// frames of that size have room for labels. Fails if `cancel` is set.
 Result<void> check_film_sizes(const Script& script, const RunRequest& request,
                               const std::atomic<bool>& cancel);
 
-/// Creates the folders, and tests them for writing. Those that are tried are removed again.
+/// Creates the folders of outputs and tests whether files can be written there. With `tried`,
+/// removes the created folders again.
 enum class Folders { tried, made };
 Result<void> check_folders(const RunRequest& request, Folders folders);
 

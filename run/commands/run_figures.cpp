@@ -1,4 +1,4 @@
-// Figures of a run: the picture with what its axes and colours mean.
+// Draws the figures of a run: the picture with labelled axes and a bar of its colours.
 #include "core/file.h"
 #include "core/printable.h"
 #include "run/commands/run_results.h"
@@ -15,7 +15,7 @@ namespace cascade {
 
 namespace {
 
-/// The stage that is shown and its time.
+/// The name of the shown stage and the time in it.
 std::string title_of(const Script& script, const Simulation& simulation) {
     const std::uint32_t stage = shown_stage(simulation);
     std::string title =
@@ -26,7 +26,7 @@ std::string title_of(const Script& script, const Simulation& simulation) {
     return title;
 }
 
-/// The value of a part of a formula that is made of numbers alone.
+/// The value of a part of a formula. Empty unless the part consists of numbers alone.
 std::optional<double> number_in(const Simulation& simulation, const Formula& formula, NodeId part) {
     const Formula number = formula_of(formula.nodes, part);
     const bool is_known = std::ranges::all_of(number.nodes, [](const Node& node) {
@@ -37,7 +37,8 @@ std::optional<double> number_in(const Simulation& simulation, const Formula& for
     return evaluate_numbers(simulation, formulas, shown_stage(simulation)).front();
 }
 
-/// The bar of a colour that is palette(e, low, high, "name") as a whole, with numbers for ends.
+/// The bar for a colour. Empty unless the whole colour is palette(e, low, high, "name") with
+/// numbers for low and high.
 std::optional<ColourBar> bar_of(const Script& script, const Simulation& simulation,
                                 const std::optional<Formula>& formula) {
     if (!formula || !formula->nodes.back().calls(Function::palette)) return std::nullopt;
@@ -51,7 +52,8 @@ std::optional<ColourBar> bar_of(const Script& script, const Simulation& simulati
                      std::string(script.sources.text(formula->nodes[value].span))};
 }
 
-/// The plane that a flat picture is of, with its copies, in lengths.
+/// The extent of a flat picture, which may show several copies of the plane, in the script's unit
+/// of length.
 PlaneExtent extent_of(const Grid& grid, const PictureRequest& request) {
     const PlaneLayout layout(grid);
     const Grid shown = grid.depth == 1 ? grid : slice_grid(layout, request.slice);

@@ -1,4 +1,4 @@
-// The films of a run: of its frames, of its end from all around, or of the slices of a volume.
+// Writes films of a run: its frames, its end seen from all sides, or the slices of a volume.
 #include "core/enough_memory.h"
 #include "run/commands/film_crew.h"
 #include "run/commands/run_results.h"
@@ -16,8 +16,31 @@ bool films_steps(const RunRequest& request) {
            std::any_of(request.outputs.begin(), request.outputs.end(), is_film);
 }
 
-/// Ctrl-C while frames are drawn ends the films there. After one that has ended the run, all frames
-/// of the run are drawn.
+Result<void> film_recorded(FilmCrew& crew, FrameRecorder& frames, Painter& painter,
+                           const FilmPlan& plan, int threads, const std::atomic<bool>& stop,
+                           const std::function<void(std::size_t number)>& say) {
+    const auto draw_one = [&](std::size_t number) -> Result<FilmFrame> {
+        FilmFrame frame;
+        const auto keep = [&](std::size_t, const Image& image) -> Result<FrameRecorder::InOrder> {
+            frame = film_frame(image);
+            return [] { return Result<void>(); };
+        };
+        auto drawn = frames.draw(painter, {&number, 1}, 1, never_cancelled, keep);
+        if (!drawn) return tl::unexpected(drawn.error());
+        return frame;
+    };
+    if (auto begun = crew.begin(plan, draw_one); !begun) return begun;
+    const auto add = [&](std::size_t, const Image& image) -> Result<FrameRecorder::InOrder> {
+        return [&, frame = film_frame(image)] {
+            say(crew.frames() + 1);
+            return crew.add(frame);
+        };
+    };
+    return frames.draw(painter, plan.frames, threads, stop, add);
+}
+
+/// Writes all films. If Ctrl-C is pressed while frames are drawn, the films end with the present
+/// frame. If an earlier Ctrl-C has ended the run, all frames of the run so far are drawn.
 Result<void> RunResults::write_films(const Canvas& canvas) {
     std::vector<std::filesystem::path> paths;
     std::copy_if(outputs.begin(), outputs.end(), std::back_inserter(paths), is_film);
@@ -35,7 +58,7 @@ Result<void> RunResults::write_films(const Canvas& canvas) {
     return {};
 }
 
-/// Notes where Ctrl-C has ended the films, if so.
+/// If Ctrl-C has ended the films, adds a note with the number of frames that were written.
 void RunResults::note_end_of_films(const FilmCrew& crew, std::size_t count) {
     if (crew.frames() < count && stop()) {
         note_stop(fmt::format("frame {} of {} of {}", crew.frames(), count, crew.first().string()));
@@ -50,29 +73,15 @@ Result<void> RunResults::film_frames(FilmCrew& crew) {
                        "a film has a frame at the start of a stage and at each 'interval'");
     }
     const FilmPlan plan = film_plan(request.film, frames->count(), crew.has_gif());
-    const auto draw_one = [&](std::size_t number) -> Result<FilmFrame> {
-        FilmFrame frame;
-        const auto keep = [&](std::size_t, const Image& image) -> Result<FrameRecorder::InOrder> {
-            frame = film_frame(image);
-            return [] { return Result<void>(); };
-        };
-        auto drawn = frames->draw(painter, {&number, 1}, 1, never_cancelled, keep);
-        if (!drawn) return tl::unexpected(drawn.error());
-        return frame;
-    };
-    if (auto begun = crew.begin(plan, draw_one); !begun) return begun;
-    const auto add = [&](std::size_t, const Image& image) -> Result<FrameRecorder::InOrder> {
-        return [&, frame = film_frame(image)] {
-            say(fmt::format("drawing {} of {}", crew.frames() + 1, plan.frames.size()));
-            return crew.add(frame);
-        };
-    };
-    auto drawn = frames->draw(painter, plan.frames, drawing_threads(), stop(), add);
+    auto drawn =
+        film_recorded(crew, *frames, painter, plan, drawing_threads(), stop(), [&](std::size_t k) {
+            say(fmt::format("drawing {} of {}", k, plan.frames.size()));
+        });
     if (drawn) note_end_of_films(crew, plan.frames.size());
     return drawn;
 }
 
-/// A film of the end of the run from several places, which are drawn one after the other.
+/// Writes films of the end of the run, with `count` pictures that are drawn one after the other.
 Result<void> RunResults::film_end(FilmCrew& crew, int count, const FilmCrew::Draw& draw) {
     const FilmPlan plan = film_plan(request.film, static_cast<std::size_t>(count), crew.has_gif());
     Result<void> done = crew.begin(plan, draw);
@@ -100,7 +109,8 @@ Result<void> RunResults::film_turntable(FilmCrew& crew, const Canvas& canvas) {
     return done;
 }
 
-/// Slices at equal distances along the axis of --slice, in one range of the whole volume.
+/// Writes films of slices at equal distances along the axis of --slice. All slices have the range
+/// of the whole volume.
 Result<void> RunResults::film_slices(FilmCrew& crew) {
     const ValueRange range = automatic_range(spread_of([&](const auto& take) {
         const Field number = shown_number(painter, simulation);

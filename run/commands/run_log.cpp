@@ -1,4 +1,5 @@
-// Rows are numbers until the table is written; a number without a meaning is an empty cell.
+// Rows are stored as numbers until the table is written. If an expression has no meaning in a
+// stage, its cell of the table is empty.
 #include "run/commands/run_log.h"
 
 #include "core/file.h"
@@ -23,10 +24,10 @@ Result<void> check_rows(const Script& script, const LogRequest& request) {
     std::int64_t rows = 0;
     for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
         const Stage& stage = script.program->stages[k];
-        // A stage without an interval is logged ten times.
+        // A stage without an interval gets ten rows.
         const std::int64_t every = request.every > 0 ? request.every : stage.interval;
-        // The number of steps of a duration is not known in advance.
-        const bool is_known = !stage.time.duration && !stage.time.duration_in_steps;
+        // A stage that ends after a duration has an unknown number of steps, as has one of moments.
+        const bool is_known = !stage.time.has_duration() && !(stage.time.every > 0);
         if (is_known) rows += every > 0 ? stage.iterations / every : 10;
         if (rows <= most_log_rows) continue;
         return failure(fmt::format("the log would have more than {} rows", most_log_rows),
@@ -35,7 +36,7 @@ Result<void> check_rows(const Script& script, const LogRequest& request) {
     return {};
 }
 
-/// The place of the '=' in "NAME=EXPR"; 0 if there is no name.
+/// The position of the '=' in "NAME=EXPR". 0 if the text has no name.
 std::size_t end_of_name(std::string_view text) {
     const auto is_of_name = [](char c) {
         return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
@@ -56,7 +57,8 @@ std::optional<std::size_t> feature_called(std::string_view name) {
 
 }  // namespace
 
-/// A name of the script comes before that of a feature.
+/// Makes a column for each expression. If the script has an item with the name of a feature, the
+/// name means the item.
 std::vector<RunLog::Column> RunLog::columns_of(Script& script, const LogRequest& request,
                                                std::vector<std::string>& expressions) {
     std::vector<Column> columns;

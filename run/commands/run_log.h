@@ -1,4 +1,4 @@
-// Time series of a run: `--log EXPR` writes a table with a row every few steps.
+// The option `--log EXPR` writes a time series: a table with one row for each observed step.
 #pragma once
 
 #include "core/result.h"
@@ -17,21 +17,24 @@
 namespace cascade {
 
 struct LogRequest {
-    /// Uniform ones, perhaps after "NAME=", or names of features; without any, nothing is logged.
+    /// Uniform expressions, each optionally with "NAME=" in front of it, or names of features. If
+    /// empty, nothing is logged.
     std::vector<std::string> expressions;
-    std::int64_t every = 0;      ///< Steps between rows; 0 for each stage's `interval`.
-    std::filesystem::path file;  ///< Empty for a file beside the picture.
+    std::int64_t every = 0;      ///< Steps between rows. 0: the `interval` of each stage.
+    std::filesystem::path file;  ///< If empty, a file in the folder of the picture.
 };
 
-/// The most rows of a log, which is kept in memory.
+/// The largest number of rows of a log. All rows are in memory until the run ends.
 inline constexpr std::int64_t most_log_rows = 10'000'000;
 
-/// The rows of one run, in memory until the run ends, even if it diverges. Columns: stage, step, t,
-/// and each expression; a cell is empty if its expression has no meaning in the stage.
+/// The rows of one run. They stay in memory until the run ends, whether it succeeds or fails. The
+/// columns are the stage, the step, the time t, and one for each expression. A cell of the table is
+/// empty if its expression has no meaning in the stage.
 class RunLog {
 public:
-    /// Checks the expressions for all stages that run. One that fits none of them, or varies by
-    /// cell, is an error in `script.diagnostics`. Features are measured of what `picture` shows.
+    /// Checks the expressions for all stages that run. An expression that is valid in no stage, or
+    /// that varies by cell, is an error in `script.diagnostics`. Features are measured from the
+    /// values that `picture` shows.
     static Result<RunLog> create(Script& script, const LogRequest& request,
                                  const PictureRequest& picture);
 
@@ -39,7 +42,7 @@ public:
     std::int64_t every(const Stage& stage) const {
         return request_.every > 0 ? request_.every : stage.interval;
     }
-    /// Adds a row for the present state of a started stage, unless it already has that row.
+    /// Adds a row for the present state of a started stage, unless the table already has it.
     void record(const Simulation& simulation, std::uint32_t stage);
     Result<void> write(const std::filesystem::path& path) const;
 
@@ -50,7 +53,8 @@ private:
     };
     struct Column {
         std::string name;
-        std::optional<std::size_t> feature = {};  ///< Otherwise the next expression.
+        /// The feature in this column. If empty, the column has the next expression.
+        std::optional<std::size_t> feature = {};
     };
     static std::vector<Column> columns_of(Script& script, const LogRequest& request,
                                           std::vector<std::string>& expressions);
@@ -59,9 +63,9 @@ private:
     std::vector<std::string> stage_names_;
     std::vector<Column> columns_;
     UniformNumbers numbers_;
-    std::optional<Painter> painter_;  ///< With features.
+    std::optional<Painter> painter_;  ///< Present if a column has a feature.
     std::vector<Row> rows_;
-    std::vector<double> values_;  ///< Of all rows: t, then the columns.
+    std::vector<double> values_;  ///< By row: first t, then one value for each column.
     Precision precision_ = Precision::single;
 };
 

@@ -1,4 +1,4 @@
-// The options of `cascade run` as values, for checks.
+// The options of `cascade run` as an enumeration, so that checks can refer to them.
 #pragma once
 
 #include "run/commands/run.h"
@@ -14,9 +14,9 @@ enum class RunOption {
 #include "run/commands/run_options.def"
 };
 
-/// As it is typed, such as "--space-time".
+/// The option as it is typed, such as "--space-time".
 std::string flag_of(RunOption option);
-/// Whether it has another value than the initial one.
+/// Whether the value of the option differs from its initial value.
 bool is_given(const RunRequest& request, RunOption option);
 
 }  // namespace cascade

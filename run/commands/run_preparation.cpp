@@ -1,4 +1,4 @@
-// What must be known, made and checked before the first step.
+// Checks and makes everything that is needed before the first step.
 #include "run/commands/runner.h"
 
 #include "export/bake.h"
@@ -41,14 +41,14 @@ Result<void> Runner::prepare() {
     Result<SeriesFields> fields = SeriesFields();
     if (!request_.series.empty()) fields = series_fields(script_, request_, *painter_);
     if (!fields) return tl::unexpected(fields.error());
-    // Making the cells of a model takes a while, so what is written is checked before it, too.
-    if (script_.program->domain.model || request_.session) {
+    // Making the cells of a model takes a while, so outputs are also checked before that.
+    if (script_.program->domain.model || writes_one_moment(request_)) {
         if (auto good = check_places(Folders::tried); !good) return good;
     }
     if (auto made = make_simulation(); !made || report_.status == RunStatus::cancelled) return made;
     if (auto made = make_detailed(); !made || report_.status == RunStatus::cancelled) return made;
     choose_map_size();
-    // Folders are created last, so that a run that is refused leaves none.
+    // Folders are created last, so that a run that is refused leaves no folders.
     if (auto good = check_places(Folders::made); !good) return good;
     if (!request_.frames.empty()) {
         auto frames = earlier_frames(request_.frames, script_, !request_.resume.empty());
@@ -72,7 +72,7 @@ Result<void> Runner::prepare() {
     return restore_run(request_.resume, script_, *simulation_, control_.cancel);
 }
 
-/// Checks all places to which the run will write.
+/// Checks all files and folders to which the run will write.
 Result<void> Runner::check_places(Folders folders) {
     if (auto good = check_outputs(script_, request_, outputs_); !good) return good;
     if (!request_.save.empty()) {
@@ -81,8 +81,8 @@ Result<void> Runner::check_places(Folders folders) {
     return check_folders(request_, folders);
 }
 
-/// Saves the run periodically, so that it can be resumed if it is killed. An error of writing does
-/// not end the run; saving may succeed later.
+/// Saves the run at regular intervals, so that it can be resumed if it is killed. If a save fails,
+/// the run continues, because a later save may succeed.
 void Runner::keep_while_running() {
     if (!(request_.checkpoint_seconds > 0)) return;
     const auto between = std::chrono::duration<double>(request_.checkpoint_seconds);
@@ -93,14 +93,15 @@ void Runner::keep_while_running() {
             const TimeAccount::Scope spent(request_.simulation.account, Spent::drawing);
             const auto written = save_run(request_.save, script_, *simulation_);
             if (!written && control_.warn) {
-                control_.warn(fmt::format("the run could not be saved at {}, and continues: {}",
-                                          place(), written.error().message));
+                control_.warn(
+                    fmt::format("the run continues, although it could not be saved at {}: {}",
+                                place(), written.error().message));
             }
             *kept_at = Clock::now();
         });
 }
 
-/// Notes where the user has cancelled the run before its first step, if so.
+/// If the user has cancelled the run before its first step, records this and returns true.
 bool Runner::has_cancelled(std::string what) {
     if (!control_.cancel) return false;
     report_.status = RunStatus::cancelled;
@@ -108,7 +109,7 @@ bool Runner::has_cancelled(std::string what) {
     return true;
 }
 
-/// The run at the end of the session, which must be a run of the script.
+/// Repeats the session and returns its run at the end. The session must be one of this script.
 Result<std::unique_ptr<LiveRun>> Runner::play_session() {
     auto played = LiveRun::play(*request_.session, script_.folder, request_.simulation, control_);
     if (!played) {
@@ -124,7 +125,7 @@ Result<std::unique_ptr<LiveRun>> Runner::play_session() {
     return std::move(*played);
 }
 
-/// Makes texture coordinates if files need them, or checks those of the model.
+/// Makes texture coordinates if files need them, or checks the model's coordinates.
 Result<void> Runner::find_texture(const SurfaceMesh& mesh) {
     const ModelFileOptions& files = request_.model_files;
     if (!needs_texture(mesh, files)) {
@@ -148,7 +149,7 @@ Result<void> Runner::find_texture(const SurfaceMesh& mesh) {
     return {};
 }
 
-/// Chooses the size of maps where it follows from the cells.
+/// Computes the size of maps if it is given as texels for each cell.
 void Runner::choose_map_size() {
     ModelFileOptions& files = request_.model_files;
     if (!(files.texels_per_cell > 0)) return;
@@ -159,32 +160,38 @@ void Runner::choose_map_size() {
     if (say) say(size.remark);
 }
 
-/// There is no simulation if the user has cancelled it.
+/// Makes the simulation. There is none if the user cancels the call.
 Result<void> Runner::make_simulation() {
     SimulationOptions options = request_.simulation;
     options.control = &control_;
     options.check_model = [this](const SurfaceMesh& mesh) { return find_texture(mesh); };
     std::unique_ptr<LiveRun> played;
-    if (request_.session) {
+    const LiveRun* present = request_.present;
+    if (present == nullptr && request_.session) {
         auto run = play_session();
         if (!run && has_cancelled("a session that is played")) return {};
         if (!run) return tl::unexpected(run.error());
         played = std::move(*run);
-        options.known_model = played->simulation().domain().shared_model();
+        present = played.get();
+    }
+    if (present) {
+        options.known_model = present->simulation().domain().shared_model();
+        options.known_sizes = present->simulation().domain().known_sizes;
     }
     auto made = Simulation::create(script_, options);
     const char* const doing =
-        script_.program->domain.model ? "the making of the model's cells" : "the trials of 'size'";
+        script_.program->domain.model ? "making the model's cells" : "the trials of 'size'";
     if (!made && !script_.diagnostics.has_errors() && has_cancelled(doing)) return {};
     if (!made) return tl::unexpected(made.error());
     simulation_ = std::move(*made);
-    if (played && simulation_->domain().model) {
-        // It brought its model along, so that nothing has checked it yet.
+    if (present && simulation_->domain().model) {
+        // The session has loaded its own model, whose texture coordinates have not been checked
+        // yet.
         if (auto good = find_texture(simulation_->domain().model->cells->mesh); !good) return good;
     }
-    if (played) {
+    if (present) {
         const auto restored =
-            go_on(*simulation_, nullptr, played->values(), Continuation::same, control_.cancel);
+            go_on(*simulation_, nullptr, present->values(), Continuation::same, control_.cancel);
         if (!restored) return tl::unexpected(restored.error());
     }
     auto fits = check_picture_size(script_, request_.picture, simulation_->domain().memory,
@@ -194,11 +201,11 @@ Result<void> Runner::make_simulation() {
     return fits;
 }
 
-/// The finer cells of --detail.
+/// Makes the smaller cells of --detail.
 Result<void> Runner::make_detailed() {
     if (request_.picture.detail == 1) return {};
     auto made = DetailedRun::create(script_, request_, *simulation_, control_);
-    if (!made && !script_.diagnostics.has_errors() && has_cancelled("the making of finer cells"))
+    if (!made && !script_.diagnostics.has_errors() && has_cancelled("making finer cells"))
         return {};
     if (!made) return tl::unexpected(made.error());
     detailed_ = std::move(*made);

@@ -5,13 +5,8 @@
 #include "core/file_format.h"
 #include "run/commands/film_crew.h"
 #include "run/commands/run_checks.h"
-#include "run/pictures/body_picture.h"
-#include "run/pictures/cell_files.h"
 #include "run/pictures/frame_folder.h"
-#include "run/pictures/grid_files.h"
-#include "run/pictures/model_files.h"
 #include "run/pictures/model_picture.h"
-#include "run/pictures/plane_look.h"
 #include "run/script/embedded_script.h"
 #include "run/session/session_picture.h"
 
@@ -19,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace cascade {
 
@@ -39,7 +35,7 @@ bool RunResults::has(FormatKind kind) const {
     });
 }
 
-/// True for models and cells.
+/// Whether this is the path of a file of a model or of cells.
 static bool is_of_model(const std::filesystem::path& output) {
     const auto kind = output_kind(output);
     return kind == FormatKind::model || kind == FormatKind::cells;
@@ -52,9 +48,17 @@ void RunResults::say(std::string what) const {
     control.report(progress);
 }
 
-void RunResults::note_stop(std::string where) {
-    report.status = RunStatus::cancelled;
-    report.where = std::move(where);
+void RunResults::note_stop(const std::string& where) {
+    const bool has_stopped =
+        std::exchange(report.status, RunStatus::cancelled) == RunStatus::cancelled;
+    report.where = has_stopped ? fmt::format("{}, and at {}", report.where, where) : where;
+}
+
+/// Returns whether an output must be left out because the program must end. If so, adds a note
+/// about the output.
+bool RunResults::is_left_out(const std::string& what) {
+    if (control.hurry) note_stop(what);
+    return control.hurry;
 }
 
 std::optional<Image> RunResults::drawn(const Canvas& canvas, const std::string& what,
@@ -79,11 +83,12 @@ Result<void> RunResults::write_final_picture(const std::filesystem::path& path,
                                              const Canvas& canvas) {
     if (request.turntable > 0) return write_turntable(path, canvas);
     if (request.picture.space_time) return write_picture(path, frames->space_time(painter));
+    if (is_left_out(fmt::format("the drawing of {}", path.string()))) return {};
     const auto image = drawn(canvas, "drawing the picture", path);
     return image ? write_picture(path, *image) : Result<void>();
 }
 
-/// The view of a picture of a turntable.
+/// The direction of view of picture `number` in a turntable with `count` pictures.
 View RunResults::turned_view(std::size_t number, std::size_t count) const {
     View view = request.picture.view;
     view.is_turning = true;
@@ -107,18 +112,9 @@ Result<void> RunResults::write_turntable(const std::filesystem::path& path, cons
     return done;
 }
 
-/// Has --show asked for a number?
+/// Whether the picture shows the number of option --show.
 bool RunResults::shows_number(const Canvas& canvas) const {
     return !request.picture.show.empty() && !canvas.is_colour();
-}
-
-/// The channels of model files: the species of the stage that is shown, and the number of --show.
-std::vector<Channel> RunResults::channels(const Canvas& canvas) const {
-    const ModelCells& model = *simulation.domain().model->cells;
-    const auto numbers = [&](const Field& field) { return numbers_of_cells(field, model); };
-    std::vector<Channel> channels = species_channels(simulation, numbers);
-    if (shows_number(canvas)) channels.push_back({"shown", numbers(canvas.fields[0])});
-    return channels;
 }
 
 void RunResults::warn_of(const std::vector<std::string>& warnings) const {
@@ -128,11 +124,11 @@ void RunResults::warn_of(const std::vector<std::string>& warnings) const {
 }
 
 /// Writes each model and each file of cells, even if another one fails.
-Result<void> RunResults::write_each(
-    const std::function<Result<WrittenFiles>(const std::filesystem::path&)>& write_one) {
+Result<void> RunResults::write_each(const FileWriter& write_one) {
     std::optional<Failure> first;
     for (const auto& output : outputs) {
         if (!is_of_model(output)) continue;
+        if (is_left_out(fmt::format("the writing of {}", output.string()))) continue;
         say(fmt::format("writing {}", output.filename().string()));
         const auto written = write_one(output);
         if (!written) {
@@ -147,18 +143,19 @@ Result<void> RunResults::write_each(
     return {};
 }
 
-Result<void> RunResults::write_model_files(const Canvas& canvas) {
-    const ModelLook look = painter.look(canvas);
-    ModelFileWriter writer(*simulation.domain().model->cells, texture, look, channels(canvas),
-                           request.model_files, texts(request.picture));
+/// Writes the files of a model, crawling cells, a body, a plane or a slice of a volume.
+Result<void> RunResults::write_shown_files(const Canvas& canvas) {
+    const FileWriter write = writer_of({simulation, painter, canvas, texture, request.model_files,
+                                        texts(request.picture), shows_number(canvas)});
+    const bool is_model = !canvas.cells && simulation.domain().model;
     return write_each([&](const std::filesystem::path& path) -> Result<WrittenFiles> {
-        if (!request.model_files.is_animated(path)) return writer.write(path);
+        if (!is_model || !request.model_files.is_animated(path)) return write(path);
         if (auto done = write_growth(path); !done) return tl::unexpected(done.error());
         return WrittenFiles{{path}, {}};
     });
 }
 
-/// Of a model, by the frames of the run, in one range.
+/// Writes a model that shows all frames of the run. All frames have the same range.
 Result<void> RunResults::write_growth(const std::filesystem::path& path) {
     if (auto failed = frames->failure()) return tl::unexpected(*failed);
     if (frames->count() == 0) {
@@ -178,42 +175,6 @@ Result<void> RunResults::write_growth(const std::filesystem::path& path) {
                                {plan.frames.size(), look_of, 1 / plan.frames_per_second});
 }
 
-/// The files of cells that crawl.
-Result<void> RunResults::write_cell_files(const Canvas& canvas) {
-    const std::vector<Colour> colours = painter.colours_of_row(canvas);
-    const GrownCells cells{simulation, shown_stage(simulation), *canvas.cells, colours};
-    return write_each([&](const std::filesystem::path& path) {
-        return write_cells(path, cells, texture, request.model_files, texts(request.picture));
-    });
-}
-
-/// Of a volume whose picture is a body.
-Result<void> RunResults::write_body_files(const Canvas& canvas) {
-    const SurfaceMesh& body = *canvas.body;
-    const Grid& grid = simulation.domain().grid;
-    const auto numbers = [&](const Field& row) {
-        return std::vector<float>(row.row(0), row.row(0) + body.points.size());
-    };
-    std::vector<Channel> channels = species_channels(simulation, [&](const Field& field) {
-        return numbers(at_points(field, body, grid.boundary));
-    });
-    if (shows_number(canvas)) channels.push_back({"shown", numbers(canvas.fields[0])});
-    const std::vector<Colour> colours = painter.colours_of_row(canvas);
-    return write_each([&](const std::filesystem::path& path) {
-        return write_body(path, body, grid, {colours, channels}, request.model_files.levels);
-    });
-}
-
-/// Of a plane, or a slice of a volume.
-Result<void> RunResults::write_plane_files(const Canvas& canvas) {
-    const PlaneLook look =
-        painter.plane_look(painter.map_canvas(simulation, request.model_files.bake),
-                           painter.range_of(canvas));
-    return write_each([&](const std::filesystem::path& path) {
-        return write_plane(path, look, request.model_files, texts(request.picture));
-    });
-}
-
 Result<void> RunResults::write_outputs(const Canvas& canvas) {
     Result<void> result;
     for (const auto& output : outputs) {
@@ -228,20 +189,12 @@ Result<void> RunResults::write_outputs(const Canvas& canvas) {
         if (result) result = done;
     }
     if (!has(FormatKind::model) && !has(FormatKind::cells)) return result;
-    Result<void> done;
-    if (canvas.cells) {
-        done = write_cell_files(canvas);
-    } else if (simulation.domain().model) {
-        done = write_model_files(canvas);
-    } else if (canvas.body) {
-        done = write_body_files(canvas);
-    } else {
-        done = write_plane_files(canvas);
-    }
+    const auto done = write_shown_files(canvas);
     return result ? done : result;
 }
 
-/// How many frames are drawn at a time. The limit of memory counts one picture.
+/// The number of frames that are drawn at the same time. It is 1 if memory is limited, because the
+/// estimate of memory includes only one picture.
 int RunResults::drawing_threads() const {
     const SimulationOptions& options = request.simulation;
     if (options.memory_limit > 0) return 1;
@@ -250,9 +203,13 @@ int RunResults::drawing_threads() const {
 
 Result<void> RunResults::write_frames() {
     if (auto failed = frames->failure()) return tl::unexpected(*failed);
-    auto written =
-        frames->write(request.frames, painter, texts(request.picture), drawing_threads());
+    auto written = frames->write(request.frames, painter, texts(request.picture), drawing_threads(),
+                                 control.hurry);
     if (!written) return tl::unexpected(written.error());
+    if (written->size() < frames->count()) {
+        note_stop(fmt::format("frame {} of {} in {}", written->size(), frames->count(),
+                              request.frames.string()));
+    }
     report.written.insert(report.written.end(), written->begin(), written->end());
     if (const std::size_t stale = remove_stale_frames(earlier_frames, *written);
         stale > 0 && control.note) {
@@ -296,23 +253,42 @@ Result<void> RunResults::write_series() {
     return {};
 }
 
-Result<void> RunResults::write(const Canvas& canvas, const Result<void>& saved) {
+/// Writes the log, the volume and the series.
+Result<void> RunResults::write_numbers() {
+    Result<void> result;
+    const auto attempt = [&](const Result<void>& done) {
+        if (result) result = done;
+    };
+    if (log) attempt(write_log());
+    if (!request.volume.empty()) attempt(write_volume());
+    if (series) attempt(write_series());
+    return result;
+}
+
+RunResults::Early RunResults::write_early() {
+    Early early;
+    early.saved = save();
+    early.has_numbers = report.status == RunStatus::cancelled;
+    if (early.has_numbers) early.numbers = write_numbers();
+    return early;
+}
+
+Result<void> RunResults::write(const Canvas& canvas, const Early& early) {
     const TimeAccount::Scope spent(request.simulation.account, Spent::drawing);
-    // The run may have taken hours, so every output is written even if another one fails.
+    // The run may have taken hours, so an output is written even if another one has failed.
     std::optional<Failure> first;
     const auto attempt = [&](const Result<void>& done) {
         if (!done && !first) first = done.error();
     };
     attempt(write_outputs(canvas));
-    if (log) attempt(write_log());
     if (!request.frames.empty()) attempt(write_frames());
-    if (!request.sheet.empty()) {
+    if (!request.sheet.empty() &&
+        !is_left_out(fmt::format("the drawing of {}", request.sheet.string()))) {
         attempt(write_picture(request.sheet, draw_sheet(simulation, request.picture)));
     }
-    if (!request.volume.empty()) attempt(write_volume());
-    if (series) attempt(write_series());
-    attempt(saved);
-    if (!request.save.empty() && saved) report.written.push_back(request.save);
+    attempt(early.has_numbers ? early.numbers : write_numbers());
+    attempt(early.saved);
+    if (!request.save.empty() && early.saved) report.written.push_back(request.save);
     if (painter.fell_back() && control.warn) {
         control.warn(
             "where the picture names a stage that has not run, the default picture is "

@@ -1,4 +1,4 @@
-// The outputs of a run: pictures, models, frames, the log, a volume and the saved run.
+// Writes the outputs of a run: pictures, models, frames, the log, a volume and the saved run.
 #pragma once
 
 #include "core/file_format.h"
@@ -8,7 +8,7 @@
 #include "run/pictures/frames.h"
 #include "run/pictures/model_files.h"
 #include "run/pictures/series.h"
-#include "run/pictures/written_files.h"
+#include "run/pictures/shown_files.h"
 
 #include <functional>
 #include <span>
@@ -17,58 +17,64 @@ namespace cascade {
 
 class FilmCrew;
 
-/// A run whose stages have ended or were cancelled, with everything that it recorded.
+/// Everything that a finished or cancelled run has recorded.
 struct RunResults {
     const Script& script;
     const RunRequest& request;
     RunControl& control;
-    const std::vector<std::filesystem::path>& outputs;  ///< Of -o.
+    const std::vector<std::filesystem::path>& outputs;  ///< The paths of option -o.
     const Simulation& simulation;
-    /// What is saved: the run of the script's own cells, where the others show finer ones.
+    /// The run in the script's own cells. This is the run that is saved. With --detail, `script`
+    /// and `simulation` above have smaller cells.
     struct {
         const Script& script;
         const Simulation& simulation;
     } own;
-    const MeshTexture& texture;  ///< That was made for the model; may be empty.
+    const MeshTexture& texture;  ///< Texture coordinates made for the model. May be empty.
     Painter& painter;
-    std::span<Painter> panels;                                 ///< Of figures; empty: the picture.
-    FrameRecorder* frames;                                     ///< Null without frames.
-    const std::vector<std::filesystem::path>& earlier_frames;  ///< In the folder of frames.
-    RunLog* log;                                               ///< Null without --log.
-    SeriesWriter* series;                                      ///< Null without --series.
-    RunReport& report;                                         ///< Gets the paths of files.
+    /// One for each panel of figures. If empty, figures show the picture.
+    std::span<Painter> panels;
+    FrameRecorder* frames;  ///< Null if no frames are recorded.
+    /// Frames of an earlier run in the folder of frames.
+    const std::vector<std::filesystem::path>& earlier_frames;
+    RunLog* log;           ///< Null without --log.
+    SeriesWriter* series;  ///< Null without --series.
+    RunReport& report;     ///< Receives the paths of files.
 
-    /// Saves the run, if that was requested.
-    Result<void> save();
-    /// Writes everything else that was requested, pictures from the painter's last canvas. An
-    /// output that fails does not prevent the others; returns the first failure, of `saved`, too.
-    Result<void> write(const Canvas& canvas, const Result<void>& saved);
-    /// Writes only the log. There must be one.
+    /// What is written before pictures, whose drawing may fail or be interrupted: the saved run
+    /// and, after a cancel, all numbers.
+    struct Early {
+        Result<void> saved, numbers;
+        bool has_numbers = false;
+    };
+    Early write_early();
+    /// Writes all other requested outputs. Pictures show the painter's last canvas. If one output
+    /// fails, the others are still written. Returns the first failure, which may be one of `early`.
+    Result<void> write(const Canvas& canvas, const Early& early);
+    /// Writes only the log. The run must have a log.
     Result<void> write_log();
 
 private:
     Result<void> write_outputs(const Canvas& canvas);
     Result<void> write_final_picture(const std::filesystem::path& path, const Canvas& canvas);
-    /// The picture of a canvas for a file; `what` is said with the part that is drawn. Nothing,
-    /// with a note in the report, if Ctrl-C stops it.
+    /// Draws a canvas as a picture for the file `path`. If Ctrl-C stops the drawing, the result is
+    /// empty, and a note in the report says that `what` was left out and which part had been drawn.
     std::optional<Image> drawn(const Canvas& canvas, const std::string& what,
                                const std::filesystem::path& path);
-    /// Set by a Ctrl-C that has not ended the run before.
+    /// A flag that Ctrl-C sets or, if the run has already been cancelled, the need to end soon.
     const std::atomic<bool>& stop() const {
-        return report.status == RunStatus::cancelled ? never_cancelled : control.cancel;
+        return report.status == RunStatus::cancelled ? control.hurry : control.cancel;
     }
-    void note_stop(std::string where);
+    void note_stop(const std::string& where);
+    bool is_left_out(const std::string& what);
+    Result<void> save();
+    Result<void> write_numbers();
     Result<void> write_turntable(const std::filesystem::path& path, const Canvas& canvas);
     View turned_view(std::size_t number, std::size_t count) const;
     void warn_of(const std::vector<std::string>& warnings) const;
-    Result<void> write_each(
-        const std::function<Result<WrittenFiles>(const std::filesystem::path&)>& write_one);
-    Result<void> write_model_files(const Canvas& canvas);
+    Result<void> write_each(const FileWriter& write_one);
+    Result<void> write_shown_files(const Canvas& canvas);
     Result<void> write_growth(const std::filesystem::path& path);
-    Result<void> write_cell_files(const Canvas& canvas);
-    Result<void> write_body_files(const Canvas& canvas);
-    Result<void> write_plane_files(const Canvas& canvas);
-    std::vector<Channel> channels(const Canvas& canvas) const;
     bool shows_number(const Canvas& canvas) const;
     bool has(FormatKind kind) const;
     void say(std::string what) const;

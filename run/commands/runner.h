@@ -1,4 +1,4 @@
-// One run, from the first check to the report.
+// Carries out a run, from the first check to the report.
 #pragma once
 
 #include "run/commands/detailed_run.h"
@@ -20,15 +20,15 @@
 
 namespace cascade {
 
-/// Its arguments but the request must outlive it.
+/// All arguments except the request must outlive the runner.
 class Runner {
 public:
     Runner(Script& script, const RunRequest& request, RunControl& control)
         : script_(script), request_(request), control_(control) {}
 
-    /// As cascade::run().
+    /// See cascade::run().
     Result<RunReport> run();
-    /// Ends the simulation, which may report on its stages.
+    /// Finishes the work of the simulation, which may then report on its stages.
     void settle() {
         if (simulation_) simulation_->settle(control_);
     }
@@ -36,7 +36,7 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
-    // Before the first step (run_preparation.cpp):
+    // The following functions run before the first step (run_preparation.cpp).
     Result<void> prepare();
     Result<void> check_places(Folders folders);
     Result<void> make_simulation();
@@ -47,6 +47,7 @@ private:
     bool has_cancelled(std::string what);
     void keep_while_running();
 
+    bool has_nothing_to_lose() const;
     Result<void> run_stages();
     Result<void> settle_in_detail();
     Result<StageEnd> run_stage(std::uint32_t stage);
@@ -58,7 +59,7 @@ private:
     NextMoment moments_of(std::uint32_t stage) const;
     void remark_on_moments();
     bool frame_is_due(std::uint32_t stage);
-    double tenths_done(std::uint32_t stage) const;
+    double marks_done(std::uint32_t stage) const;
     std::int64_t observation_interval(const Stage& stage) const;
     std::string place() const;
     RunResults results();
@@ -73,18 +74,22 @@ private:
     RunReport report_;
     std::vector<std::filesystem::path> outputs_;
     std::unique_ptr<Simulation> simulation_;
-    MeshTexture texture_;                    ///< That was made for the model.
+    MeshTexture texture_;                    ///< Texture coordinates made for the model.
     std::unique_ptr<DetailedRun> detailed_;  ///< Null without --detail.
-    bool is_detailed_ = false;               ///< Has the run been carried there?
+    /// Whether the run has been carried to the smaller cells of --detail.
+    bool is_detailed_ = false;
     std::optional<Painter> painter_;
-    std::vector<Painter> panels_;  ///< Of figures.
+    std::vector<Painter> panels_;  ///< One for each panel of a figure.
     std::optional<FrameRecorder> frames_;
     std::optional<FrameLabels> labels_;
-    std::vector<std::filesystem::path> earlier_frames_;  ///< Of an earlier run, in their folder.
+    /// Frames that an earlier run has written to the same folder.
+    std::vector<std::filesystem::path> earlier_frames_;
     std::optional<RunLog> log_;
     std::unique_ptr<SeriesWriter> series_;
-    double tenths_seen_ = 0;  ///< Of the stage's duration, at the last frame.
-    std::optional<std::pair<std::uint32_t, double>> last_in_series_;  ///< Stage, and step or time.
+    double marks_seen_ = 0;  ///< How many marks of the stage had passed when
+                             ///< frame_is_due() was last called.
+    /// The stage of the last moment in the series, and its step or time.
+    std::optional<std::pair<std::uint32_t, double>> last_in_series_;
 };
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Saved runs: a folder with STAGE.NAME.npy for every field, and run.json for everything else.
+// Saves runs to a folder, with STAGE.NAME.npy for every field, and run.json for everything else.
 
 #include "core/file.h"
 #include "core/version.h"
@@ -64,21 +64,21 @@ Result<std::vector<std::filesystem::path>> save_run(const std::filesystem::path&
 
 namespace {
 
-/// The user may name a new place for the model of a saved run, but not another model.
+/// Takes the new path of the model that the user has given. Refuses a different model.
 Result<void> take_model(Overrides& saved, const Overrides& changes) {
     if (!changes.model) return {};
     const auto name = [](const std::string& path) {
         return std::filesystem::path(path).filename();
     };
     if (!saved.model || name(*saved.model) != name(*changes.model)) {
-        return failure("a resumed run keeps its model", "--mesh can only give its new place");
+        return failure("a resumed run keeps its model", "--mesh can only give its new location");
     }
     saved.model = changes.model;
     saved.model_is_asked_for = changes.model_is_asked_for;
     return {};
 }
 
-/// Checks that the grid and the seed in run.json are those of the script.
+/// Checks whether run.json and the script have the same grid and seed.
 Result<void> check_against_script(const std::filesystem::path& folder, const nlohmann::json& json,
                                   const Script& script, const Simulation& simulation) {
     const Grid& grid = simulation.domain().grid;
@@ -107,7 +107,8 @@ Result<Script> load_saved_script(const std::filesystem::path& folder, const Over
     try {
         auto overrides = overrides_from_json(json->at("overrides").dump());
         if (!overrides) return tl::unexpected(damaged(folder, overrides.error().message));
-        // The steps of the saved run would stop the resumed one, too.
+        // The limit on the steps of the saved run is not taken over, because it would stop the
+        // resumed run, too.
         overrides->steps = changes.steps;
         overrides->until_stage = changes.until_stage;
         overrides->reads = changes.reads;
@@ -127,7 +128,7 @@ Result<Script> load_saved_script(const std::filesystem::path& folder, const Over
 
 Result<void> restore_run(const std::filesystem::path& folder, const Script& script,
                          Simulation& simulation, const std::atomic<bool>& cancel) {
-    // A run in progress may be replacing this one.
+    // Another run may be replacing the saved run at this moment.
     const FolderLock lock(folder, true);
     auto json = read_saved_manifest(folder);
     if (!json) return tl::unexpected(json.error());
@@ -146,14 +147,14 @@ Result<void> restore_run(const std::filesystem::path& folder, const Script& scri
             if (auto started = simulation.start_stage(k, cancel); !started) return started;
             auto record = read_stage(folder, *json, stages[k], simulation, k);
             if (!record) return tl::unexpected(damaged(folder, record.error().message));
-            // With --steps, the saved run may have taken more steps than are allowed now.
+            // With --steps, the saved run may have taken more steps than the option allows now.
             const std::int64_t iterations = script.program->stages[k].iterations;
             if (!script.overrides.steps && record->steps > iterations) {
                 return tl::unexpected(
                     damaged(folder, fmt::format("stage {} has too many steps", k + 1)));
             }
-            // More steps may be requested than before, but not in a stage whose end a later one has
-            // used.
+            // A stage may take more steps than before, but only if no later stage has begun with
+            // its final state.
             const bool is_last = k + 1 == stages.size();
             record->done =
                 record->done && (!is_last || record->condition_met || record->steps >= iterations);

@@ -1,5 +1,5 @@
-// The protocol of files and renames, with flock() between writers and readers and fsync() between
-// its phases.
+// Writers and readers lock the folder with flock(). Writers call fsync() between the phases of a
+// change.
 #include "run/commands/saved_folder.h"
 
 #include "core/file.h"
@@ -44,7 +44,7 @@ bool is_manifest(const nlohmann::json& json) {
     return json.is_object() && json.contains("cascade");
 }
 
-/// Nothing if the manifest does not name the file, or if its entry is not valid.
+/// The entry of a file in run.json. Empty if it is missing or invalid.
 std::optional<SavedFile> saved_file(const nlohmann::json& manifest, const std::string& name) {
     const bool is_array = name.ends_with(".npy") && name.find('/') == std::string::npos;
     const auto files = manifest.find("files");
@@ -70,7 +70,8 @@ std::optional<SavedFile> saved_file(const nlohmann::json& manifest, const std::s
     return file;
 }
 
-/// True if a run of an earlier version owns this file, STAGE.NAME.npy.
+/// Whether a run of an earlier version, whose run.json has no list of files, owns this file
+/// STAGE.NAME.npy.
 bool is_array_of_a_stage(const nlohmann::json& manifest, std::string_view name) {
     const auto stages = manifest.find("stages");
     if (!name.ends_with(".npy") || stages == manifest.end() || !stages->is_array()) return false;
@@ -80,7 +81,7 @@ bool is_array_of_a_stage(const nlohmann::json& manifest, std::string_view name) 
     });
 }
 
-/// The names of a saved run's files that exist in the folder.
+/// The names of the files of a saved run, as far as they exist in the folder.
 std::vector<std::string> files_of(const nlohmann::json& manifest, const Descriptor& folder) {
     std::vector<std::string> names = names_in(folder);
     const bool is_listed = manifest.contains("files");
@@ -90,7 +91,8 @@ std::vector<std::string> files_of(const nlohmann::json& manifest, const Descript
     return names;
 }
 
-/// The manifest of the folder if there is one; fails if run.json is something else.
+/// The content of run.json in the folder, if it exists. Fails if run.json belongs to another
+/// program.
 Result<std::optional<nlohmann::json>> manifest_before(const fs::path& folder) {
     const fs::path path = folder / manifest_name;
     std::error_code error;
@@ -104,7 +106,7 @@ Result<std::optional<nlohmann::json>> manifest_before(const fs::path& folder) {
                    "save into another folder");
 }
 
-/// Refuses to replace anything but files of the previous run.
+/// Fails if the folder has a file with this name that is not part of the previous run.
 Result<void> check_name(const fs::path& folder, const std::string& name,
                         const std::vector<std::string>& before) {
     std::error_code error;
@@ -154,7 +156,8 @@ Result<std::unique_ptr<SavedFolderChange>> SavedFolderChange::begin(const fs::pa
     return change;
 }
 
-/// Completes the renames that a killed writer had committed, and removes its other files.
+/// Completes the renames of a writer that was killed after its commit, and removes the other files
+/// that killed writers have left.
 Result<void> SavedFolderChange::tidy() {
     const int folder = lock_.folder().number();
     const auto manifest = manifest_before(path_);
@@ -169,7 +172,8 @@ Result<void> SavedFolderChange::tidy() {
         }
     }
     if (*manifest) before_ = files_of(**manifest, lock_.folder());
-    if (!lock_.is_held()) return {};  // Another process may be writing them.
+    // If this process has no lock, another process may be writing these files.
+    if (!lock_.is_held()) return {};
     for (const std::string& name : names_in(lock_.folder())) {
         const bool is_known = std::find(kept.begin(), kept.end(), name) != kept.end();
         if (!is_temporary_name(name, unfinished_ending) || is_known) continue;
@@ -187,7 +191,8 @@ Result<void> SavedFolderChange::add(const std::string& name, std::string_view by
     return {};
 }
 
-/// Replaces run.json. Its first rename is the moment at which the new run replaces the old one.
+/// Replaces run.json. The rename of run.json is the moment at which the new run replaces the old
+/// one.
 int SavedFolderChange::replace_manifest(const nlohmann::json& manifest) {
     const std::string text =
         manifest.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
@@ -197,7 +202,7 @@ int SavedFolderChange::replace_manifest(const nlohmann::json& manifest) {
     if (const int error = file.write(text)) return error;
     if (const int error = file.rename_to(manifest_name)) return error;
     is_committed_ = true;
-    // The renames of other files must not reach the disk before that of run.json, even in a crash.
+    // Even if the machine crashes, no other rename may reach the disk before that of run.json.
     return ::fsync(folder) == 0 || errno == EINVAL ? 0 : errno;
 }
 
@@ -214,14 +219,14 @@ Result<std::vector<fs::path>> SavedFolderChange::commit(nlohmann::json manifest)
     std::vector<fs::path> written;
     bool have_their_names = true;
     for (const auto& [name, file] : files_) {
-        // If the rename fails, it is read under its temporary name.
+        // If the rename fails, the file is read later under its temporary name.
         const bool has_its_name =
             ::renameat(folder, file.written_as.c_str(), folder, name.c_str()) == 0;
         have_their_names = have_their_names && has_its_name;
         list[name].erase("written_as");
         written.push_back(path_ / name);
     }
-    // The same run has the same bytes: temporary names are listed only while they are in use.
+    // Temporary names are removed from run.json, so that saving the same run gives the same bytes.
     if (have_their_names) (void)replace_manifest(manifest);
     for (const std::string& name : before_) {
         if (!files_.contains(name)) ::unlinkat(folder, name.c_str(), 0);

@@ -1,11 +1,11 @@
-// The folder of a saved run, whose files are replaced atomically.
+// The folder of a saved run. Its files are replaced atomically.
 //
-// run.json defines which files belong to the run: it lists each with its size and checksum. New
-// files are written beside the old ones under temporary names, which the new run.json lists; then
-// it replaces the old run.json by one rename; only then are the files renamed, and the old ones
-// removed. A writer that is killed at any moment leaves the old run or the new one complete, and
-// the next writer cleans up. Files that no run.json lists are not touched. Runs of earlier versions
-// list no files; theirs are the arrays of their stages.
+// run.json lists the files of the run with their sizes and checksums. New files are first written
+// under temporary names in the same folder. The new run.json contains these names, and replaces the
+// old one in a single rename. Only after that are the new files renamed and the old ones removed.
+// So if a writer is killed at any moment, the folder contains either the old run or the new one
+// completely, and the next writer removes what is left over. Files that no run.json lists are not
+// touched. A run.json of earlier versions has no list. Its files are the arrays of its stages.
 #pragma once
 
 #include "core/descriptor.h"
@@ -23,14 +23,15 @@
 
 namespace cascade {
 
-/// While it exists, no other process changes the folder; if shared, others may read it, too. Waits
-/// for at most ten seconds. Advisory, and without effect on file systems without locks.
+/// Locks a folder against changes by other processes, as long as the object exists. A shared lock
+/// allows other readers. The constructor waits for the lock for at most ten seconds. The lock is
+/// advisory, and has no effect on file systems without locks.
 class FolderLock {
 public:
     FolderLock(const std::filesystem::path& folder, bool shared);
     const Descriptor& folder() const { return folder_; }
     bool is_held() const { return is_held_; }
-    /// Another process still holds it.
+    /// Whether another process still held the lock after that time.
     bool is_refused() const { return is_refused_; }
 
 private:
@@ -39,26 +40,28 @@ private:
     bool is_refused_ = false;
 };
 
-/// The entry of one file in run.json.
+/// The entry of a file in run.json.
 struct SavedFile {
     std::uint64_t bytes = 0;
     std::uint64_t checksum = 0;  ///< FNV-1a, 64 bits.
-    std::string written_as;      ///< Its temporary name, as long as it may have that; else empty.
+    /// The temporary name that the file may still have. Empty once the file has certainly been
+    /// renamed.
+    std::string written_as;
 };
 
 class SavedFolderChange {
 public:
-    /// Locks the folder, which must exist, and cleans up after a killed writer. Fails if run.json
-    /// is not that of a saved run.
+    /// Locks the folder, which must exist, and removes what a killed writer has left. Fails if
+    /// run.json does not belong to a saved run.
     static Result<std::unique_ptr<SavedFolderChange>> begin(const std::filesystem::path& folder);
-    /// Discards what was not committed.
+    /// Removes the new files unless commit() has succeeded.
     ~SavedFolderChange();
 
-    /// Writes a file of the new run. Also fails if a file of that name is not part of the previous
-    /// run.
+    /// Writes a file of the new run. Also fails if the folder has a file of that name that is not
+    /// part of the previous run.
     Result<void> add(const std::string& name, std::string_view bytes);
-    /// Replaces the previous run and removes its files; `manifest` is run.json without its list of
-    /// files. Returns the paths of the new files, run.json last.
+    /// Makes the new run replace the previous one, whose files are removed. `manifest` is run.json
+    /// without the list of files. Returns the paths of the new files, run.json last.
     Result<std::vector<std::filesystem::path>> commit(nlohmann::json manifest);
 
 private:
@@ -69,19 +72,21 @@ private:
     std::filesystem::path path_;
     FolderLock lock_;
     std::vector<std::string> before_;         ///< Files of the previous run.
-    std::map<std::string, SavedFile> files_;  ///< Of the new run.
+    std::map<std::string, SavedFile> files_;  ///< Files of the new run.
     bool is_committed_ = false;
 };
 
-/// Checks that a run with these files could be saved in the folder, if it exists.
+/// Checks whether a run with these files could be saved in the folder. A folder that does not exist
+/// is no error.
 Result<void> check_savable(const std::filesystem::path& folder,
                            const std::vector<std::string>& names);
 
-/// run.json of a saved run: an object that has "cascade". Nothing else in it is checked.
+/// Reads run.json, which must be an object with a member "cascade". Its other members are not
+/// checked.
 Result<nlohmann::json> read_saved_manifest(const std::filesystem::path& folder);
 
-/// A file of a saved run. Fails if its size or checksum differs from the manifest, and on anything
-/// but a regular file.
+/// Reads a file of a saved run. Fails if size or checksum differ from the manifest, or if it is not
+/// a regular file.
 Result<std::string> read_saved_file(const std::filesystem::path& folder,
                                     const nlohmann::json& manifest, const std::string& name);
 

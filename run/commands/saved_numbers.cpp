@@ -1,5 +1,5 @@
-// Each struct has one list of its members, with the least number that makes sense. The file may
-// have been changed, so all are checked.
+// Each struct has a single list of its members, with the smallest valid value of each. All numbers
+// are checked, because the file may have been changed.
 #include "run/commands/saved_numbers.h"
 
 #include "run/stage/stage_time.h"
@@ -73,8 +73,8 @@ bool read(const nlohmann::json& json, auto& record, const auto& members) {
     return makes_sense;
 }
 
-/// A stabilised solver has an odd number of stages. The steps of other solvers on models are split
-/// into any number of parts.
+/// Whether this number of stages of a step is valid. Stabilised solvers need an odd number. Other
+/// solvers on models may divide steps into any number of parts.
 bool makes_sense(std::uint32_t stages, Solver solver) {
     if (!is_stabilised(solver)) return stages <= most_substeps;
     return stages <= most_stages && (stages == 0 || stages % 2 == 1);

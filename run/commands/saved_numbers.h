@@ -1,5 +1,5 @@
-// The time of a stage in the manifest of a saved run: the state from which it goes on with the same
-// bits.
+// Stores the time of a stage in the file run.json of a saved run, so that a resumed run gets the
+// same values, bit for bit.
 #pragma once
 
 #include "ir/solver.h"
@@ -16,16 +16,17 @@ namespace cascade {
 nlohmann::json to_json(const StageMoment& progress);
 nlohmann::json to_json(const TissueTime& time);
 
-/// The last evaluation of `until: steady(…)`; its species are separate arrays.
+/// The last evaluation of `until: steady(…)`. The species at that moment are in separate arrays.
 struct SavedLook {
     double t = 0;
-    std::vector<Formation> formations;  ///< By species.
+    std::vector<Formation> formations;  ///< One for each species.
 };
 
-// Both throw what the JSON library throws, and return false if a number is out of range.
+// The following functions throw the exceptions of the JSON library, and return false if a number is
+// out of range.
 
-/// Reads the time of a stage of fields with this solver, and the last evaluation of `steady`, if
-/// there was one.
+/// Reads the time of a stage of fields with this solver. `look` receives the last evaluation of
+/// `steady`. It is empty if there was none.
 bool read_json(const nlohmann::json& json, Solver solver, StageMoment& progress,
                std::optional<SavedLook>& look);
 bool read_json(const nlohmann::json& json, TissueTime& time);

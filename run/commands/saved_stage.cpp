@@ -1,6 +1,6 @@
-// Fields have the shape of the grid, or are one row of the cells of a model, in the order of its
-// file. Cells that crawl are in the order of their numbers. The files may have been changed, so
-// sizes and ranges are checked.
+// Fields have the shape of the grid. On a model they are one row of cells in the order of its file.
+// Cells that crawl are in the order of their numbers. Sizes and ranges are checked, because files
+// may have been changed.
 #include "run/commands/saved_stage.h"
 
 #include "picture/npy.h"
@@ -23,11 +23,11 @@ namespace cascade {
 
 namespace {
 
-/// Suffix of species as they were at the last test of `until: steady(…)`.
+/// The suffix of species at the last evaluation of `until: steady(…)`.
 constexpr std::string_view last_look = ".last";
-// No quantity has such a name.
+// No quantity can have these names.
 constexpr std::string_view numbers_array = "cells-numbers", triangles_array = "cells-triangles";
-/// Suffix of the direction in which rates change fastest.
+/// The suffix of the direction in which rates change fastest.
 constexpr std::string_view stiffest = ".stiffest";
 
 std::string array_name(const Program& program, std::uint32_t stage, std::string_view what) {
@@ -38,7 +38,7 @@ std::string with_suffix(std::string_view item, std::string_view suffix) {
     return fmt::format("{}{}", item, suffix);
 }
 
-/// Adds the arrays of one stage to a saved run, until one fails.
+/// Writes the arrays of one stage. After a failure it writes nothing more.
 class ArrayWriter {
 public:
     ArrayWriter(SavedFolderChange& change, const Simulation& simulation, std::uint32_t stage)
@@ -53,7 +53,7 @@ public:
         put(what, field);
     }
 
-    /// Values of cells that crawl, if there are any.
+    /// Writes values of crawling cells, if there are any.
     void add(std::string_view what, const std::vector<double>& values) {
         if (values.empty()) return;
         Plane<double> row(PlaneLayout(Grid{static_cast<std::int64_t>(values.size()), 1}));
@@ -76,14 +76,14 @@ private:
     Result<void> result_;
 };
 
-/// Reads the arrays of one stage. What follows the first failure is empty.
+/// Reads the arrays of one stage. After a failure all further arrays are empty.
 class ArrayReader {
 public:
     ArrayReader(const std::filesystem::path& folder, const nlohmann::json& manifest,
                 const Simulation& simulation, std::uint32_t stage)
         : folder_(folder), manifest_(manifest), simulation_(simulation), stage_(stage) {}
 
-    /// The values of an item of fields, or of another array of the same shape.
+    /// Reads the values of an item of fields, or another array of the same shape.
     Field field(std::string_view what) {
         const Precision precision = simulation_.domain().program->domain.precision;
         const SimulationDomain& domain = simulation_.domain(stage_);
@@ -98,7 +98,7 @@ public:
         }
         Field field = to_field(*array, precision);
         if (model) field = in_rows(field, *model->cells);
-        // Outside of the mask, files hold NaN but runs 0.
+        // Outside the mask, files contain NaN and runs contain 0.
         if (domain.mask) field = with_outside(field, *domain.mask, 0);
         return field;
     }
@@ -109,7 +109,7 @@ public:
         return result;
     }
 
-    /// The values of cells that crawl, which are finite.
+    /// Reads values of crawling cells, which must be finite.
     std::vector<double> values(std::string_view what) {
         auto array = read(what, Precision::binary64);
         if (!array) return {};
@@ -121,13 +121,13 @@ public:
         return failure_ ? std::vector<double>() : std::move(array->values);
     }
 
-    /// Whole numbers of 32 bits.
+    /// Reads whole numbers of 32 bits.
     std::vector<std::uint32_t> words(std::string_view what) {
         std::vector<std::uint32_t> result;
         for (const double value : values(what)) {
             const bool is_word = value >= 0 && value == std::floor(value) &&
                                  value <= std::numeric_limits<std::uint32_t>::max();
-            if (!is_word) fail(what, "has a number that is none of cells");
+            if (!is_word) fail(what, "has a number that is not a number of cells");
             result.push_back(is_word ? static_cast<std::uint32_t>(value) : 0);
         }
         return result;
@@ -158,12 +158,25 @@ private:
     const nlohmann::json& manifest_;
     const Simulation& simulation_;
     std::uint32_t stage_;
-    std::size_t count_ = 0;  ///< Of cells; 0 before the first array.
+    std::size_t count_ = 0;  ///< The number of cells; 0 before the first array is read.
     std::optional<Failure> failure_;
 };
 
-nlohmann::json save_cells(ArrayWriter& arrays, const TissueRecord& record, const Program& program,
-                          std::uint32_t stage) {
+void save_fields(ArrayWriter& arrays, const StageState& state, const Program& program,
+                 std::uint32_t stage, nlohmann::json&) {
+    const System& system = program.system_of(stage);
+    for (const ItemId item : recorded_items(program, stage)) {
+        arrays.add(system.item_name(item), state.field(item));
+    }
+    const std::span<const Field> looked_at = state.watch.last();
+    for (std::size_t species = 0; species < looked_at.size(); ++species) {
+        arrays.add(with_suffix(species_name(system, species), last_look), looked_at[species]);
+    }
+}
+
+void save_cells(ArrayWriter& arrays, const StageState& state, const Program& program,
+                std::uint32_t stage, nlohmann::json& saved) {
+    const TissueRecord record = state.tissue()->record();
     const System& system = program.system_of(stage);
     arrays.add(numbers_array, {record.numbers.begin(), record.numbers.end()});
     arrays.add(triangles_array, {record.triangles.begin(), record.triangles.end()});
@@ -174,15 +187,15 @@ nlohmann::json save_cells(ArrayWriter& arrays, const TissueRecord& record, const
         if (!species || record.stiffest.empty()) continue;
         arrays.add(with_suffix(name, stiffest), record.stiffest[species->index()]);
     }
-    return {{"count", record.numbers.size()},
-            {"next_number", record.next_number},
-            {"births", record.births},
-            {"deaths", record.deaths},
-            {"knows_stiffest", !record.stiffest.empty()},
-            {"time", to_json(record.time)}};
+    saved["cells"] = {{"count", record.numbers.size()},
+                      {"next_number", record.next_number},
+                      {"births", record.births},
+                      {"deaths", record.deaths},
+                      {"knows_stiffest", !record.stiffest.empty()},
+                      {"time", to_json(record.time)}};
 }
 
-/// Are the cells on triangles of the surface on which they crawl?
+/// Whether every cell is on an existing triangle of the surface on which it crawls.
 bool are_on_surface(const TissueRecord& record, const Simulation& simulation, std::uint32_t stage) {
     const auto model = simulation.domain().shared_model();
     const auto body = body_under_cells(simulation.state(stage));
@@ -193,8 +206,39 @@ bool are_on_surface(const TissueRecord& record, const Simulation& simulation, st
     });
 }
 
-Result<TissueRecord> read_cells(ArrayReader& arrays, const nlohmann::json& saved,
-                                const Simulation& simulation, std::uint32_t stage) {
+Result<void> read_fields(ArrayReader& arrays, const nlohmann::json& manifest,
+                         const Simulation& simulation, std::uint32_t stage, StageRecord& record) {
+    const Program& program = *simulation.domain().program;
+    const System& system = program.system_of(stage);
+    // Most parameters have the values that the start computes. Painted ones have been saved.
+    RecordedFields fields;
+    for (const ItemId item : recorded_items(program, stage)) {
+        const std::string_view name = system.item_name(item);
+        const bool is_species = system.is_species(item);
+        fields.emplace(name, is_species ? arrays.finite_field(name) : arrays.field(name));
+    }
+    record.values = std::move(fields);
+    std::optional<SavedLook> look;
+    const Solver solver = program.stages[stage].time.solver;
+    if (!read_json(manifest.at("time"), solver, record, look))
+        return failure("its time makes no sense");
+    if (look) {
+        std::vector<Field> looked_at;
+        for (const ItemId item : system.species()) {
+            looked_at.push_back(
+                arrays.finite_field(with_suffix(system.item_name(item), last_look)));
+        }
+        if (look->formations.size() != looked_at.size())
+            return failure("it lacks the course of a species");
+        record.watch.remember(std::move(looked_at), look->t, std::move(look->formations));
+    }
+    if (arrays.failure()) return tl::unexpected(*arrays.failure());
+    return {};
+}
+
+Result<void> read_cells(ArrayReader& arrays, const nlohmann::json& manifest,
+                        const Simulation& simulation, std::uint32_t stage, StageRecord& of_stage) {
+    const nlohmann::json& saved = manifest.at("cells");
     const Program& program = *simulation.domain().program;
     const System& system = program.system_of(stage);
     TissueRecord record;
@@ -229,8 +273,33 @@ Result<TissueRecord> read_cells(ArrayReader& arrays, const nlohmann::json& saved
     }
     if (!are_on_surface(record, simulation, stage))
         return failure("its cells are on triangles that their surface does not have");
-    if (!has_time) return failure("the time of its cells makes no sense");
-    return record;
+    if (!has_time) return failure("the time of its cells is not a valid number");
+    of_stage.values = std::make_shared<const TissueRecord>(std::move(record));
+    return {};
+}
+
+/// How the values of stages of one kind are saved.
+struct SavedKind {
+    std::vector<std::string_view> arrays;            ///< Besides the arrays of items.
+    std::string_view (*second_array)(const Stage&);  ///< The suffix of another one of each species.
+    void (*save)(ArrayWriter& arrays, const StageState& state, const Program& program,
+                 std::uint32_t stage, nlohmann::json& manifest);
+    Result<void> (*read)(ArrayReader& arrays, const nlohmann::json& manifest,
+                         const Simulation& simulation, std::uint32_t stage, StageRecord& record);
+};
+
+const SavedKind& saved_kind(const System& system) {
+    static const SavedKind fields{{},
+                                  [](const Stage& stage) {
+                                      return stage.time.steady ? last_look : std::string_view();
+                                  },
+                                  save_fields,
+                                  read_fields};
+    static const SavedKind cells{{numbers_array, triangles_array},
+                                 [](const Stage&) { return stiffest; },
+                                 save_cells,
+                                 read_cells};
+    return system.cells ? cells : fields;
 }
 
 }  // namespace
@@ -241,16 +310,13 @@ std::vector<std::string> stage_arrays(const Program& program, std::uint32_t stag
     const auto add = [&](std::string_view what) {
         names.push_back(array_name(program, stage, what));
     };
-    if (system.cells) {
-        add(numbers_array);
-        add(triangles_array);
-    }
+    const SavedKind& kind = saved_kind(system);
+    const std::string_view second = kind.second_array(program.stages[stage]);
+    for (const std::string_view array : kind.arrays) add(array);
     for (const ItemId item : recorded_items(program, stage)) {
         const std::string_view name = system.item_name(item);
         add(name);
-        if (!system.is_species(item)) continue;
-        if (system.cells) add(with_suffix(name, stiffest));
-        else if (program.stages[stage].time.steady) add(with_suffix(name, last_look));
+        if (system.is_species(item) && !second.empty()) add(with_suffix(name, second));
     }
     return names;
 }
@@ -258,7 +324,6 @@ std::vector<std::string> stage_arrays(const Program& program, std::uint32_t stag
 Result<nlohmann::json> save_stage(SavedFolderChange& change, const Simulation& simulation,
                                   std::uint32_t stage) {
     const Program& program = *simulation.domain().program;
-    const System& system = program.system_of(stage);
     const StageState& state = simulation.state(stage);
     ArrayWriter arrays(change, simulation, stage);
     nlohmann::json saved{{"name", program.stages[stage].name},
@@ -266,17 +331,7 @@ Result<nlohmann::json> save_stage(SavedFolderChange& change, const Simulation& s
                          {"done", state.done},
                          {"condition_met", state.condition_met},
                          {"time", to_json(static_cast<const StageMoment&>(state))}};
-    if (state.tissue) {
-        saved["cells"] = save_cells(arrays, state.tissue->record(), program, stage);
-    } else {
-        for (const ItemId item : recorded_items(program, stage)) {
-            arrays.add(system.item_name(item), state.field(item));
-        }
-        const std::span<const Field> looked_at = state.watch.last();
-        for (std::size_t species = 0; species < looked_at.size(); ++species) {
-            arrays.add(with_suffix(species_name(system, species), last_look), looked_at[species]);
-        }
-    }
+    saved_kind(program.system_of(stage)).save(arrays, state, program, stage, saved);
     if (!arrays.result()) return tl::unexpected(arrays.result().error());
     return saved;
 }
@@ -284,41 +339,15 @@ Result<nlohmann::json> save_stage(SavedFolderChange& change, const Simulation& s
 Result<StageRecord> read_stage(const std::filesystem::path& folder, const nlohmann::json& manifest,
                                const nlohmann::json& saved, const Simulation& simulation,
                                std::uint32_t stage) {
-    const Program& program = *simulation.domain().program;
-    const System& system = program.system_of(stage);
     ArrayReader arrays(folder, manifest, simulation, stage);
     StageRecord record;
     saved.at("steps").get_to(record.steps);
     saved.at("done").get_to(record.done);
     record.condition_met = saved.value("condition_met", record.done);
     if (record.steps < 0) return failure("a number of steps is negative");
-    if (system.cells) {
-        auto cells = read_cells(arrays, saved.at("cells"), simulation, stage);
-        if (!cells) return tl::unexpected(cells.error());
-        record.cells = std::make_shared<const TissueRecord>(*std::move(cells));
-        return record;
-    }
-    // Parameters are mostly as the start of the stage gives them; some may have been painted.
-    for (const ItemId item : recorded_items(program, stage)) {
-        const std::string_view name = system.item_name(item);
-        const bool is_species = system.is_species(item);
-        record.fields.emplace(name, is_species ? arrays.finite_field(name) : arrays.field(name));
-    }
-    std::optional<SavedLook> look;
-    const Solver solver = program.stages[stage].time.solver;
-    if (!read_json(saved.at("time"), solver, record, look))
-        return failure("its time makes no sense");
-    if (look) {
-        std::vector<Field> looked_at;
-        for (const ItemId item : system.species()) {
-            looked_at.push_back(
-                arrays.finite_field(with_suffix(system.item_name(item), last_look)));
-        }
-        if (look->formations.size() != looked_at.size())
-            return failure("it lacks the course of a species");
-        record.watch.remember(std::move(looked_at), look->t, std::move(look->formations));
-    }
-    if (arrays.failure()) return tl::unexpected(*arrays.failure());
+    const System& system = simulation.domain().program->system_of(stage);
+    if (auto good = saved_kind(system).read(arrays, saved, simulation, stage, record); !good)
+        return tl::unexpected(good.error());
     return record;
 }
 

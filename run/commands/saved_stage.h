@@ -1,4 +1,4 @@
-// One stage in a saved run: an array for each of its values, and the rest in the manifest.
+// Stores one stage of a saved run: an array for each plane of values, and all else in the manifest.
 #pragma once
 
 #include "core/result.h"
@@ -18,13 +18,13 @@ namespace cascade {
 /// The names of all arrays that a stage may have.
 std::vector<std::string> stage_arrays(const Program& program, std::uint32_t stage);
 
-/// Adds the arrays of a stage that has started, and returns its part of the manifest.
+/// Writes the arrays of a started stage, and returns its part of the manifest.
 Result<nlohmann::json> save_stage(SavedFolderChange& change, const Simulation& simulation,
                                   std::uint32_t stage);
 
-/// Reads a stage back, for a simulation in which it has started. `saved` is its part of the
-/// manifest. Fails on arrays that do not fit together and on numbers out of range; the message
-/// follows "is damaged: ". Throws what the JSON library throws.
+/// Reads the stage whose part of the manifest is `saved`, for a simulation in which it has started.
+/// Fails if arrays do not fit together or numbers are out of range, with a message that continues
+/// "is damaged: ". Throws the exceptions of the JSON library.
 Result<StageRecord> read_stage(const std::filesystem::path& folder, const nlohmann::json& manifest,
                                const nlohmann::json& saved, const Simulation& simulation,
                                std::uint32_t stage);

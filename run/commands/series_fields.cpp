@@ -1,4 +1,4 @@
-// Expressions that have a meaning are evaluated together.
+// All expressions that have a meaning in the stage are evaluated together.
 #include "run/commands/series_fields.h"
 
 #include "run/commands/stage_formulas.h"

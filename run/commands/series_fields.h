@@ -1,4 +1,4 @@
-// The fields that a run writes into the arrays of --series.
+// The fields that a run writes to the arrays of option --series.
 #pragma once
 
 #include "core/result.h"
@@ -8,8 +8,9 @@
 
 namespace cascade {
 
-/// The expressions of --field, in the stage that is shown; without any, the number that pictures
-/// show. `painter` must outlive the result. A wrong expression is an error in `script.diagnostics`.
+/// The fields that the expressions of --field give in the shown stage. Without --field, the number
+/// that pictures show. `painter` must outlive the result. An invalid expression is an error in
+/// `script.diagnostics`.
 Result<SeriesFields> series_fields(Script& script, const RunRequest& request, Painter& painter);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// An expression that fits no stage gets the message of the last one, as --show does.
+// If an expression is valid in no stage, the error of the last stage is reported, as for --show.
 #include "run/commands/stage_formulas.h"
 
 #include "lang/check/check.h"

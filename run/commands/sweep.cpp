@@ -1,11 +1,12 @@
-// A pool of threads, each taking single-threaded runs with a shared compiler; results are written
-// as they arrive, so that a later sweep can reuse them.
+// Several threads take runs, each of which uses a single thread. All runs share a compiler. Each
+// result is written as soon as its run ends, so that a later sweep can reuse it.
 #include "run/commands/sweep.h"
 
 #include "core/file.h"
 #include "core/parallel.h"
 #include "core/temporary_file.h"
 #include "run/commands/run.h"
+#include "run/commands/sweep_plan.h"
 #include "run/domain/free_memory.h"
 #include "run/pictures/measured.h"
 #include "run/pictures/picture_remarks.h"
@@ -30,7 +31,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr auto between_reports = std::chrono::milliseconds(100);
 
-/// Joins the lines, for a table.
+/// Joins the lines of a text, so that it fits into a cell of the table.
 std::string one_line(std::string text) {
     std::replace(text.begin(), text.end(), '\n', ' ');
     return text;
@@ -41,12 +42,6 @@ void add_remark(SweepResult& result, const std::string& words) {
     result.remark += (result.remark.empty() ? "" : "; ") + one_line(words);
 }
 
-struct Run {
-    Overrides overrides;
-    std::vector<std::string> values;
-    std::string key;
-};
-
 class Sweeper {
 public:
     Sweeper(const Script& script, const SweepRequest& request, SweepControl& control)
@@ -55,12 +50,9 @@ public:
     tl::expected<SweepReport, SweepError> run();
 
 private:
-    using Done = tl::expected<void, SweepError>;
-
-    Done plan();
-    Done plan_run(std::size_t number);
     Result<void> prepare_folders();
-    bool is_done(std::size_t number);
+    Result<std::optional<SweepResult>> gather(const std::string& key);
+    Result<bool> is_done(std::size_t number);
     Result<void> choose_workers(const std::vector<std::size_t>& waiting);
     void run_all(const std::vector<std::size_t>& waiting);
     void work(const std::vector<std::size_t>& waiting, RunControl& control);
@@ -71,81 +63,29 @@ private:
     void report();
     void keep(std::size_t number, SweepResult result);
     void give_up(SweepError why);
-    Script load(const Run& run) const {
-        return load_script(script_.name, script_.text, script_.folder, run.overrides);
-    }
 
     const Script& script_;
     const SweepRequest& request_;
     SweepControl& control_;
     std::filesystem::path folder_;
-    SimulationOptions simulation_;  ///< Of every run: one thread, a shared compiler.
-    std::vector<Run> runs_;
+    /// The options of every run, with one thread and the shared compiler.
+    SimulationOptions simulation_;
+    SweepPlan plan_;
     std::vector<std::optional<SweepResult>> results_;
-    double waiting_runs_ = 0;     ///< Number of runs to take.
-    double memory_of_a_run_ = 0;  ///< Bytes; every run checks it again.
+    double waiting_runs_ = 0;  ///< The number of runs to take.
     int workers_ = 1;
     SweepReport report_;
     Clock::time_point begun_;
-    bool is_alone_ = false;  ///< No thread could be created: the caller's takes the runs.
+    /// Whether no thread could be created. The caller's thread then takes the runs.
+    bool is_alone_ = false;
 
-    std::mutex mutex_;  ///< Guards the members below, and `results_` while runs go on.
+    std::mutex mutex_;  ///< Protects the members below, and `results_` during the runs.
     std::condition_variable changed_;
     std::size_t next_ = 0;
     std::size_t working_ = 0;
-    double shares_done_ = 0;  ///< Of those runs, each 0 … 1.
+    double shares_done_ = 0;  ///< The sum over all runs of the finished fraction of each, 0 … 1.
     std::optional<SweepError> stopped_by_;
 };
-
-Sweeper::Done Sweeper::plan_run(std::size_t number) {
-    Run run;
-    run.values = values_of_run(request_.varied, number);
-    auto overrides = overrides_of_run(script_.overrides, request_.varied, run.values);
-    if (!overrides) return tl::unexpected(SweepError{overrides.error()});
-    run.overrides = std::move(*overrides);
-    Script script = load(run);
-    if (!script.program) {
-        const auto fault = request_.sets ? fault_in(*request_.sets, script, number) : std::nullopt;
-        if (fault) return tl::unexpected(SweepError{*fault, std::nullopt, true});
-        return tl::unexpected(
-            SweepError{{"a script of the sweep is wrong", ""}, std::move(script)});
-    }
-    run.key = key_of_run(script, request_.picture, request_.tile_side);
-    if (number == 0) {
-        if (script.program->stages.empty()) {
-            return tl::unexpected(
-                SweepError{{"this script has no stage to run", example_of_stage(*script.program)}});
-        }
-        if (auto painter = Painter::create(script, request_.picture); !painter) {
-            SweepError error{painter.error()};
-            if (script.diagnostics.has_errors()) error.script = std::move(script);
-            return tl::unexpected(std::move(error));
-        }
-        memory_of_a_run_ = memory_of(*script.program);
-    }
-    runs_.push_back(std::move(run));
-    return {};
-}
-
-Sweeper::Done Sweeper::plan() {
-    const auto count = count_runs(request_.varied);
-    if (!count) return tl::unexpected(SweepError{count.error()});
-    // The sheet is one picture in memory.
-    constexpr double most_pixels = 1 << 27;
-    const double pixels = static_cast<double>(*count) * request_.tile_side * request_.tile_side;
-    if (pixels > most_pixels) {
-        return tl::unexpected(
-            SweepError{{fmt::format("a sheet of {} tiles of {} × {} pixels is too large", *count,
-                                    request_.tile_side, request_.tile_side),
-                        "make the tiles smaller with --tile"}});
-    }
-    for (std::size_t number = 0; number < *count; ++number) {
-        if (auto planned = plan_run(number); !planned) return planned;
-    }
-    results_.resize(*count);
-    report_.runs = *count;
-    return {};
-}
 
 Result<void> Sweeper::prepare_folders() {
     if (auto good = check_sweep_film(request_, control_.cancel); !good) return good;
@@ -159,13 +99,32 @@ Result<void> Sweeper::prepare_folders() {
     return {};
 }
 
-/// Takes over the result of an earlier sweep, if there is one.
-bool Sweeper::is_done(std::size_t number) {
+/// Copies the result of a run from another sweep. Returns nothing if no sweep has it.
+Result<std::optional<SweepResult>> Sweeper::gather(const std::string& key) {
+    for (const auto& folder : request_.gathered) {
+        auto result = read_result(folder / "runs", key);
+        if (!result) continue;
+        if (auto written = write_result(folder_ / "runs", key, *result); !written) {
+            return tl::unexpected(written.error());
+        }
+        return result;
+    }
+    return std::optional<SweepResult>();
+}
+
+/// Uses the result of an earlier sweep for a run. Returns false if there is none.
+Result<bool> Sweeper::is_done(std::size_t number) {
     if (request_.force) return false;
-    auto result = read_result(folder_ / "runs", runs_[number].key);
+    const std::string& key = plan_.runs[number].key;
+    auto result = read_result(folder_ / "runs", key);
+    if (!result) {
+        auto gathered = gather(key);
+        if (!gathered) return tl::unexpected(gathered.error());
+        result = *std::move(gathered);
+    }
     if (!result) return false;
     const auto saved =
-        folder_ / "fields" / folder_name(request_.varied, runs_[number].values) / "run.json";
+        folder_ / "fields" / folder_name(request_.varied, plan_.runs[number].values) / "run.json";
     std::error_code error;
     const bool has_fields = result->failed() || std::filesystem::exists(saved, error);
     if (request_.fields && !has_fields) return false;
@@ -173,7 +132,7 @@ bool Sweeper::is_done(std::size_t number) {
     return true;
 }
 
-/// Chooses the number of concurrent runs by threads and memory.
+/// Chooses the number of concurrent runs, as far as the threads and the free memory allow.
 Result<void> Sweeper::choose_workers(const std::vector<std::size_t>& waiting) {
     const int threads =
         request_.simulation.threads > 0 ? request_.simulation.threads : hardware_threads();
@@ -183,10 +142,10 @@ Result<void> Sweeper::choose_workers(const std::vector<std::size_t>& waiting) {
         const auto limit = static_cast<double>(request_.simulation.memory_limit);
         memory = memory > 0 ? std::min(memory, limit) : limit;
     }
-    if (memory > 0 && memory_of_a_run_ > 0) {
-        // A single run that does not fit reports that itself.
-        workers_ = std::max(
-            1, std::min<int>(workers_, static_cast<int>(std::min(1e6, memory / memory_of_a_run_))));
+    if (memory > 0 && plan_.memory_of_a_run > 0) {
+        // If memory is too small for even a single run, that run reports the error.
+        workers_ = std::max(1, std::min<int>(workers_, static_cast<int>(std::min(
+                                                           1e6, memory / plan_.memory_of_a_run))));
     }
     simulation_ = request_.simulation;
     simulation_.threads = 1;
@@ -213,14 +172,14 @@ Result<void> Sweeper::run_stages(Script& script, Simulation& simulation, RunCont
 }
 
 void Sweeper::take(std::size_t number, RunControl& control) {
-    const Run& run = runs_[number];
-    Script script = load(run);
+    const PlannedRun& run = plan_.runs[number];
+    Script script = load(script_, run);
     auto painter = Painter::create(script, request_.picture);
     auto simulation = Simulation::create(script, simulation_);
     if (!painter) return give_up({painter.error()});
     if (!simulation) {
         const Failure why = simulation.error();
-        // Errors in files that a script reads are reported at their places.
+        // Errors in files that a script reads are reported at their names in the script.
         if (!script.diagnostics.has_errors()) return give_up({why});
         return give_up({why, std::move(script)});
     }
@@ -237,7 +196,7 @@ void Sweeper::take(std::size_t number, RunControl& control) {
     add_remark(result, remark_on_picture(*painter, **simulation, canvas));
     result.features = measure_shown(*painter, **simulation);
     result.cells = counts_of_cells((*simulation)->state(shown_stage(**simulation)));
-    // Without rows and columns a tile is a picture.
+    // Crawling cells have no rows and columns to be averaged, so their tile is a picture.
     painter->set_width(request_.tile_side);
     if (canvas.cells || (*simulation)->domain().model) canvas = canvas_of(painter->image(canvas));
     result.tile = shrink(canvas, request_.tile_side);
@@ -251,7 +210,7 @@ void Sweeper::take(std::size_t number, RunControl& control) {
 }
 
 void Sweeper::keep(std::size_t number, SweepResult result) {
-    if (auto written = write_result(folder_ / "runs", runs_[number].key, result); !written) {
+    if (auto written = write_result(folder_ / "runs", plan_.runs[number].key, result); !written) {
         return give_up({written.error()});
     }
     const std::lock_guard lock(mutex_);
@@ -259,7 +218,7 @@ void Sweeper::keep(std::size_t number, SweepResult result) {
     results_[number] = std::move(result);
 }
 
-/// An error that would stop every run (a full disk, no memory) ends the sweep.
+/// Ends the sweep with an error that would stop every run, such as a full disk.
 void Sweeper::give_up(SweepError why) {
     const std::lock_guard lock(mutex_);
     if (!stopped_by_) stopped_by_ = std::move(why);
@@ -267,7 +226,7 @@ void Sweeper::give_up(SweepError why) {
 }
 
 void Sweeper::work(const std::vector<std::size_t>& waiting, RunControl& control) {
-    double counted = 0;  // The part of this run's share that is included in shares_done_.
+    double counted = 0;  // The fraction of this run that is already included in `shares_done_`.
     control.report = [&](const Progress& progress) {
         const double stage = progress.steps > 0 ? static_cast<double>(progress.step) /
                                                       static_cast<double>(progress.steps)
@@ -299,7 +258,7 @@ void Sweeper::work(const std::vector<std::size_t>& waiting, RunControl& control)
     changed_.notify_all();
 }
 
-/// In the caller's thread: passes on a cancel, and reports progress.
+/// Tells all runs of a cancel, and reports progress. Called in the caller's thread.
 void Sweeper::watch(std::vector<std::unique_ptr<RunControl>>& controls) {
     std::unique_lock lock(mutex_);
     while (working_ > 0) {
@@ -316,7 +275,7 @@ void Sweeper::watch(std::vector<std::unique_ptr<RunControl>>& controls) {
 void Sweeper::report() {
     if (!control_.report) return;
     SweepProgress progress;
-    progress.runs = runs_.size();
+    progress.runs = plan_.own.size();
     {
         const std::lock_guard lock(mutex_);
         for (const auto& result : results_) progress.runs_done += result ? 1 : 0;
@@ -341,7 +300,8 @@ void Sweeper::run_all(const std::vector<std::size_t>& waiting) {
         try {
             threads.emplace_back([&, control = controls.back().get()] { work(waiting, *control); });
         } catch (const std::system_error&) {
-            // No more threads can be created: those that exist take the runs, or this one alone.
+            // No more threads can be created. The existing threads take all runs. If there are
+            // none, this thread takes them.
             const std::lock_guard lock(mutex_);
             working_ -= static_cast<std::size_t>(workers_ - std::max(w, 1));
             break;
@@ -358,24 +318,33 @@ void Sweeper::run_all(const std::vector<std::size_t>& waiting) {
 
 tl::expected<SweepReport, SweepError> Sweeper::run() {
     const auto failed = [](const Failure& why) { return tl::unexpected(SweepError{why}); };
-    if (auto planned = plan(); !planned) return tl::unexpected(std::move(planned.error()));
+    auto plan = plan_sweep(script_, request_);
+    if (!plan) return tl::unexpected(std::move(plan.error()));
+    plan_ = *std::move(plan);
+    results_.resize(plan_.runs.size());
+    report_.runs = plan_.own.size();
     if (auto ready = prepare_folders(); !ready) return failed(ready.error());
     std::vector<std::size_t> waiting;
-    for (std::size_t number = 0; number < runs_.size(); ++number) {
-        if (!is_done(number)) waiting.push_back(number);
+    for (const std::size_t number : plan_.own) {
+        const auto done = is_done(number);
+        if (!done) return failed(done.error());
+        if (!*done) waiting.push_back(number);
     }
-    report_.done_before = runs_.size() - waiting.size();
+    report_.done_before = report_.runs - waiting.size();
     if (auto chosen = choose_workers(waiting); !chosen) return failed(chosen.error());
     run_all(waiting);
-    for (const auto& result : results_) {
+    for (const std::size_t number : plan_.own) {
+        const auto& result = results_[number];
         if (!result) ++report_.missing;
         if (!result || !result->failed()) continue;
         ++report_.failed;
         if (report_.first_failure.empty()) report_.first_failure = result->remark;
     }
-    auto written = write_sweep(script_, request_, folder_, results_, control_.cancel);
-    if (!written) return failed(written.error());
-    report_.written = *std::move(written);
+    if (request_.part.is_all()) {
+        auto written = write_sweep(script_, request_, folder_, results_, control_.cancel);
+        if (!written) return failed(written.error());
+        report_.written = *std::move(written);
+    }
     if (stopped_by_) return tl::unexpected(std::move(*stopped_by_));
     return std::move(report_);
 }

@@ -1,5 +1,5 @@
-// `cascade sweep`: runs a script with many values of its parameters, and writes one labelled sheet
-// and one table of features.
+// The command `cascade sweep` runs a script with many values of its parameters, and writes a
+// labelled sheet and a table of features.
 #pragma once
 
 #include "core/result.h"
@@ -22,25 +22,45 @@
 
 namespace cascade {
 
+/// A share of the runs of a sweep, as nearly equal as possible: runs `number` − 1, `number` − 1 +
+/// `count`, … Several processes can take the parts of one sweep in one folder at the same time.
+struct SweepPart {
+    std::size_t number = 1;  ///< From 1 to `count`.
+    std::size_t count = 1;
+
+    bool is_all() const { return count == 1; }
+    bool has(std::size_t run) const { return run % count == number - 1; }
+};
+
 struct SweepRequest {
-    std::vector<Variation> varied;  ///< The first one runs across the sheet, the second one up.
-    /// The table of --sets, if one is given: then the first of `varied` comes from it.
+    /// The first variation changes along the rows of the sheet, from left to right. The second
+    /// changes along the columns, from the bottom to the top.
+    std::vector<Variation> varied;
+    /// The table of option --sets, if given. The first element of `varied` is then the variation of
+    /// the table.
     std::optional<ParameterSets> sets;
-    std::filesystem::path folder;  ///< Of all outputs; if empty, SCRIPT_sweep here.
-    std::filesystem::path film;    ///< Of the ends of all runs; empty for none.
+    /// The folder of all outputs. If empty, SCRIPT_sweep in the current folder.
+    std::filesystem::path folder;
+    /// The path of a film that shows the ends of all runs. Empty: none.
+    std::filesystem::path film;
     FilmRequest pace;
-    PictureRequest picture;        ///< What to show and measure; its scale is ignored.
-    int tile_side = 160;           ///< Larger pictures are averaged down to this, in pixels.
-    bool fields = false;           ///< Save the fields of every run, to read or to resume.
-    bool force = false;            ///< Repeat runs of an earlier sweep.
+    /// Numbers to draw over the first varied name other than the seed, each as NUMBER.svg.
+    std::vector<std::string> curves;
+    PictureRequest picture;  ///< The values to show and measure. Its scale is ignored.
+    int tile_side = 160;     ///< In pixels. Larger pictures are reduced to this size by averaging.
+    bool fields = false;     ///< Whether the fields of every run are saved, to be read or resumed.
+    bool force = false;      ///< Whether runs of an earlier sweep are repeated.
+    SweepPart part;          ///< The runs that this process takes.
+    /// Folders of other sweeps. Their results are copied instead of taking the runs again.
+    std::vector<std::filesystem::path> gathered;
     SimulationOptions simulation;  ///< `threads` is the number of concurrent runs.
 };
 
 /// The progress of a sweep.
 struct SweepProgress {
-    std::size_t runs_done = 0;  ///< Including those of an earlier sweep.
+    std::size_t runs_done = 0;  ///< Includes runs of an earlier sweep.
     std::size_t runs = 0;
-    double share = 0;          ///< 0 … 1, of the runs to be taken now.
+    double share = 0;          ///< The finished fraction of the runs of this sweep, 0 … 1.
     double seconds_left = -1;  ///< Negative if unknown.
 };
 
@@ -50,54 +70,60 @@ struct SweepControl {
 };
 
 struct SweepReport {
-    std::size_t runs = 0;
-    std::size_t done_before = 0;  ///< Taken over from an earlier sweep.
-    std::size_t failed = 0;       ///< Runs that diverged: an empty tile and a remark.
-    std::size_t missing = 0;      ///< Not taken, after a cancel.
-    std::string first_failure;    ///< The message of the first failed run.
-    std::int64_t steps = 0;       ///< Steps taken now.
+    std::size_t runs = 0;         ///< The number of runs of this part.
+    std::size_t done_before = 0;  ///< Runs whose results come from an earlier sweep.
+    /// Runs with values that were not finite. Each of them gets an empty tile and a remark.
+    std::size_t failed = 0;
+    std::size_t missing = 0;    ///< Runs that were left out after a cancel.
+    std::string first_failure;  ///< The message of the first failed run.
+    std::int64_t steps = 0;     ///< The number of steps of this sweep.
     double seconds = 0;
     std::vector<std::filesystem::path> written;
 };
 
-/// An error of the request, of a script with its values (then `script` holds the messages), or in
-/// the file of parameter sets.
+/// An error in the request, in the file of parameter sets, or in a script with the values of a run.
+/// In the last case `script` contains the messages.
 struct SweepError {
     Failure failure;
     std::optional<Script> script = {};
     bool is_in_sets = false;
 };
 
-/// Takes the runs without a result, each on one thread, and writes sheet.png, features.csv, runs/
-/// (one small result each) and, if requested, fields/NAME=VALUE,…/. Every script is checked before
-/// the first step. Runs that diverge are results, too. Fails if nothing can be run or written.
+/// Takes all runs that have no result yet, each in a single thread. Writes the files of
+/// write_sweep(), runs/ (a small result for each run) and, if requested, fields/NAME=VALUE,…/. A
+/// part of a sweep writes neither sheet nor table. Every script is checked before the first step. A
+/// run that fails because values are not finite counts as a result, too. Fails if no run can be
+/// made or a file cannot be written.
 tl::expected<SweepReport, SweepError> sweep(const Script& script, const SweepRequest& request,
                                             SweepControl& control);
 
-/// A sheet of all results in the order of their runs; missing ones are empty tiles. If the domain
-/// has a mask, NaN is transparent.
+/// Draws a sheet of all results in the order of their runs. Tiles of missing results are empty. If
+/// the domain has a mask, NaN is transparent.
 Image draw_sweep(const std::vector<std::optional<SweepResult>>& results,
                  const std::vector<Variation>& varied, const PictureRequest& picture,
                  bool has_mask);
 
-/// Writes sheet.png and features.csv into the folder, and the film, if there is one. Returns the
-/// files. `cancel` is for the film.
+/// Writes sheet.png and features.csv to the folder, if the seed is varied ensembles.csv
+/// (ensemble.h), and the requested curves and film. Returns the paths of the files. `cancel` stops
+/// only the film.
 Result<std::vector<std::filesystem::path>> write_sweep(
     const Script& script, const SweepRequest& request, const std::filesystem::path& folder,
     const std::vector<std::optional<SweepResult>>& results, const std::atomic<bool>& cancel);
 
-/// Checks before the first run that the film can be written.
+/// Checks before the first run whether the film can be written.
 Result<void> check_sweep_film(const SweepRequest& request, const std::atomic<bool>& cancel);
 
-/// Writes a film that shows the end of each run, in their order, with its values in a corner and in
-/// the range of the sheet. Runs that failed or are missing are left out; fails if none is left.
-/// Once `cancel` is set, ffmpeg is not waited for unless it gets on.
+/// Writes a film that shows the ends of all runs, in their order. Each frame shows the values of
+/// its run in a corner. All frames have the range of the sheet. Runs that failed or are missing are
+/// left out. Fails if no run is left. After `cancel` is set, waits for ffmpeg only while it makes
+/// progress.
 Result<void> film_sweep(const std::filesystem::path& path, const FilmRequest& pace,
                         const std::vector<std::optional<SweepResult>>& results,
                         const std::vector<Variation>& varied, const PictureRequest& picture,
                         bool has_mask, const std::atomic<bool>& cancel = never_cancelled);
 
-/// A row for each run: the values varied, its features, its number of steps, its remark.
+/// The table of features. It has a row for each run: its values, features, number of steps, and
+/// remark.
 std::string sweep_table(const std::vector<std::optional<SweepResult>>& results,
                         const std::vector<Variation>& varied);
 

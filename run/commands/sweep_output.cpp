@@ -1,10 +1,11 @@
-// The outputs of a sweep: the sheet, the table and the film.
+// Writes the outputs of a sweep: the sheet, the table and the film.
 #include "core/check.h"
 #include "core/file.h"
 #include "film/film.h"
 #include "picture/caption.h"
 #include "picture/map.h"
 #include "core/csv.h"
+#include "run/commands/ensemble.h"
 #include "run/commands/film_crew.h"
 #include "run/commands/sweep.h"
 #include "run/script/embedded_script.h"
@@ -23,7 +24,8 @@ MapAxis axis_of(const std::vector<Variation>& varied, std::size_t which) {
     return {"", {""}};
 }
 
-/// The upward axis: the second variation, or all but the first one, the second varying fastest.
+/// The vertical axis of the sheet, for the second variation. If there are more than two, it
+/// combines all variations except the first, and the second varies fastest.
 MapAxis upward_axis(const std::vector<Variation>& varied) {
     if (varied.size() <= 2) return axis_of(varied, 1);
     const std::span<const Variation> others = std::span(varied).subspan(1);
@@ -39,7 +41,7 @@ MapAxis upward_axis(const std::vector<Variation>& varied) {
     return axis;
 }
 
-/// One range for all tiles, so that they can be compared.
+/// The common range of all tiles, which makes them comparable.
 ValueRange range_of_all(const std::vector<std::optional<SweepResult>>& results) {
     Spread all;
     for (const auto& result : results) {
@@ -60,7 +62,7 @@ MapTile tile_of(const std::optional<SweepResult>& result, ValueRange range, cons
     return {std::move(image), ""};
 }
 
-/// "feed = 0.03  kill = 0.06".
+/// The values of a run as text, such as "feed = 0.03  kill = 0.06".
 std::string values_as_text(const std::vector<Variation>& varied, std::size_t run) {
     const std::vector<std::string> names = names_of(varied), values = values_of_run(varied, run);
     std::vector<std::string> parts;
@@ -70,7 +72,8 @@ std::string values_as_text(const std::vector<Variation>& varied, std::size_t run
     return fmt::format("{}", fmt::join(parts, "  "));
 }
 
-constexpr std::int64_t least_film_side = 240;  // Smaller pictures are enlarged for their captions.
+// Smaller pictures are enlarged to this side, so that captions fit.
+constexpr std::int64_t least_film_side = 240;
 
 }  // namespace
 
@@ -150,6 +153,15 @@ Result<std::vector<std::filesystem::path>> write_sweep(
     Result<void> done = write_png(sheet, draw_sweep(results, request.varied, picture, has_mask),
                                   picture.png_depth(), embed_sweep(script, picture, varied));
     if (done) done = write_file(table, sweep_table(results, request.varied));
+    if (done && has_ensembles(request.varied)) {
+        written.push_back(folder / "ensembles.csv");
+        done = write_file(written.back(), ensemble_table(results, request.varied));
+    }
+    for (const std::string& number : request.curves) {
+        if (!done) break;
+        written.push_back(folder / (number + ".svg"));
+        done = write_drawing(written.back(), draw_curve(number, results, request.varied));
+    }
     if (done && !request.film.empty()) {
         done = film_sweep(request.film, request.pace, results, request.varied, picture, has_mask,
                           cancel);
@@ -161,29 +173,16 @@ Result<std::vector<std::filesystem::path>> write_sweep(
 
 std::string sweep_table(const std::vector<std::optional<SweepResult>>& results,
                         const std::vector<Variation>& varied) {
+    const std::vector<std::string> measured = measured_names(results);
     std::vector<std::string> row = names_of(varied);
-    for (const std::string_view name : measure::feature_names()) row.emplace_back(name);
-    const bool has_cells =
-        std::ranges::any_of(results, [](const auto& result) { return result && result->cells; });
-    if (has_cells) row.insert(row.end(), {"cells", "births", "deaths"});
-    row.emplace_back("steps");
-    row.emplace_back("remark");
+    row.insert(row.end(), measured.begin(), measured.end());
+    row.insert(row.end(), {"steps", "remark"});
     std::string table = csv_row(row);
     for (std::size_t number = 0; number < results.size(); ++number) {
-        row = values_of_run(varied, number);
         const auto& result = results[number];
-        const bool measured = result && !result->failed();
-        for (std::size_t k = 0; k < measure::feature_count; ++k) {
-            row.push_back(measured ? csv_number(measure::to_array(*result->features)[k]) : "");
-        }
-        if (has_cells) {
-            const auto cells = result ? result->cells : std::nullopt;
-            const auto add = [&](std::int64_t CellCounts::*which) {
-                row.push_back(cells ? fmt::format("{}", (*cells).*which) : "");
-            };
-            add(&CellCounts::count);
-            add(&CellCounts::births);
-            add(&CellCounts::deaths);
+        row = values_of_run(varied, number);
+        for (const std::string& name : measured) {
+            row.push_back(csv_number(measured_number(result, name)));
         }
         row.push_back(result ? fmt::format("{}", result->steps) : "");
         row.push_back(result ? result->remark : "not run");

@@ -1,5 +1,5 @@
-// A run's key hashes its tokens, files and overrides, so that comments and blanks do not matter;
-// the picture is stored as means over squares of cells.
+// The key of a run is a hash of its tokens, files and overrides, so comments and blanks do not
+// matter. The picture is stored as averages over squares of cells.
 #include "run/commands/sweep_result.h"
 
 #include "core/file.h"
@@ -39,7 +39,7 @@ std::uint64_t add_words(std::uint64_t hash, const Script& script) {
     return hash;
 }
 
-/// Adds the contents of all strings of the program that name files.
+/// Adds the contents of all files named in the program.
 std::uint64_t add_files(std::uint64_t hash, const Script& script) {
     constexpr std::uint64_t largest_file = std::uint64_t{1} << 30;
     const auto add = [&](const Result<std::string>& bytes) {
@@ -90,7 +90,7 @@ Grid flat_grid(std::int64_t width, std::int64_t height) {
     return grid;
 }
 
-/// All planes, stacked vertically.
+/// All planes of a canvas, one below the other.
 Field stacked(const Canvas& canvas) {
     const PlaneLayout& layout = canvas.fields[0].layout();
     const auto count = static_cast<std::int64_t>(canvas.fields.size());
@@ -121,8 +121,8 @@ std::optional<Canvas> unstacked(const std::filesystem::path& path, std::size_t p
     return canvas;
 }
 
-/// Means over squares of `factor` × `factor` cells, smaller ones at the far sides; cells outside of
-/// the domain (NaN) are ignored.
+/// Averages over squares of `factor` × `factor` cells, or over fewer cells at the last columns and
+/// rows. Cells outside the domain (NaN) are ignored.
 Field average(const Field& field, std::int64_t factor) {
     const PlaneLayout& from = field.layout();
     Field small{PlaneLayout(
@@ -153,11 +153,13 @@ std::string key_of_run(const Script& script, const PictureRequest& picture, int 
     std::uint64_t hash = add_line(fnv1a("sweep 2"), version());
     hash = add_files(add_words(hash, script), script);
     hash = add_line(hash, overrides_to_json(script.overrides));
-    PictureRequest shown;  // Colours and their range are chosen when the sheet is drawn.
+    // Colours and their range are not part of the key, because they are chosen when the sheet is
+    // drawn.
+    PictureRequest shown;
     shown.show = picture.show;
     shown.slice = picture.slice;
     if (script.program->domain.model || has_stage_of_cells(*script.program)) {
-        shown = picture;  // Tiles are pictures.
+        shown = picture;  // The tile is a picture, so the colours are part of the key.
     }
     hash = add_line(add_line(hash, to_json(shown)), fmt::format("{}", tile_side));
     return fmt::format("{:016x}", hash);
@@ -178,7 +180,7 @@ std::optional<SweepResult> read_result(const std::filesystem::path& folder,
                                        const std::string& key) {
     const auto text = read_file(folder / (key + ".json"), largest_result);
     if (!text) return std::nullopt;
-    // The JSON library throws; no exception leaves this function.
+    // The JSON library throws exceptions, none of which may leave this function.
     try {
         const auto json = nlohmann::json::parse(*text);
         SweepResult result;

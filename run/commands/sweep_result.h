@@ -1,4 +1,4 @@
-// The stored result of one run of a sweep: a small file of features, and the picture's values.
+// Stores the result of one run of a sweep: a small file of features, and the picture's values.
 #pragma once
 
 #include "core/plane.h"
@@ -17,33 +17,35 @@ namespace cascade {
 
 struct SweepResult {
     std::optional<measure::Features> features;  ///< Empty if the run failed.
-    Canvas tile;  ///< The picture's values, averaged down; no fields if the run failed.
-    /// Of the stage that is shown, if it is one of cells that crawl.
+    Canvas tile;  ///< The picture's values, averaged over squares of cells. Without fields if the
+                  ///< run failed.
+    /// The numbers of cells, if the shown stage has crawling cells.
     std::optional<CellCounts> cells;
-    std::int64_t steps = 0;  ///< Of all stages.
-    std::string remark;      ///< The error or warnings of the run; one line, usually empty.
+    std::int64_t steps = 0;  ///< The sum over all stages.
+    std::string remark;      ///< The error or the warnings of the run, in one line. Usually empty.
 
     bool failed() const { return !features; }
 };
 
-/// A hash of everything that a run's result depends on: the words of the script and of all files it
-/// uses (without blanks and comments), overrides, the contents of the files that it reads, the
-/// picture, the size of the tiles, and Cascade's version. 16 hexadecimal digits. The script must be
-/// free of errors.
+/// A hash of everything that determines a run's result, as 16 hexadecimal digits. This includes the
+/// words of the script and of all files that it uses (without blanks and comments), the overrides,
+/// the contents of the files that it reads, the request for the picture, the size of the tiles, and
+/// Cascade's version. The script must have no errors.
 std::string key_of_run(const Script& script, const PictureRequest& picture, int tile_side);
 
-/// Writes KEY.npy (planes of the tile, stacked vertically) and then KEY.json into `folder`, so that
-/// an incomplete result is not read.
+/// Writes KEY.npy, which contains the planes of the tile one below the other, and then KEY.json. A
+/// result without KEY.json is incomplete and is not read.
 Result<void> write_result(const std::filesystem::path& folder, const std::string& key,
                           const SweepResult& result);
 
-/// Nothing if there is no result of that key, or it is damaged.
+/// The result with that key. Empty if there is none, or if it is damaged.
 std::optional<SweepResult> read_result(const std::filesystem::path& folder, const std::string& key);
 
-/// An image, as a canvas of its colours that shrink() makes smaller.
+/// An image as a canvas of its colours, so that shrink() can reduce it.
 Canvas canvas_of(const Image& image);
 
-/// Every plane of a canvas, averaged over squares of cells so that no side is longer than `side`.
+/// Averages every plane of a canvas over squares of cells. The squares are so large that no side of
+/// the result is longer than `side`.
 Canvas shrink(const Canvas& canvas, int side);
 
 }  // namespace cascade

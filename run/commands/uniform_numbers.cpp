@@ -1,4 +1,4 @@
-// An expression that has no meaning in a stage has no number there.
+// An expression that has no meaning in a stage has the value NaN there.
 #include "run/commands/uniform_numbers.h"
 
 #include <limits>

@@ -1,4 +1,4 @@
-// Numbers that expressions of the command line have at a moment of a run, the same for all cells.
+// Evaluates uniform expressions of the command line at a moment of a run.
 #pragma once
 
 #include "core/result.h"
@@ -14,13 +14,14 @@ namespace cascade {
 
 class UniformNumbers {
 public:
-    /// Checks the expressions of an option, such as "--log", for all stages that run. One that fits
-    /// none of them, or varies by cell, is an error in `script.diagnostics`.
+    /// Checks the expressions of an option, such as "--log", for all stages that run. An expression
+    /// that is valid in no stage, or that varies by cell, is an error in `script.diagnostics`.
     static Result<UniformNumbers> create(Script& script, const std::string& option,
                                          std::span<const std::string> expressions);
 
     std::size_t count() const { return formulas_.count(); }
-    /// The numbers in a started stage; NaN where an expression has no meaning in it.
+    /// The values of the expressions in a started stage. NaN for an expression that has no meaning
+    /// in the stage.
     std::vector<double> at(const Simulation& simulation, std::uint32_t stage) const;
 
 private:

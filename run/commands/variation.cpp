@@ -1,4 +1,4 @@
-// Lists are split at commas outside of brackets; runs are numbered with the first name varying
+// Lists are split at commas outside of brackets. Runs are numbered so that the first name varies
 // fastest.
 #include "run/commands/variation.h"
 
@@ -37,7 +37,8 @@ bool is_joint(const Variation& variation) {
     return variation.name.starts_with('(') && variation.name.ends_with(')');
 }
 
-/// For LOW:HIGH:COUNT, the range of other programs; empty for other texts.
+/// The error for LOW:HIGH:COUNT, the notation of other programs for ranges. Empty for any other
+/// text.
 std::optional<Failure> colons_for_dots(std::string_view text, std::string_view name,
                                        std::string_view values) {
     const std::size_t first = values.find(':'), last = values.rfind(':');
@@ -46,7 +47,7 @@ std::optional<Failure> colons_for_dots(std::string_view text, std::string_view n
                            high = trimmed(values.substr(first + 1, last - first - 1)),
                            count = trimmed(values.substr(last + 1));
     if (!read_number(low) || !read_number(high) || !read_number(count)) return {};
-    Failure failure = wrong(text, "two dots stand between the ends of a range");
+    Failure failure = wrong(text, "two dots separate the ends of a range");
     const bool is_count = read_all<std::int64_t>(count).has_value();
     failure.hint = fmt::format("write {}={}..{}:{}", name, low, high, is_count ? count : "COUNT");
     return failure;
@@ -54,7 +55,8 @@ std::optional<Failure> colons_for_dots(std::string_view text, std::string_view n
 
 enum class Distances : std::uint8_t { equal, equal_ratios };
 
-/// `count` numbers from low to high, as short texts.
+/// `count` numbers from `low` to `high` as short texts. Successive numbers have equal differences
+/// or equal ratios.
 std::vector<std::string> spread(double low, double high, std::int64_t count, Distances distances) {
     std::vector<std::string> values;
     for (std::int64_t k = 0; k < count; ++k) {
@@ -62,14 +64,14 @@ std::vector<std::string> spread(double low, double high, std::int64_t count, Dis
             count == 1 ? 0 : static_cast<double>(k) / static_cast<double>(count - 1);
         const double value = distances == Distances::equal ? low + (high - low) * share
                                                            : low * std::pow(high / low, share);
-        // Rounding must not turn 0 into a tiny number.
+        // A number closer to 0 than this is the rounding error of a 0.
         const double least = 1e-12 * std::max(std::abs(low), std::abs(high));
         values.push_back(fmt::format("{:.10g}", std::abs(value) < least ? 0.0 : value));
     }
     return values;
 }
 
-/// Splits at commas outside of brackets.
+/// Splits a text at commas outside of brackets.
 std::vector<std::string> split_list(std::string_view text) {
     std::vector<std::string> values(1);
     int depth = 0;
@@ -85,12 +87,12 @@ std::vector<std::string> split_list(std::string_view text) {
     return values;
 }
 
-/// The parts of "(a, b)".
+/// Splits "(a, b)" into its parts.
 std::vector<std::string> parts_of(std::string_view joint) {
     return split_list(joint.substr(1, joint.size() - 2));
 }
 
-/// Why the values of a list do not fit its name; empty if they do.
+/// Describes why the values of a list are invalid for its name. Empty if they are valid.
 std::string fault_of(const Variation& variation) {
     if (!is_joint(variation)) return "";
     const std::size_t count = parts_of(variation.name).size();
@@ -102,7 +104,7 @@ std::string fault_of(const Variation& variation) {
     return "";
 }
 
-/// A value that occurs twice in a list; empty if there is none.
+/// A value that a list contains twice. Empty if there is none.
 std::string listed_twice(std::vector<std::string> values) {
     std::sort(values.begin(), values.end());
     const auto twice = std::adjacent_find(values.begin(), values.end());
@@ -120,6 +122,10 @@ std::optional<double> read_number(std::string_view text) {
     return *above / *below;
 }
 
+std::optional<std::uint32_t> read_seed(std::string_view text) {
+    return read_all<std::uint32_t>(text);
+}
+
 Result<Variation> parse_variation(std::string_view text) {
     const std::size_t equals = text.find('=');
     if (equals == std::string_view::npos) return tl::unexpected(wrong(text, "there is no '='"));
@@ -133,7 +139,7 @@ Result<Variation> parse_variation(std::string_view text) {
     }
     if (dots == std::string_view::npos) {
         if (values.find(':') != std::string_view::npos) {
-            return tl::unexpected(wrong(text, "two dots stand between the ends of a range"));
+            return tl::unexpected(wrong(text, "two dots separate the ends of a range"));
         }
         if (values.starts_with('[') && values.ends_with(']')) {
             return tl::unexpected(wrong(text, "a list has no brackets"));
@@ -176,6 +182,33 @@ Result<Variation> parse_variation(std::string_view text) {
     return variation;
 }
 
+Result<Variation> parse_seeds(std::string_view text) {
+    const auto wrong_seeds = [&](const std::string& why) {
+        return failure(fmt::format("'{}' are no seeds: {}", text, why),
+                       "write --seeds 1..50 or --seeds 3,7,12");
+    };
+    const std::size_t dots = text.find("..");
+    Variation variation{"seed", {}};
+    if (dots == std::string_view::npos) {
+        variation.values = split_list(text);
+        for (const std::string& value : variation.values) {
+            if (!read_seed(value)) return wrong_seeds(what_seeds_are);
+        }
+        return variation;
+    }
+    const auto first = read_seed(trimmed(text.substr(0, dots)));
+    const auto last = read_seed(trimmed(text.substr(dots + 2)));
+    if (!first || !last) return wrong_seeds(what_seeds_are);
+    if (*last < *first) return wrong_seeds("the first seed is above the last");
+    if (*last - *first >= most_runs) {
+        return wrong_seeds(fmt::format("these are more than {} runs", most_runs));
+    }
+    for (std::uint64_t k = *first; k <= *last; ++k) {
+        variation.values.push_back(fmt::format("{}", k));
+    }
+    return variation;
+}
+
 Result<VariedRange> parse_varied_range(std::string_view text) {
     const auto wrong_range = [&](std::string_view why) {
         return failure(fmt::format("'{}' does not say what to vary: {}", text, why),
@@ -210,7 +243,7 @@ Result<std::size_t> count_runs(std::span<const Variation> varied) {
     for (std::size_t k = 0; k < varied.size(); ++k) {
         if (const std::string twice = listed_twice(varied[k].values); !twice.empty()) {
             return failure(
-                fmt::format("'{}' stands twice in the values of '{}'", twice, varied[k].name));
+                fmt::format("'{}' occurs twice in the values of '{}'", twice, varied[k].name));
         }
         if (varied[k].values.size() > most_runs / runs) {
             return failure(fmt::format("these are more than {} runs", most_runs),
@@ -262,10 +295,9 @@ Result<Overrides> overrides_of_run(const Overrides& base, std::span<const Variat
             overrides.sets.push_back(fmt::format("{}={}", names[k], values[k]));
             continue;
         }
-        overrides.seed = read_all<std::uint32_t>(values[k]);
+        overrides.seed = read_seed(values[k]);
         if (!overrides.seed) {
-            return failure(fmt::format("'{}' is not a seed", values[k]),
-                           "seeds are whole numbers from 0 to 4294967295");
+            return failure(fmt::format("'{}' is not a seed", values[k]), what_seeds_are);
         }
     }
     return overrides;

@@ -5,6 +5,7 @@
 #include "run/script/script.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,54 +14,67 @@
 
 namespace cascade {
 
-/// A name and its values, as texts that `--set` takes; or names that vary together, "(feed, kill)",
-/// with a value for each, "(0.03, 0.06)".
+/// A name and its values, as texts that `--set` accepts. Several names can vary together. The name
+/// is then, for example, "(feed, kill)", with values such as "(0.03, 0.06)".
 struct Variation {
-    std::string name;                 ///< A name as for --set, or `seed`, or several in brackets.
+    /// A name that `--set` accepts, `seed`, or several names in brackets.
+    std::string name;
     std::vector<std::string> values;  ///< At least one.
 
     friend bool operator==(const Variation&, const Variation&) = default;
 };
 
-/// The most runs of a sweep.
+/// The largest number of runs of a sweep.
 inline constexpr std::size_t most_runs = 10000;
 
-/// "gray_scott.feed=0.02..0.06:9" is nine equidistant values including both ends; with ":log" after
-/// it each is the same multiple of the one before; "ka=1/400,1/200" is a list, and
-/// "(feed, kill)=(0.03, 0.06), (0.04, 0.06)" one of two names. The ends of a range are numbers or
-/// fractions of two numbers. Fails on anything else.
+/// Parses a variation. "gray_scott.feed=0.02..0.06:9" gives nine equidistant values, the first and
+/// last of which are the ends of the range. With ":log" at the end of the text, the ratio of
+/// successive values is constant instead. "ka=1/400,1/200" is a list, and "(feed, kill)=(0.03,
+/// 0.06), (0.04, 0.06)" a list for two names. The ends of a range are numbers or fractions of two
+/// numbers. Fails for any other text.
 Result<Variation> parse_variation(std::string_view text);
 
-/// A name and the ends of its range.
+/// Parses seeds: "1..50" gives all whole numbers from 1 to 50, and "3,7" is a list. The result
+/// varies `seed`. Fails for any other text.
+Result<Variation> parse_seeds(std::string_view text);
+
+/// A name with the ends of its range.
 struct VariedRange {
     std::string name;
     double low = 0, high = 1;  ///< low < high.
 };
 
-/// "gray_scott.feed=0.02..0.06", without a number of values. The ends are numbers or fractions.
+/// Parses a range that does not give a number of values, such as "gray_scott.feed=0.02..0.06". The
+/// ends are numbers or fractions.
 Result<VariedRange> parse_varied_range(std::string_view text);
 
-/// The inverse of parse_variation(), with a list: "ka=1/400,1/200".
+/// The inverse of parse_variation(). Ranges become lists: "ka=1/400,1/200".
 std::string text_of(const Variation& variation);
 
 /// A number or a fraction of two numbers: "0.02", "1/400".
 std::optional<double> read_number(std::string_view text);
 
-/// The number of runs: all combinations of values. Fails if a name is varied twice, a value is
-/// listed twice, or there are more than `most_runs`.
+/// A seed: a whole number from 0 to 4294967295. Empty for any other text.
+std::optional<std::uint32_t> read_seed(std::string_view text);
+/// The hint of messages about other texts.
+inline constexpr const char* what_seeds_are = "seeds are whole numbers from 0 to 4294967295";
+
+/// The number of runs, which is the number of all combinations of values. Fails if a name is varied
+/// twice, if a value is listed twice, or if there are more than `most_runs` runs.
 Result<std::size_t> count_runs(std::span<const Variation> varied);
 
-/// All names, those that vary together apart.
+/// All names. Names that vary together are separate elements.
 std::vector<std::string> names_of(std::span<const Variation> varied);
 
-/// The values of run `number`, one for each name; the first variation varies fastest.
+/// The values of run `number`, one for each name. The first variation varies fastest.
 std::vector<std::string> values_of_run(std::span<const Variation> varied, std::size_t number);
 
-/// The folder of a run's fields, "feed=0.02,kill=0.05"; a slash becomes '_'.
+/// The name of the folder for a run's fields, such as "feed=0.02,kill=0.05". A slash is replaced by
+/// '_'.
 std::string folder_name(std::span<const Variation> varied, std::span<const std::string> values);
 
-/// `base` with the values of a run; `seed` sets the seed, all others are appended to the sets.
-/// Fails if a seed is not a whole number of 32 bits.
+/// Adds the values of a run to `base`. A value of `seed` sets the seed, and all others are appended
+/// to the sets. Fails if a seed is not an integer of 32 bits.
 Result<Overrides> overrides_of_run(const Overrides& base, std::span<const Variation> varied,
                                    std::span<const std::string> values);
 

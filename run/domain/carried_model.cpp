@@ -1,4 +1,5 @@
-// Lists of numbers, each after its length, and the cells as in files of cells.
+// The bytes contain lists of numbers, each preceded by its length, and the cells in the format of
+// files of cells.
 #include "run/domain/carried_model.h"
 
 #include "surface/cell_file.h"
@@ -32,7 +33,7 @@ private:
     std::string bytes_{model_magic};
 };
 
-/// Fails at the first length that exceeds the rest of the bytes.
+/// Reads the bytes. Fails at the first length that exceeds the rest of the bytes.
 class ModelReader {
 public:
     explicit ModelReader(std::string_view bytes) : rest_(bytes) {
@@ -72,7 +73,8 @@ private:
     bool is_sound_ = true;
 };
 
-/// Whether corners are points, and every edge leads to one that leads back.
+/// Whether all corners are numbers of existing points, and the links between neighbouring edges
+/// lead both ways.
 bool is_sound(const SurfaceMesh& mesh) {
     for (std::uint32_t k = 0; k < mesh.triangles.size(); ++k) {
         for (std::uint32_t corner = 0; corner < 3; ++corner) {

@@ -1,5 +1,6 @@
-// A model with its cells as bytes, for pages that carry their engine. Reading a model's file and
-// spreading its cells needs libraries and time that a page lacks.
+// Stores a model and its cells as bytes, for exported pages. A page contains the engine that runs
+// the simulation, but neither the libraries that read a model's file nor code to spread its cells
+// quickly.
 #pragma once
 
 #include "mesh/surface_mesh.h"
@@ -13,17 +14,19 @@
 namespace cascade {
 
 struct CarriedModel {
-    SurfaceMesh mesh;  ///< Upright.
+    SurfaceMesh mesh;  ///< Turned so that y points upwards.
     std::vector<std::string> repairs;
     SurfaceCells cells;
 };
 
-/// Numbers have the byte order of the machine. Browsers use that of x86-64.
+/// Prints a model as bytes, with numbers in the byte order of this machine. Browsers can read them
+/// only if this order is little-endian, as on x86-64.
 std::string print_carried_model(const ModelCells& model);
-/// Fails if the bytes are truncated or do not hold a model.
+/// Fails if the bytes are incomplete or describe no model.
 Result<CarriedModel> parse_carried_model(std::string_view bytes);
 
-/// The cells of a program's domain, as make_model_cells() makes them of the same mesh.
+/// Makes the cells of a program's domain. The result is the same as that of make_model_cells() for
+/// this mesh.
 std::shared_ptr<const ModelCells> link_carried_model(const Program& program, CarriedModel model);
 
 }  // namespace cascade

@@ -1,10 +1,13 @@
-// On grids core/resample divides cells. On models values go along the surface: with the weights w
-// of the cell filter, the cells' positions x, values f and gradients g, the value at position p is
+// On grids, core/resample divides the cells. On models, values are interpolated along the surface.
+// Let w be the weights of the cell filter around a position p, and x, f and g the positions, values
+// and gradients of the cells. The value at p is then
 //
 //     Σ w f + ½ Σ w (g + Σ w g) · (p − x).
 //
-// The average alone flattens waves, and tangents from the cells overshoot them by as much. Half way
-// between them the curvature of f cancels, as does the slope where cells are uneven around p.
+// The first sum alone would make the maxima of waves too low. Extrapolation from each cell along
+// its gradient would make them too high by as much. In the mean of both, the errors by the
+// curvature of f cancel, and so do the errors by its slope if the cells around p are not
+// distributed evenly.
 #include "run/domain/cell_carrier.h"
 
 #include "core/counted_cells.h"
@@ -21,10 +24,11 @@ namespace cascade {
 
 namespace {
 
-/// How far values continue beyond the border of a mask: as far as a divided cell reads.
+/// Dividing a cell reads other cells up to this distance, in cells. So values are continued this
+/// far beyond the border of a mask.
 constexpr int reach_beyond = 4;
 
-/// Calls `visit(i, j, k)` for the neighbours of a cell along the axes.
+/// Calls `visit(i, j, k)` for the neighbours of a cell along all axes.
 template <typename Visit>
 void visit_neighbours(const Grid& grid, std::int64_t i, std::int64_t j, std::int64_t k,
                       const Visit& visit) {
@@ -49,8 +53,8 @@ void visit_cells(const Grid& grid, const Visit& visit) {
     }
 }
 
-/// The plane with values outside of the mask: the mean over neighbours with a value, in successive
-/// rounds of cells around it.
+/// A copy of the plane in which cells near the mask have values, too. They are filled in rounds,
+/// from the border outwards. Each cell gets the mean over its neighbours that already have a value.
 template <typename Number>
 Plane<Number> continued(const Plane<Number>& plane, const Grid& grid, const Mask& inside) {
     Plane<Number> result = plane.clone();
@@ -75,7 +79,7 @@ Plane<Number> continued(const Plane<Number>& plane, const Grid& grid, const Mask
     return result;
 }
 
-/// The cells beside a side of an axis as a separate grid, in the same order.
+/// The cells at one side of an axis as a smaller grid, in the same order.
 Grid face_of(const Grid& grid, std::size_t axis) {
     return {axis == 0 ? grid.height : grid.width, axis == 2 ? grid.height : grid.depth};
 }

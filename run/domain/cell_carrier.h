@@ -1,4 +1,4 @@
-// Values carried from the cells of a domain to finer or wider cells of the same domain.
+// Carries values from the cells of a domain to smaller or larger cells of the same domain.
 #pragma once
 
 #include "core/parallel.h"
@@ -13,7 +13,8 @@
 
 namespace cascade {
 
-/// Carries planes with a value for each cell. The result is the same on any number of threads.
+/// Carries planes, which have a value for each cell. The result does not depend on the number of
+/// threads.
 class CellCarrier {
 public:
     CellCarrier() = default;
@@ -21,36 +22,41 @@ public:
     CellCarrier(const CellCarrier&) = delete;
     CellCarrier& operator=(const CellCarrier&) = delete;
 
-    /// Wider cells get the mean of the cells that they cover. Finer cells get smooth values, within
-    /// the range of the cells around unless crests are kept. They are of third order in the cell
-    /// width on grids away from crests, and of second on models. NaN around a cell with NaN.
+    /// Returns the values in the new cells. A larger cell gets the mean of the cells that it
+    /// covers. Smaller cells get smooth values within the range of the surrounding cells, or also
+    /// outside of it with Crests::kept. The error is of third order in the cell width on grids
+    /// (away from crests), and of second order on models. The result is NaN near a cell with NaN.
     virtual Field carried(const Field& values) const = 0;
-    /// A finer cell gets the value of the cell that contains it, or, on models, of the nearest one.
-    /// A wider cell is 1 where at least half of its cells are not 0.
+    /// Returns the mask in the new cells. A smaller cell gets the value of the cell that contains
+    /// it, or, on models, of the nearest cell. A larger cell is 1 if at least half of the cells
+    /// that it covers are not 0.
     virtual Mask carried(const Mask& cells) const = 0;
-    /// The values of the side with this number: means along it, or each repeated. Grids only.
+    /// Carries the values along one side of a grid, which is numbered `side`. Larger cells get
+    /// means along the side, and smaller cells repeat values.
     virtual std::shared_ptr<const SideValues> carried(const SideValues& values,
                                                       std::size_t side) const = 0;
 };
 
-/// The treatment of crests between cells that are higher than all cells around, and of troughs.
+/// A crest is a maximum between cells that is above the values of all cells around it. Troughs are
+/// treated in the same way as crests.
 enum class Crests : std::uint8_t {
-    levelled,  ///< For a run's values, which stay in the range of the cells around.
-    kept       ///< For pictures, which would show a plateau.
+    levelled,  ///< Values stay in the range of the surrounding cells. For runs.
+    kept       ///< Values may leave that range. For pictures, which would otherwise show a plateau.
 };
 
-/// Divides each cell of `grid` into times × times cells (core/resample.h). With a mask, the values
-/// of its cells continue beyond its border, and are 0 outside of `finer_mask`. Both are null
-/// without one. All must outlive the result.
+/// Divides each cell of `grid` into times × times cells (core/resample.h). If the domain has a
+/// mask, values are first continued beyond its border, and the result is 0 outside `finer_mask`.
+/// Without a mask both pointers are null. All arguments must outlive the result.
 std::unique_ptr<CellCarrier> carrier_to_finer(const Grid& grid, std::int64_t times,
                                               const DomainMask* mask, const DomainMask* finer_mask,
                                               Crests crests = Crests::levelled);
 
-/// From the cells of a grid without a mask to wider ones (core/resample.h).
+/// Carries from the cells of a grid without a mask to the larger cells of `wider`
+/// (core/resample.h).
 std::unique_ptr<CellCarrier> carrier_to_wider(const Grid& grid, const Grid& wider);
 
-/// From the cells of a model to those of `to`, which have the same mesh. All must outlive the
-/// result. Throws std::bad_alloc.
+/// Carries from the cells of a model to the cells of `to`, which has the same mesh. All arguments
+/// must outlive the result. Throws std::bad_alloc.
 std::unique_ptr<CellCarrier> carrier_on_model(const ModelCells& from, const ModelCells& to,
                                               Team& team);
 

@@ -1,4 +1,5 @@
-// Planes with one value for each cell of a model, in the order of memory.
+// Makes planes with a value for each cell of a model. The cells are in the order in which memory
+// stores them.
 #pragma once
 
 #include "core/plane.h"
@@ -12,8 +13,9 @@
 
 namespace cascade {
 
-/// Calls `write(row, column, cell, is_cell)` for all positions of the rows, where order[k] is the
-/// cell at position k. The padding of the last row repeats the last cell.
+/// Calls `write(row, column, cell, is_cell)` for all positions of the rows. order[k] is the cell at
+/// position k. In the unused positions at the end of the last row, `cell` is the last cell and
+/// `is_cell` is false.
 template <typename Write>
 void for_each_place(const Grid& grid, const std::vector<std::uint32_t>& order, const Write& write) {
     const std::size_t count = order.size();
@@ -25,7 +27,8 @@ void for_each_place(const Grid& grid, const std::vector<std::uint32_t>& order, c
     }
 }
 
-/// A plane of `value(cell, is_cell)`: a number, or an unsigned integer for a plane of words.
+/// A plane with the values `value(cell, is_cell)` (see for_each_place()). They are numbers, or
+/// unsigned integers for a plane of words.
 template <typename Value>
 Field plane_of_cells(const Grid& grid, const std::vector<std::uint32_t>& order, Precision precision,
                      const Value& value) {

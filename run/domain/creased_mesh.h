@@ -1,4 +1,4 @@
-// A model for drawing: smooth, except at sharp edges.
+// Prepares a model for drawing, with normals that are smooth except across sharp edges.
 #pragma once
 
 #include "mesh/surface_mesh.h"
@@ -6,17 +6,18 @@
 
 namespace cascade {
 
-/// The mesh to draw, and its map from space: (p − middle) × scale.
+/// A mesh to be drawn. A position p on the model becomes (p − middle) × scale.
 struct DrawnMesh {
-    TriangleMesh mesh;  ///< Triangles and corners are numbered as in the surface.
+    /// Triangles and their corners have the same numbers as in the model's surface.
+    TriangleMesh mesh;
     Vector3d middle;
-    double scale = 1;  ///< Makes the longest side of the box 1.
+    double scale = 1;  ///< Chosen so that the longest side of the bounding box becomes 1.
 };
 
-/// Normals are averages over the triangles around a point, but not across edges with a bend of more
-/// than 60°. Throws std::bad_alloc.
+/// Makes the mesh of a surface. A normal is the average over the triangles around a point, except
+/// across edges with an angle of more than 60°. Throws std::bad_alloc.
 DrawnMesh creased_mesh(const SurfaceMesh& surface);
-/// The mesh alone, with the map of another one.
+/// Makes the mesh with a given middle and scale.
 TriangleMesh creased_mesh(const SurfaceMesh& surface, const Vector3d& middle, double scale);
 
 }  // namespace cascade

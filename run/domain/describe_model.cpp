@@ -1,5 +1,6 @@
-// Reads and repairs as a run does. The genus follows from the Euler characteristic, and the
-// evenness of cells from areas and distances to the nearest neighbour.
+// Reads and repairs models in the same way as a run. The genus is computed from the Euler
+// characteristic. How evenly cells are spread is computed from their areas and the distances to
+// their nearest neighbours.
 #include "run/domain/describe_model.h"
 
 #include "atlas/texture_facts.h"
@@ -19,7 +20,8 @@ namespace cascade {
 
 namespace {
 
-/// The closed surface of one component to which it is homeomorphic.
+/// The name of a closed surface to which a component is homeomorphic. If the component is not
+/// closed, the number of its boundaries.
 std::string kind_of(const MeshFacts& facts) {
     if (facts.boundaries > 0) {
         return counted(facts.boundaries, "boundary", "boundaries");
@@ -97,7 +99,7 @@ namespace {
 
 struct MeanAndDeviation {
     double mean = 0;
-    double deviation = 0;  ///< In percent of the mean.
+    double deviation = 0;  ///< The standard deviation, in percent of the mean.
 };
 
 MeanAndDeviation mean_and_deviation(const std::vector<double>& values) {

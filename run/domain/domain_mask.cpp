@@ -1,5 +1,5 @@
-// Fills the halo of the mask by the grid's boundary before taking the bits of neighbours. A value
-// counts as inside unless it is 0, denormal or NaN.
+// Fills the halo of the mask according to the grid's boundary, and then collects the bits of
+// neighbours.
 #include "run/domain/domain_mask.h"
 
 #include "core/counted_cells.h"
@@ -12,7 +12,7 @@ namespace cascade {
 
 namespace {
 
-/// The bits of cell (i, j, k) and the cells around it.
+/// The bits of the cell (i, j, k) and of the 26 cells around it.
 std::uint32_t bits_around(const Plane<float>& inside, std::int64_t i, std::int64_t j,
                           std::int64_t k) {
     const std::int64_t reach = inside.layout().has_halo_slices() ? 1 : 0;

@@ -10,25 +10,28 @@
 namespace cascade {
 
 struct DomainMask {
-    Mask inside;  ///< 1 in cells of the domain, else 0. Its halo is not filled.
-    /// One word for each cell, with a bit for each of the 27 cells around it and itself, by the
-    /// numbers of their offsets (lang/lower/pass_planner.h): set if the cell there is inside.
-    /// Beyond a side the boundary decides: the opposite cell, or the one at the side itself.
+    /// 1 in cells of the domain, else 0. The cells of the halo, around the grid, have no defined
+    /// value.
+    Mask inside;
+    /// For each cell, one word with a bit for each of the 27 cells in its neighbourhood, which
+    /// includes the cell itself. The bits are numbered as in lang/lower/pass_planner.h. A bit is
+    /// set if its cell is inside the domain. Beyond a side of the grid, the boundary decides which
+    /// cell the bit refers to: the cell at the opposite side, or the cell at this side.
     Field neighbourhood;
-    std::int64_t cells = 0;  ///< The number of cells inside.
+    std::int64_t cells = 0;  ///< The number of cells of the domain.
 };
 
-/// Makes a mask from values: a cell is inside if its value is neither 0 nor NaN (nor denormal,
-/// which counts as 0 everywhere in the language).
+/// Makes a mask from values. A cell is inside unless its value is 0, denormal or NaN. Everywhere in
+/// the language, denormal numbers count as 0.
 DomainMask make_domain_mask(const Field& values, const Grid& grid);
 
-/// The cells that do not change: frozen cells (nullptr: none) and cells outside.
+/// The cells that do not change: those outside the mask and those in `frozen` (null: none).
 Mask still_cells(const DomainMask& mask, const Mask* frozen);
 
-/// A copy of a field with `value` in every cell that is outside.
+/// A copy of a field with `value` in every cell outside the mask.
 Field with_outside(const Field& field, const DomainMask& mask, float value);
 
-/// The value outside the mask in files and pictures.
+/// The value of cells outside the mask in files and pictures.
 inline constexpr float nothing_outside = std::numeric_limits<float>::quiet_NaN();
 
 }  // namespace cascade

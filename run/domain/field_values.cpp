@@ -1,4 +1,4 @@
-// Compares values in the order of cells. A NaN ends the search.
+// Compares the values of all cells in order. The result is NaN as soon as a value is NaN.
 #include "run/domain/field_values.h"
 
 #include "core/check.h"
@@ -13,7 +13,8 @@ namespace cascade {
 
 namespace {
 
-/// The first value inside the mask that no other exceeds in the given order. NaN if one is NaN.
+/// The value inside the mask for which beats(value, other) is true for every other value. Of equal
+/// values the first. NaN if a value is NaN.
 template <typename Beats>
 double extreme(const Field& field, const DomainMask* mask, const Beats& beats) {
     return field.visit([&](const auto& plane) -> double {

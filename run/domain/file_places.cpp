@@ -1,5 +1,5 @@
-// File positions are computed cell by cell in binary64 on every request. Slopes of formulas are
-// differences.
+// Computes positions in files cell by cell in binary64 whenever they are needed. Slopes of formulas
+// are computed as differences.
 #include "run/domain/file_places.h"
 
 #include "lang/program/evaluate.h"
@@ -16,12 +16,14 @@ namespace cascade {
 
 namespace {
 
-constexpr double slope_width = 1e-4;         // In longest sides, for slopes of formulas.
-constexpr double shortest_direction = 0.01;  // 8-bit pixels have no ½.
-constexpr double rounded_component = 1e-9;   // For one component relative to the other.
+constexpr double slope_width = 1e-4;  // The step of differences, as a fraction of the longest side.
+// Shorter directions get no angle. Their components should be 0, but ½ is not exact in 8 bits.
+constexpr double shortest_direction = 0.01;
+// A component that is smaller than this fraction of the other component counts as 0.
+constexpr double rounded_component = 1e-9;
 
-/// A position along one side of a file among `count` elements: the element before it, the one
-/// after, and the weight of the second.
+/// A position among the `count` elements along one side of a file. It is described by the elements
+/// before and after it and by the weight of the second of these.
 struct BetweenElements {
     std::size_t before = 0, after = 0;
     double part = 0;
@@ -41,13 +43,13 @@ struct BetweenElements {
     }
 };
 
-/// The number at a position of an array of slices × rows × columns.
+/// The number at a position in an array of slices, rows and columns.
 template <typename Number>
 double number_at(const std::vector<Number>& values, std::array<std::int64_t, 3> sides,
                  const FilePlace& place, bool repeats) {
     const BetweenElements column(place[0], sides[0], repeats), row(place[1], sides[1], repeats),
         slice(place[2], sides[2], repeats);
-    // std::lerp rounds differently in each library.
+    // std::lerp is not used, because it rounds differently in each standard library.
     const auto mix = [](double a, double b, double part) { return a + (b - a) * part; };
     const auto along = [&](std::size_t k, std::size_t j) {
         const std::size_t start =
@@ -65,7 +67,8 @@ void set(BuiltinValues& values, Builtin builtin, double value) {
     values[static_cast<std::size_t>(builtin)] = value;
 }
 
-/// Calls `visit(values)` with the built-in position values in each cell of a grid.
+/// Calls `visit(values)` for each cell of a grid. `values` belong to the built-in names for
+/// positions, such as x.
 template <typename Visit>
 void each_of_grid(const Grid& grid, const Visit& visit) {
     const auto longest = static_cast<double>(grid.longest_side());
@@ -88,7 +91,8 @@ void each_of_grid(const Grid& grid, const Visit& visit) {
     }
 }
 
-/// Does the same for a model.
+/// Calls `visit(values)` for each cell of a model. `values` belong to the built-in names for
+/// positions, such as x.
 template <typename Visit>
 void each_of_model(const ModelCells& model, const Visit& visit) {
     constexpr std::array builtins{Builtin::x,  Builtin::y,  Builtin::z,  Builtin::sx, Builtin::sy,
@@ -105,7 +109,8 @@ void each_of_model(const ModelCells& model, const Visit& visit) {
     }
 }
 
-/// Moves a position by a vector in longest sides. `extent` is the size of the domain's box.
+/// Moves a position by a vector. Its unit is the longest side of the domain's box, whose size is
+/// `extent`.
 BuiltinValues moved(BuiltinValues place, Vector3d by, Vector3d extent) {
     const std::array<double, 3> way{by.x, by.y, by.z}, sides{extent.x, extent.y, extent.z};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -127,8 +132,7 @@ FilePlace minus(const FilePlace& a, const FilePlace& b) {
     return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
-/// The vector in the plane of a triangle along which a value linear in it changes by |gradient|²
-/// per length.
+/// The gradient of a linear function in the plane of a triangle, from its values at the corners.
 Vector3d gradient_in(const SurfaceMesh& mesh, std::uint32_t triangle,
                      const std::array<double, 3>& corners) {
     const auto& [a, b, c] = mesh.triangles[triangle];
@@ -141,19 +145,22 @@ Vector3d gradient_in(const SurfaceMesh& mesh, std::uint32_t triangle,
     return u * ((du * vv - dv * uv) / area) + v * ((dv * uu - du * uv) / area);
 }
 
-/// The angle on the surface of a step in a picture, to the right and upwards in pixels.
+/// The angle, on the surface or grid, that corresponds to a step in a picture. The step is given in
+/// pixels to the right and upwards.
 double angle_of(double to_right, double upwards, std::array<double, 2> sides,
                 const FileSlopes& slopes) {
     if (!(to_right * to_right + upwards * upwards >= shortest_direction * shortest_direction)) {
         return 0;
     }
-    // The step along the surface for this step in the picture: two linear equations.
+    // Solves two linear equations for the step on the surface that corresponds to this step in the
+    // picture.
     const double a = to_right / sides[0], b = -upwards / sides[1];
     const auto& [right, down] = slopes;
     const double sign = right[0] * down[1] - right[1] * down[0] < 0 ? -1 : 1;
     const double x = sign * (a * down[1] - b * down[0]);
     double y = sign * (b * right[0] - a * right[1]);
-    // To the left is π, whatever the rounding errors. −π is the same direction, but another number.
+    // A step to the left gets the angle π. Rounding errors could otherwise give −π, which is the
+    // same direction but another number.
     if (std::abs(y) <= rounded_component * std::abs(x)) y = 0;
     return std::isfinite(x) && std::isfinite(y) ? std::atan2(y, x) : 0;
 }
@@ -228,7 +235,8 @@ Result<FilePlaces> FilePlaces::of_texture(const ModelCells& model, const ModelSe
         for (std::size_t k = 0; k < cells.places.size(); ++k) {
             const SurfacePlace& place = cells.places[k];
             const auto [u, v] = *texture_place_at(mesh, place);
-            const FilePlace from_top{u, 1 - v, 0};  // Rows are counted from the top.
+            // Rows are counted from the bottom in texture coordinates, and from the top in files.
+            const FilePlace from_top{u, 1 - v, 0};
             if (!with_slopes) {
                 visit(from_top, {});
                 continue;

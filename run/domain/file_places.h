@@ -1,4 +1,4 @@
-// Positions in a picture or an array for the cells of a domain, and the numbers there.
+// Finds the position of each cell in a picture or an array, and reads the numbers there.
 #pragma once
 
 #include "core/grid.h"
@@ -18,42 +18,48 @@
 
 namespace cascade {
 
-/// A position in a file, 0 … 1 from the left, from the top and from the first slice.
+/// A position in a file: first the fraction of the width from the left, second that of the height
+/// from the top, third that of the depth from the first slice, all 0 … 1.
 using FilePlace = std::array<double, 3>;
 
-/// The number at a position of an array of slices of rows of columns, interpolated linearly between
-/// the middles of elements. Beyond 0 … 1 as at the side. `sides` counts columns, rows and slices.
+/// The number at a position in an array, interpolated linearly between the centres of elements.
+/// Positions outside of 0 … 1 give the value at the nearest side. `values` are ordered by slices,
+/// rows and columns. `sides` contains the numbers of columns, rows and slices.
 double number_at_place(const std::vector<double>& values, std::array<std::int64_t, 3> sides,
                        const FilePlace& place);
 
-/// The change of a position in a picture along the surface or the grid: by a step to the right and
-/// by one downwards (surface/cell_frames.h). The unit of steps does not matter.
+/// How much a position in a picture changes along the surface or grid: for a short step to the
+/// right, and for an equally long step downwards (surface/cell_frames.h). Only the ratio of the
+/// changes is used, so the length of the steps does not matter.
 struct FileSlopes {
     FilePlace right{}, down{};
 };
 
-/// The file positions of all cells of a domain: for a grid row by row through all slices, for a
-/// model, which must outlive them, in the cells' own order.
+/// The position in a file that belongs to each cell of a domain. Cells of a grid are ordered row by
+/// row through all slices. Cells of a model are in their own order. The model must outlive this
+/// object.
 class FilePlaces {
 public:
-    /// Computed by formulas of the cell's position. Beyond 0 … 1 the file continues as at its side.
-    /// `model` is null on grids.
+    /// Positions that formulas of the cell's position give. Beyond 0 … 1 the file continues with
+    /// the values at its side. `model` is null on grids.
     static FilePlaces by_formulas(std::vector<Formula> place, const Grid& grid,
                                   const ModelCells* model, bool with_slopes);
-    /// A grid cell's position, where each side of the grid is a side of the file.
+    /// Positions in a file whose sides coincide with the sides of the grid.
     static FilePlaces of_grid(const Grid& grid);
-    /// The texture coordinates of a model, beyond which the picture repeats. If the model has none,
-    /// fails and says how to make some.
+    /// Positions at the texture coordinates of a model. Beyond 0 … 1 the picture repeats. Fails if
+    /// the model has no texture coordinates, and says how to make some.
     static Result<FilePlaces> of_texture(const ModelCells& model, const ModelSettings& settings,
                                          bool with_slopes);
 
-    /// Interpolated linearly between the centres of pixels.
+    /// The numbers of a picture, interpolated linearly between the centres of pixels.
     std::vector<double> numbers(const GreyPicture& picture) const;
-    /// The same between the elements of an array, which has one slice if positions have none.
+    /// The numbers of an array, interpolated linearly between the centres of elements. If positions
+    /// have no slice, the array must have only one.
     std::vector<double> numbers(const NpyArray& array) const;
-    /// The angles, from the right downwards on the surface or grid, of directions painted in two
-    /// channels of a picture: 0 … 1 means −1 … 1 to the right and upwards in the picture. 0 where
-    /// both are nearly ½ or where the positions do not change. There must be slopes.
+    /// Angles of the directions painted in two channels of a picture. Red values 0 … 1 mean −1 … 1
+    /// to the right in the picture, and green values 0 … 1 mean −1 … 1 upwards. Angles are measured
+    /// on the surface or grid, from the right downwards. They are 0 where both values are nearly ½
+    /// or where positions do not change. The positions must have slopes.
     std::vector<double> angles(const GreyPicture& red, const GreyPicture& green) const;
 
 private:
@@ -64,11 +70,13 @@ private:
     std::vector<double> numbers_of(const std::vector<Number>& values,
                                    std::array<std::int64_t, 3> sides) const;
 
-    ForEach each_;  ///< Computes positions, which would take more memory than planes.
+    /// Computes positions when they are needed, because storing them would take more memory than
+    /// planes.
+    ForEach each_;
     bool repeats_;
 };
 
-/// The numbers of cells as a plane. `model` is null on grids.
+/// Makes a plane from a number for each cell. `model` is null on grids.
 Field plane_of(std::span<const double> numbers, const Grid& grid, const ModelCells* model,
                Precision precision);
 

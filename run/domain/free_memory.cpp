@@ -1,5 +1,5 @@
-// Reads /proc/meminfo, and the limits of both versions of control groups from this process's group
-// up to the top. File pages that can be given back count as free.
+// Reads /proc/meminfo, and the limits of control groups of both versions, from this process's group
+// up to the top. Cached pages of files count as free, because the system can release them.
 #include "run/domain/free_memory.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The file names of a version of control groups.
+/// The names of files in one version of control groups.
 struct GroupFiles {
     std::string_view limit, used, file_bytes_1, file_bytes_2;
 };
@@ -22,7 +22,7 @@ constexpr GroupFiles version_2{"memory.max", "memory.current", "inactive_file", 
 constexpr GroupFiles version_1{"memory.limit_in_bytes", "memory.usage_in_bytes",
                                "total_inactive_file", "total_active_file"};
 
-/// The number in a file. Empty if there is none, as in "max".
+/// The number in a file. Empty if the file contains anything else, such as "max".
 std::optional<std::uint64_t> number_in(const fs::path& path) {
     std::ifstream file(path);
     std::uint64_t number = 0;
@@ -30,7 +30,7 @@ std::optional<std::uint64_t> number_in(const fs::path& path) {
     return std::nullopt;
 }
 
-/// The number after a key in a file of lines "KEY NUMBER …". 0 if there is none.
+/// The number after a key in a file with lines "KEY NUMBER …". 0 if the key is missing.
 std::uint64_t number_of(const fs::path& path, std::string_view key) {
     std::ifstream file(path);
     std::string word, rest;
@@ -42,7 +42,7 @@ std::uint64_t number_of(const fs::path& path, std::string_view key) {
     return 0;
 }
 
-/// The free bytes below the limit of one group. Empty if it has none.
+/// The free bytes below the limit of one group. Empty if it has no limit.
 std::optional<std::uint64_t> left_in(const fs::path& group, const GroupFiles& names) {
     const auto limit = number_in(group / names.limit);
     const auto used = number_in(group / names.used);
@@ -54,11 +54,12 @@ std::optional<std::uint64_t> left_in(const fs::path& group, const GroupFiles& na
     return *limit - std::min(*limit, held);
 }
 
-/// The least free bytes in a group or in one above it, up to `top`.
+/// The smallest number of free bytes in a group and the groups above it, up to `top`.
 std::optional<std::uint64_t> left_up_to(const fs::path& top, const std::string& group,
                                         const GroupFiles& names) {
     std::optional<std::uint64_t> least;
-    // Inside a container, the path is often the host's. Only its last part is mounted, as the top.
+    // In a container, this path is often the path outside of the container. Then only the last
+    // group of the path is visible, as `top`.
     fs::path path = fs::path(group).lexically_normal().relative_path();
     while (true) {
         if (const auto left = left_in(top / path, names))
@@ -73,13 +74,14 @@ std::optional<std::uint64_t> left_up_to(const fs::path& top, const std::string& 
 std::uint64_t available_memory(const fs::path& root) {
     std::uint64_t available = number_of(root / "proc/meminfo", "MemAvailable:") * 1024;
     const auto at_most = [&](const std::optional<std::uint64_t>& bytes) {
-        // A full group counts as 1 byte free, since 0 means that the amount is unknown.
+        // A group without free memory counts as 1 byte, because 0 means that the amount is unknown.
         if (bytes)
             available =
                 std::max<std::uint64_t>(1, available > 0 ? std::min(available, *bytes) : *bytes);
     };
     const fs::path groups = root / "sys/fs/cgroup";
-    // Lines such as "0::/user.slice" (version 2) and "5:cpu,memory:/docker/7a" (version 1).
+    // Lines are, for example, "0::/user.slice" (version 2) or "5:cpu,memory:/docker/7a" (version
+    // 1).
     std::ifstream file(root / "proc/self/cgroup");
     for (std::string line; std::getline(file, line);) {
         const std::size_t first = line.find(':');

@@ -1,4 +1,5 @@
-// The free memory of the machine and of this process's control group, which containers have.
+// Finds the free memory of the machine and of the control group of this process. Containers limit
+// memory by control groups.
 #pragma once
 
 #include <cstdint>
@@ -6,10 +7,11 @@
 
 namespace cascade {
 
-/// Bytes that the system can give without swapping: Linux's MemAvailable or, if that is less, the
-/// rest below the limit of a control group (version 1 or 2) of this process or of one above it. The
-/// group's file cache counts as free, because it is given back. 0 if the system does not say.
-/// `root` is the folder of /proc and /sys.
+/// The number of bytes that the system can give without swapping, or 0 if it is unknown. This is
+/// Linux's MemAvailable, or the memory left below the limit of a control group (version 1 or 2) if
+/// that is less. The group of this process and all groups above it count. A group's file cache
+/// counts as free, because the system releases it when needed. `root` is the folder that contains
+/// /proc and /sys.
 std::uint64_t available_memory(const std::filesystem::path& root = "/");
 
 }  // namespace cascade

@@ -1,4 +1,5 @@
-// Reads every text once, through GrantedFiles. Reports faults at the text in the script.
+// Reads every file once, through GrantedFiles, which refuses files that the script may not read.
+// Errors are reported at the file's name in the script.
 #include "run/domain/input_files.h"
 
 #include "core/check.h"
@@ -23,7 +24,7 @@ namespace {
 
 TextId text_of(const Node& node) { return std::get<TextId>(node.kind); }
 
-/// Parses a file that the script names.
+/// Reads and parses a file that the script names.
 template <typename Parse>
 auto read_granted(const Script& script, const std::string& name, std::uint64_t largest,
                   const Parse& parse) -> decltype(parse(std::string_view())) {
@@ -35,7 +36,8 @@ auto read_granted(const Script& script, const std::string& name, std::uint64_t l
                    parsed.error().hint);
 }
 
-/// The numbers of a NumPy file, or empty with a diagnostic.
+/// Reads the numbers of a NumPy file. If that fails, adds an error to the script's diagnostics and
+/// returns an empty optional.
 std::optional<NpyArray> read_array(Script& script, const Node& node) {
     const std::string& name = script.program->literals->text(text_of(node));
     auto array = read_granted(script, name, largest_npy_file, [&](std::string_view bytes) {
@@ -46,7 +48,7 @@ std::optional<NpyArray> read_array(Script& script, const Node& node) {
     return std::nullopt;
 }
 
-/// Whether an array has the rows and columns of a grid. If not, reports a diagnostic.
+/// Returns whether an array has as many rows and columns as the grid. If not, reports an error.
 bool fits_grid(Script& script, const Node& node, const NpyArray& array, const Grid& grid) {
     const std::string& name = script.program->literals->text(text_of(node));
     if (fits(array, grid)) return true;
@@ -65,7 +67,8 @@ bool fits_grid(Script& script, const Node& node, const NpyArray& array, const Gr
     return false;
 }
 
-/// A channel of a PNG, or empty with a diagnostic.
+/// Reads a channel of a PNG file. If that fails, adds an error to the script's diagnostics and
+/// returns an empty optional.
 std::optional<GreyPicture> read_picture(Script& script, const Node& node, PictureChannel channel) {
     const std::string& name = script.program->literals->text(text_of(node));
     auto picture = read_granted(script, name, largest_picture_file, [&](std::string_view bytes) {
@@ -76,13 +79,13 @@ std::optional<GreyPicture> read_picture(Script& script, const Node& node, Pictur
     return std::nullopt;
 }
 
-/// Reads the files named in a script, for its grid or its model.
+/// Reads the files that a script names, for its grid or its model.
 class FileReader {
 public:
     FileReader(Script& script, const ModelCells* model)
         : script_(script), model_(model), grid_(script.program->domain.grid) {}
 
-    /// Empty with a diagnostic.
+    /// Makes a plane from a file. If that fails, reports an error and returns an empty optional.
     std::optional<Field> read(const NamedPlane& name, const Node& text) const {
         const FileReading& reading = script_.program->literals->reading(name.reading);
         switch (name.function) {
@@ -92,7 +95,8 @@ public:
         }
     }
 
-    /// A file for a kernel. Empty with a diagnostic.
+    /// Reads a file for the kernel of a convolution. If that fails, reports an error and returns an
+    /// empty optional.
     std::optional<KernelFile> read_kernel(const NamedPlane& name, const Node& text) const {
         const FileReading& reading = script_.program->literals->reading(name.reading);
         if (name.function == Function::image) {
@@ -106,14 +110,15 @@ public:
     }
 
 private:
-    /// Reports a diagnostic if an array has slices, and the position does not choose one.
+    /// Returns whether it is clear which slice of an array is read. If the array has several slices
+    /// but the position has no slice, reports an error and returns false.
     bool knows_slices(const NpyArray& array, const FileReading& reading, const Node& text) const {
         if (array.slices == 1 || reading.place.size() == 3) return true;
         script_.diagnostics.error(
             text.span,
-            fmt::format("'{}' has {} slices, and the place in it has two numbers",
+            fmt::format("'{}' has {} slices, but the position has only two numbers",
                         script_.program->literals->text(text_of(text)), array.slices),
-            "a third number says where between the first slice and the last");
+            "a third number, from 0 to 1, selects a point between the first and the last slice");
         return false;
     }
 
@@ -188,7 +193,8 @@ private:
     const Grid& grid_;
 };
 
-/// Calls `read(name, text)` for each text read by a formula that is not yet `known`.
+/// Calls `read(name, text)` for each file name that a formula contains, unless the name is already
+/// in `known`.
 template <typename Read>
 void each_text_of(const Formula& formula, std::set<NamedPlane>& known, const Read& read) {
     for (const Node& node : formula.nodes) {
@@ -199,7 +205,7 @@ void each_text_of(const Formula& formula, std::set<NamedPlane>& known, const Rea
     }
 }
 
-/// Does the same for the kernels of all convolutions.
+/// Calls `read(name, text)` for the file names in kernels of convolutions.
 template <typename Read>
 void each_kernel_file(const Script& script, const Read& read) {
     std::set<NamedPlane> known;
@@ -210,7 +216,7 @@ void each_kernel_file(const Script& script, const Read& read) {
     }
 }
 
-/// Calls `read(name, text)` once for each text read by the script's formulas.
+/// Calls `read(name, text)` once for each file name in the script's formulas.
 template <typename Read>
 void each_text_read(const Script& script, const Read& read) {
     std::set<NamedPlane> known;

@@ -1,5 +1,5 @@
-// The files named in quotes in a script: arrays of `field("a.npy")`, pictures of `image("a.png")`
-// and, on models, `attr("name")`.
+// The data that scripts name in quotes: arrays of `field("a.npy")`, pictures of `image("a.png")`
+// and, on models, attributes of `attr("name")`.
 #pragma once
 
 #include "core/picture_channel.h"
@@ -26,17 +26,17 @@ public:
     void add_kernel(NamedPlane name, KernelFile file) {
         kernels_[name] = std::make_shared<const KernelFile>(std::move(file));
     }
-    /// The data of a convolution's kernel.
+    /// The weights of a convolution's kernel that were read from the file `name`.
     const KernelFile& kernel(NamedPlane name) const { return *kernels_.at(name); }
 
-    /// Calls `look` with the name and the plane of each file read by this function.
+    /// Calls `look(name, plane)` for each file that scripts read by `function`.
     template <typename Look>
     void each_of(Function function, const Look& look) const {
         for (const auto& [name, plane] : planes_) {
             if (name.function == function) look(name, plane);
         }
     }
-    /// The same files, with a new plane made from each, and the same kernels.
+    /// A copy in which `make` has made a new plane from each plane. Names and kernels are the same.
     template <typename Make>
     InputFiles mapped(const Make& make) const {
         InputFiles result;
@@ -50,18 +50,19 @@ private:
     std::map<NamedPlane, std::shared_ptr<const KernelFile>> kernels_;
 };
 
-/// The names of the files read by the mask and the formulas of stages, with the channels of
-/// pictures.
+/// The names of the files that the mask and the formulas of stages read. For each picture, the
+/// channels that are read.
 std::map<std::string, std::set<PictureChannel>> input_files_of(const Script& script);
 
-/// Checks that a model's points have everything read by attr(). If not, reports diagnostics at the
-/// text in the script.
+/// Checks whether a model's points have all attributes that attr() reads. For each missing one,
+/// adds an error at the place in the script that reads it.
 Result<void> check_attributes(Script& script, const SurfaceMesh& mesh);
 
-/// Reads every file named in the mask or a formula, relative to the script's folder, and the values
-/// of a model's points (null on a grid). A missing file, a wrong type, a shape other than the
-/// grid's, a name unknown to the model and a picture on a model without texture coordinates give
-/// diagnostics at the text in the script. Pictures are scaled to the grid.
+/// Reads every file that the mask or a formula names, relative to the script's folder, and the
+/// attributes of a model's points. `model` is null on a grid. Pictures are scaled to the grid. Adds
+/// an error at the name in the script if a file is missing or has the wrong type, if its shape
+/// differs from the grid's, if the model lacks an attribute, or if a picture is read on a model
+/// without texture coordinates.
 Result<InputFiles> read_input_files(Script& script, const ModelCells* model);
 
 }  // namespace cascade

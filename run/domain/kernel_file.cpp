@@ -1,4 +1,4 @@
-// Computes the positions in the file in binary64, as file_places.cpp does for cells.
+// Computes positions in the file in binary64, in the same way as file_places.cpp does for cells.
 #include "run/domain/kernel_file.h"
 
 #include "lang/program/evaluate.h"
@@ -12,7 +12,7 @@ namespace cascade {
 
 namespace {
 
-/// The value of a formula of numbers, a distance, and components of a direction.
+/// The value of a formula that contains numbers, a distance, and components of a direction.
 double value_at(const Formula& formula, double distance, const std::array<double, 3>& direction) {
     double value = 0;
     const KnownValues known = [&](const Node& node, const OperandColumns& operands,
@@ -21,7 +21,8 @@ double value_at(const Formula& formula, double distance, const std::array<double
             values[0] = *lag == CellValue::distance ? distance : 0;
             return true;
         }
-        // Only the direction is a vector here. The second operand is the axis.
+        // The only vector in the formula is the direction. The second operand is the number of the
+        // axis.
         if (!node.calls(Function::component)) return false;
         values[0] = direction[static_cast<std::size_t>(operands[1][0])];
         return true;

@@ -1,4 +1,4 @@
-// A file with the weights of a convolution's kernel.
+// Reads the weights of a convolution's kernel from a file.
 #pragma once
 
 #include "lang/program/program.h"
@@ -13,17 +13,18 @@ namespace cascade {
 
 class KernelFile {
 public:
-    /// `place` is the position of a lag's weight in the file: formulas of numbers, distance and
-    /// direction (FileReading::place).
+    /// `place` contains the formulas for the position at which the file has the weight of a lag,
+    /// that is, of a displacement between two cells. The formulas contain numbers, and the distance
+    /// and direction of the lag (FileReading::place).
     KernelFile(const GreyPicture& picture, std::vector<Formula> place);
     KernelFile(const NpyArray& array, std::vector<Formula> place);
 
-    /// The number at a lag. `distance` is its length in the script's unit, and `direction` a unit
-    /// vector. Interpolated as in FilePlaces.
+    /// The weight of a lag, interpolated as in FilePlaces. `distance` is the length of the lag in
+    /// the script's unit, and `direction` its unit vector.
     double at(double distance, const std::array<double, 3>& direction) const;
 
 private:
-    std::vector<double> values_;  ///< Slices of rows of columns.
+    std::vector<double> values_;  ///< Ordered by slice, row and column.
     std::array<std::int64_t, 3> sides_;
     std::vector<Formula> place_;
 };

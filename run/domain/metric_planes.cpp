@@ -1,4 +1,4 @@
-// Evaluates the script's formulas in binary64 and hands the metric's fields to their planes.
+// Evaluates the script's formulas in binary64, and copies the metric to planes.
 #include "run/domain/metric_planes.h"
 
 #include "lang/program/evaluate.h"

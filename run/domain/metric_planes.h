@@ -1,4 +1,4 @@
-// The surface of a domain, for operators and pictures.
+// Computes the metric of a domain's surface, which operators and pictures use.
 #pragma once
 
 #include "core/plane.h"
@@ -10,11 +10,12 @@
 
 namespace cascade {
 
-/// The map of a domain's surface. It refers to `surface`.
+/// The function that maps parameters to positions on the surface. The result refers to `surface`.
 SurfaceFunction function_of(const SurfaceSettings& surface);
 
-/// A plane for each MetricPlane, in their order, or none if the domain has no surface or its cells
-/// count as squares. Fails where the surface is singular and names the position.
+/// The planes of the metric, indexed by MetricPlane. Empty if the domain has no surface or if its
+/// cells count as squares. If the surface is singular at some point, fails with a message that
+/// names the point.
 Result<std::vector<Field>> metric_planes(const Program& program);
 
 }  // namespace cascade

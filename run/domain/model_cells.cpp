@@ -1,5 +1,5 @@
-// Reads or makes the mesh, turns it upright, and makes its cells (run/domain/spread_cells),
-// immediately or on the first reading.
+// Reads or makes the mesh, turns it upright, and makes its cells (run/domain/spread_cells), either
+// at once or in the first call of spread().
 #include "run/domain/model_cells.h"
 
 #include "core/check.h"
@@ -41,7 +41,8 @@ Result<SurfaceMesh> mesh_of(const Animal& animal, const std::atomic<bool>& cance
 
 Result<MadeMesh> make_surface(const ModelSettings& settings, const Literals& literals,
                               const ModelAccess& access, const std::atomic<bool>& cancel) {
-    // Fine enough for the smallest features, whatever the number of cells.
+    // The length of edges. It is small enough for the smallest features of the shapes, and does not
+    // depend on the number of cells.
     constexpr double edge = 0.02;
     const auto size = [&](std::size_t k, double otherwise) {
         return k < settings.sizes.size() ? settings.sizes[k] : otherwise;
@@ -58,7 +59,7 @@ Result<MadeMesh> make_surface(const ModelSettings& settings, const Literals& lit
             mesh = box_mesh(sides, edge * std::max({sides.x, sides.y, sides.z}));
             break;
         }
-        // The knot is 6 long.
+        // The knot has a size of 6, so its edges may be three times as long.
         case ModelShape::knot: mesh = knot_mesh(size(0, 0.4), 3 * edge); break;
         case ModelShape::creature: mesh = mesh_of(creature(), cancel); break;
         case ModelShape::leopard: mesh = mesh_of(leopard(), cancel); break;

@@ -22,48 +22,48 @@
 
 namespace cascade {
 
-/// The cells that are spread over a model, for fields on it.
+/// The cells that are spread over a model. Fields on the model have a value for each.
 struct SpreadCells : ModelFacts {
     SurfaceCells cells;
-    /// Planes and links have the cells in the fastest order for steps (surface/cell_order.h):
-    /// order[k] is the cell at column k mod W of row k / W. Files and random numbers use the cells'
-    /// own order.
+    /// Planes and links have the cells in the order that is fastest for steps
+    /// (surface/cell_order.h): order[k] is the cell in column k mod W and row k / W, where W is the
+    /// width of the rows. Files and random numbers use the cells' own order.
     std::vector<std::uint32_t> order;
     Mask inside;                ///< 0 in the padding of the last row, else 1.
-    double unit = 1;            ///< In lengths of the model.
-    std::vector<Field> planes;  ///< By ModelPlane.
-    Links links;                ///< Without weights of gradients: few scripts need them.
+    double unit = 1;            ///< The script's unit of length, in lengths of the model.
+    std::vector<Field> planes;  ///< Indexed by ModelPlane.
+    Links links;  ///< Without the weights of gradients, because few scripts need them.
 };
 
 class ModelCells {
 public:
     using Make = std::function<SpreadCells(const ModelCells&)>;
 
-    /// The mesh with y upwards, looking along z, independent of its orientation in the file. Only
-    /// the writers of model files need the original coordinates.
+    /// The mesh, turned so that y points upwards and the model faces along z. Only the writers of
+    /// model files need the coordinates of the file.
     SurfaceMesh mesh;
-    Stance stance;                     ///< The model's stance in the file.
-    std::vector<std::string> repairs;  ///< The repairs of the model, one sentence each.
+    Stance stance;                     ///< The orientation of the model in its file.
+    std::vector<std::string> repairs;  ///< One sentence for each repair of the model.
 
-    /// The first call of spread() calls `make`, once.
+    /// `make` makes the cells. It is called once, by the first call of spread().
     ModelCells(SurfaceMesh upright, std::size_t count, Make make);
 
-    /// Known before the cells are made.
+    /// The number of cells, which is known before they are made.
     std::size_t count() const { return count_; }
-    /// The rows of cells.
+    /// The grid of memory: the rows and columns in which the cells are stored.
     const Grid& grid() const { return grid_; }
-    /// Makes the cells on the first call, because crawling cells may need none of them. Throws
-    /// std::bad_alloc.
+    /// The cells. The first call makes them, because a run with crawling cells may not need them.
+    /// Throws std::bad_alloc.
     const SpreadCells& spread() const;
-    /// The links with weights of gradients, computed on the first call. Throws std::bad_alloc.
+    /// The links with weights of gradients, computed by the first call. Throws std::bad_alloc.
     const Links& links_with_gradients() const;
 
-    /// The cell at position k of the rows. k is below the number of cells.
+    /// The cell at position k, counted row by row. k must be less than the number of cells.
     std::uint32_t cell_at(std::int64_t k) const {
         return spread().order[static_cast<std::size_t>(k)];
     }
 
-    /// The mesh before it was turned upright, bit for bit.
+    /// The mesh as it was before it was turned upright, bit for bit.
     SurfaceMesh mesh_of_file() const;
 
 private:
@@ -75,45 +75,49 @@ private:
     mutable Links links_with_gradients_;
 };
 
-/// Where a model's file may lie.
+/// Which files a model may be read from.
 struct ModelAccess {
-    std::filesystem::path folder;  ///< Paths are relative to this folder.
+    std::filesystem::path folder;  ///< Relative paths start at this folder.
     ReadAccess reads;
-    bool is_asked_for = false;    ///< The command line names it: the file may lie anywhere.
-    std::filesystem::path cache;  ///< Folder for spread cells. Empty: none.
-    /// Refuses a model, upright, before its cells are made. May be empty.
+    /// Whether the command line names the model. If so, its file may be in any folder.
+    bool is_asked_for = false;
+    std::filesystem::path cache;  ///< The folder in which spread cells are cached. Empty: no cache.
+    /// Checks the upright mesh before its cells are made, and may refuse it. May be empty.
     std::function<Result<void>(const SurfaceMesh&)> check = {};
-    bool is_made_when_read = false;  ///< The first call of spread() makes the cells.
+    bool is_made_when_read = false;  ///< Whether the first call of spread() makes the cells.
+                                     ///< Otherwise make_model_cells() does.
 };
 
-/// Reads or makes the model, spreads its cells and links them. Fails on an unusable file, on more
-/// cells than memory allows and on fewer cells than components. The result is meaningless if the
-/// call was cancelled. The same with any number of threads. `control` is not kept: cells made on
-/// reading are neither reported nor cancelled.
+/// Reads or makes the model, spreads its cells and links them. Fails if the file cannot be used, if
+/// there is not enough memory for the cells, or if there are fewer cells than components of the
+/// surface. The result does not depend on the number of threads, and is meaningless if the call was
+/// cancelled. `control` is used only during this call, so it can neither report nor cancel the
+/// making of cells in spread().
 Result<std::shared_ptr<const ModelCells>> make_model_cells(const Program& program,
                                                            const ModelAccess& access, Team& team,
                                                            RunControl& control);
 
-/// Converts between script coordinates, 0 … 1 along the longest side of the model's box and in the
-/// same scale along the others, and model coordinates.
+/// Converts between the coordinates of scripts and of the model. Script coordinates are 0 … 1 along
+/// the longest side of the model's bounding box, and have the same scale along the other sides.
 struct ModelBox {
     Vector3d low;
-    double longest = 0;  ///< In lengths of the model.
+    double longest = 0;  ///< The length of the longest side, in lengths of the model.
 
     explicit ModelBox(const SurfaceMesh& mesh);
     Vector3d in_model(Vector3d place) const { return low + place * longest; }
     Vector3d in_script(Vector3d place) const { return (place - low) * (1 / longest); }
 };
 
-/// One value for each cell as a plane. The padding of the last row repeats the last cell.
+/// Makes a plane from one value for each cell. The padding of the last row repeats the last cell.
 Field field_of_cells(std::span<const double> values, const ModelCells& model, Precision precision);
 
-/// Converts a plane to one row with the cells in their own order, as in files, and back, padding
-/// included.
+/// in_one_row() converts a plane to a single row with the cells in their own order, as in files.
+/// Its inverse is below. Both include the unused positions at the end of the last row.
 Field in_one_row(const Field& field, const ModelCells& model);
 Field in_rows(const Field& one_row, const ModelCells& model);
 
-/// The values of a plane's cells in their own order, without the padding.
+/// The values of a plane in the cells' own order, without the unused positions at the end of the
+/// last row.
 std::vector<double> cell_values(const Field& field, const ModelCells& model);
 
 }  // namespace cascade

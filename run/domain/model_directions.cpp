@@ -1,5 +1,5 @@
-// Directions come from surface/direction_field and surface/key_directions, one for each triangle,
-// and are then smoothed.
+// Computes a direction for each triangle by surface/direction_field or surface/key_directions, and
+// then smooths the directions.
 #include "run/domain/model_directions.h"
 
 #include "lang/program/evaluate.h"

@@ -1,5 +1,5 @@
-// Directions on a model, by the settings of scripts: the directions in which its cells are
-// stretched (`directions` and `stretch` of a domain), and the directions of `along`.
+// Finds directions on a model as scripts define them: the directions in which cells are stretched
+// (`directions` and `stretch` of a domain), and the directions of `along`.
 #pragma once
 
 #include "core/parallel.h"
@@ -11,13 +11,14 @@
 
 namespace cascade {
 
-/// A direction for each triangle. Directions are lines without a sign: v and −v are the same. A
-/// direction left open by the settings, such as an axis normal to the surface, is filled from the
-/// neighbours. The same with any number of threads. Meaningless if `cancel` became true.
+/// Returns a direction for each triangle. Directions have no sign, so v and −v are the same. Where
+/// the settings give no direction, for example because an axis is normal to the surface, the
+/// direction is interpolated from the neighbours. The result does not depend on the number of
+/// threads. It is meaningless if `cancel` became true.
 std::vector<Vector3d> direction_lines(const DirectionSettings& settings, const SurfaceMesh& mesh,
                                       Team& team, const std::atomic<bool>& cancel);
 
-/// These directions, and the same ratio for each triangle.
+/// The directions of direction_lines(), with the same ratio of stretch in all triangles.
 Anisotropy anisotropy_of(const DirectionSettings& settings, double stretch, const SurfaceMesh& mesh,
                          Team& team, const std::atomic<bool>& cancel);
 

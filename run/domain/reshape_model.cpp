@@ -1,4 +1,4 @@
-// Checks the memory required by OpenMesh's tools, and describes the result.
+// Estimates the memory that OpenMesh's tools need, and describes the result.
 #include "run/domain/reshape_model.h"
 
 #include "core/counted.h"
@@ -15,7 +15,7 @@ namespace cascade {
 
 namespace {
 
-/// Per triangle, with the half-edges and the data of OpenMesh's tools.
+/// Bytes for each triangle, for its half-edges and the data of OpenMesh's tools.
 constexpr double bytes_when_subdivided = 300, bytes_when_simplified = 400;
 
 Result<void> check_memory(double triangles, double bytes_each) {

@@ -1,4 +1,4 @@
-// Finer and coarser triangles for a model, for `cascade mesh`.
+// Makes the triangles of a model finer or coarser, for the command `cascade mesh`.
 #pragma once
 
 #include "core/result.h"
@@ -12,15 +12,17 @@
 
 namespace cascade {
 
-/// The changes, applied in this order.
+/// The changes to be made, in the order of the members.
 struct Reshaping {
-    int subdivide = 0;                    ///< How many times (mesh/subdivide.h).
-    std::optional<std::size_t> simplify;  ///< The resulting number of triangles (mesh/simplify.h).
+    int subdivide = 0;  ///< The number of subdivisions (mesh/subdivide.h).
+    /// The wanted number of triangles (mesh/simplify.h). Empty: unchanged.
+    std::optional<std::size_t> simplify;
     bool changes() const { return subdivide > 0 || simplify.has_value(); }
 };
 
-/// Changes the mesh. Returns sentences about the result. Fails if it would take more memory than is
-/// free, and as subdivide() does. Throws std::bad_alloc. Meaningless if `cancel` became true.
+/// Changes the mesh, and returns sentences about the result. Fails like subdivide(), and if there
+/// is not enough free memory. Throws std::bad_alloc. The result is meaningless if `cancel` became
+/// true.
 Result<std::vector<std::string>> reshape(SurfaceMesh& mesh, const Reshaping& how,
                                          const std::atomic<bool>& cancel);
 

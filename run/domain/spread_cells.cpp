@@ -1,4 +1,5 @@
-// Sizes of cells, weights of links and the planes for formulas, in units of the domain.
+// Computes the sizes of cells, the weights of links, and the planes that formulas read, in the
+// domain's unit of length.
 #include "run/domain/spread_cells.h"
 
 #include "core/check.h"
@@ -27,7 +28,8 @@ namespace cascade {
 
 namespace {
 
-/// Weights of a Laplacian in units, one for each Voronoi edge.
+/// The weights of a Laplacian, one for each edge of the Voronoi diagram, in the domain's unit of
+/// length.
 std::vector<double> weights_of(const SurfaceCells& cells, ModelLaplacian laplacian,
                                const Conduction& conduction, double unit, double mean_area) {
     std::vector<double> weights;
@@ -65,15 +67,20 @@ CellOptions options_of(const CellRequest& request) {
     return options;
 }
 
-void report(const RunControl& control, std::string what) {
+constexpr std::int64_t percent = 100;
+
+/// `part` is the completed part of the work, 0 … 1.
+void report(const RunControl& control, std::string what, double part) {
     if (!control.report) return;
     Progress progress;
     progress.doing = std::move(what);
+    progress.step = static_cast<std::int64_t>(part * percent);
+    progress.steps = percent;
     control.report(progress);
 }
 
-/// Reads the cells from a file in the folder, or makes them and writes the file. Results are the
-/// same either way, so an unwritable file is no reason to stop.
+/// Reads the cells from a file in the folder `cache`, or makes them and writes the file. An error
+/// while writing is ignored, because the cells are the same in any case.
 Result<SurfaceCells> cells_kept_in(const std::filesystem::path& cache, const SurfaceMesh& mesh,
                                    const CellOptions& options, Team& team,
                                    const RunControl& control) {
@@ -138,7 +145,8 @@ private:
         made_.links = Links(list, PlaneLayout(made_.grid), precision_, made_.order);
     }
 
-    /// A plane of `value(k)` in cell k: a number, or an unsigned integer for words.
+    /// Makes a plane with the value `value(k)` in cell k. Values are numbers, or unsigned integers
+    /// for planes of words.
     template <typename Value>
     void put(ModelPlane plane, const Value& value) {
         made_.planes[static_cast<std::size_t>(plane)] =
@@ -155,7 +163,8 @@ private:
         made_.planes.resize(model_plane_count);
         const SurfaceCells& cells = made_.cells;
         put(ModelPlane::number, [](std::size_t k) { return static_cast<std::uint32_t>(k); });
-        // The padding of the last row does not count in sums by area.
+        // The area is 0 in the unused positions of the last row, so that these do not count in
+        // sums.
         made_.planes[static_cast<std::size_t>(ModelPlane::area)] = plane_of_cells(
             made_.grid, made_.order, precision_,
             [&](std::size_t cell, bool is_cell) { return is_cell ? areas[cell] : 0.0; });
@@ -180,7 +189,7 @@ private:
         put(ModelPlane::nx, [&](std::size_t k) { return normals[k].x; });
         put(ModelPlane::ny, [&](std::size_t k) { return normals[k].y; });
         put(ModelPlane::nz, [&](std::size_t k) { return normals[k].z; });
-        // Turk's estimate, as a curvature in 1 / unit.
+        // The radii of curvature by Turk's estimate.
         std::vector<double> bends = turk_radii(mesh_);
         for (double& radius : bends) radius = radius > 0 ? made_.unit / radius : 0;
         put(ModelPlane::curvature,
@@ -221,8 +230,10 @@ Result<SurfaceCells> CellRequest::make(const SurfaceMesh& mesh, Team& team,
         if (control.cancel) return SurfaceCells();
         options.anisotropy = &*anisotropy;
     }
-    report(control,
-           fmt::format("spreading {} cells", with_commas(static_cast<std::int64_t>(count(mesh)))));
+    const std::string doing =
+        fmt::format("spreading {} cells", with_commas(static_cast<std::int64_t>(count(mesh))));
+    options.progress = [&control, doing](double part) { report(control, doing, part); };
+    options.progress(0);
     const bool is_kept = !cache.empty() && options.kind == CellKind::places;
     return is_kept ? cells_kept_in(cache, mesh, options, team, control)
                    : make_cells(mesh, options, team, control.cancel);

@@ -1,4 +1,5 @@
-// Makes each value once, on its first reading. Caps distances where no path leads.
+// Computes each value once, when it is first read. In cells that no path reaches, distances get a
+// large finite value.
 #include "run/domain/surface_values.h"
 
 #include "core/near_name.h"
@@ -26,11 +27,12 @@ namespace cascade {
 
 namespace {
 
-/// For values read by the script.
+/// Stands for the time of the last use of values that the script reads, so that these values are
+/// never deleted.
 constexpr std::int64_t always = std::numeric_limits<std::int64_t>::max();
 
-/// The largest distance that a formula needs to know: the largest number with which it is compared,
-/// or infinity if it is used otherwise.
+/// The largest distance that a formula needs. If the formula only compares the distance with
+/// numbers, this is the largest of these numbers. Otherwise it is infinity.
 double reach_needed(const Formula& formula, SurfaceValueId id) {
     constexpr std::array comparisons = {Function::less, Function::less_equal, Function::greater,
                                         Function::greater_equal};
@@ -68,11 +70,11 @@ std::vector<double> key_values(const ModelCells& model, std::span<const double> 
 
 }  // namespace
 
-/// The common data of distances from all positions.
+/// Data that all distances share.
 struct SurfaceValues::Paths {
     NearestPlace nearest;
     std::shared_ptr<const DistanceMesh> mesh;
-    std::vector<Vector3d> cells;  ///< Their positions.
+    std::vector<Vector3d> cells;  ///< The positions of the cells.
 
     Paths(const ModelCells& model, const std::atomic<bool>& cancel)
         : nearest(model.mesh), mesh(std::make_shared<const DistanceMesh>(model.mesh, cancel)) {
@@ -104,7 +106,7 @@ std::vector<double> SurfaceValues::distances(std::span<const double> places, dou
     const SurfaceDistance distance(paths_->mesh, sources, cancel, reach);
     std::vector<double> found(model_.count(), unreachable_distance);
     for (std::size_t cell = 0; cell < found.size(); ++cell) {
-        // No path is shorter than the straight line.
+        // No path is shorter than the straight line, so cells at this distance are out of reach.
         const bool is_far =
             std::none_of(positions.begin(), positions.end(), [&](const Vector3d& from) {
                 return !(length(paths_->cells[cell] - from) > reach);
@@ -144,7 +146,8 @@ void SurfaceValues::make(std::span<const Formula* const> formulas,
             if (!node.is<Builtin>()) continue;
             const auto read = model_plane_of(*node.as<Builtin>());
             if (read && is_made_when_read(*read)) (void)plane(*read);
-            // Makes the cells of the model before the run if its formulas read them.
+            // Curvatures are computed together with the cells. So the cells must be made before the
+            // run.
             if (read == ModelPlane::curvature) (void)model_.spread();
         }
     }
@@ -232,7 +235,7 @@ void SurfaceValues::make_directions() {
     put(ModelPlane::place_z, [&](std::size_t k) { return places[k].z; });
 }
 
-/// The angles of a direction field in the frames of cells.
+/// The angles of a field of directions, measured in the frame of each cell.
 std::vector<double> SurfaceValues::angles(const SurfaceValue& value,
                                           const std::atomic<bool>& cancel) {
     const SurfaceCells& cells = model_.spread().cells;

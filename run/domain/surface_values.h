@@ -1,5 +1,5 @@
-// Values of a model's cells derived from positions on its surface: distances, values of keys,
-// curvatures, directions, and attributes of its points.
+// Values of a model's cells that depend on positions on its surface: distances, values interpolated
+// between keys, curvatures, directions, and attributes of its points.
 #pragma once
 
 #include "core/parallel.h"
@@ -20,41 +20,46 @@
 
 namespace cascade {
 
-/// distance(…) where no path leads, in longest sides of the model. Larger than any path, and small
-/// enough for arithmetic in binary32.
+/// The value of distance(…) in cells that no path reaches, as a multiple of the model's longest
+/// side. It is larger than the length of any path, and small enough for arithmetic in binary32.
 inline constexpr double unreachable_distance = 1000;
 
-/// The default smoothing of keys(…): a standard deviation in longest sides.
+/// The default smoothing of keys(…): a standard deviation, as a multiple of the model's longest
+/// side.
 inline constexpr double usual_smoothing = 0.1;
 
-/// Planes that are made and stored on their first reading. Program, model and team must outlive
-/// this. Values may be added to the program. Not thread-safe.
+/// Values and planes are computed when they are first read, and then stored. Program, model and
+/// team must outlive this object. Values may be added to the program later. Only one thread may use
+/// this object.
 class SurfaceValues {
 public:
     SurfaceValues(const Program& program, const ModelCells& model, Team& team);
     ~SurfaceValues();
 
-    /// Computes the values read by formulas. They are meaningless if `cancel` became true.
+    /// Computes all values that the formulas read. The values are meaningless if `cancel` became
+    /// true.
     void make(std::span<const Formula* const> formulas, const std::atomic<bool>& cancel);
 
     const Field& value(SurfaceValueId id);
-    /// Prepares for one evaluation of formulas of a picture or a stroke. These may name new
-    /// positions without end, so a value that make() did not make is released when none of the last
-    /// `evaluations_kept` evaluations has read it. They come many times a second, so distances that
-    /// formulas only compare with numbers are computed only as far as these comparisons need.
+    /// Must be called before the formulas of a picture or a stroke are evaluated, which happens
+    /// many times a second. Such formulas may name new positions each time. So a value that make()
+    /// has not computed is deleted if none of the last `evaluations_kept` evaluations has read it.
+    /// If the formulas only compare a distance with numbers, it is computed only as far as those
+    /// comparisons need.
     void prepare(std::span<const Formula* const> formulas);
-    /// The number of values in memory.
+    /// The number of stored values.
     std::size_t count() const { return values_.size(); }
     static constexpr std::int64_t evaluations_kept = 16;
 
-    /// A plane of the model, made on demand.
+    /// A plane of the model, which the first call computes.
     const Field& plane(ModelPlane plane);
 
 private:
     struct Kept {
         Field field;
         std::int64_t last_read = 0;
-        double reach = std::numeric_limits<double>::infinity();  ///< Farther cells are unreachable.
+        /// Cells at a greater distance count as unreachable.
+        double reach = std::numeric_limits<double>::infinity();
     };
 
     struct Paths;
@@ -71,14 +76,16 @@ private:
     Team& team_;
     std::map<SurfaceValueId, Kept> values_;
     std::int64_t evaluation_ = 0;
-    std::unique_ptr<Paths> paths_;  ///< Made for the first distance.
+    std::unique_ptr<Paths> paths_;  ///< Made when the first distance is needed.
     std::map<ModelPlane, Field> planes_;
 };
 
-/// The values read by attr("name"). Fails if the points of the model have none of that name.
+/// Finds the attribute that attr("name") reads. Fails if the points of the model have no attribute
+/// of that name.
 Result<const PointAttribute*> find_attribute(const std::string& name, const SurfaceMesh& mesh);
 
-/// attr("name") in the cells, interpolated linearly between points. Fails as find_attribute() does.
+/// The values of attr("name") in the cells, interpolated linearly between points. Fails
+/// like find_attribute().
 Result<Field> attribute_plane(const std::string& name, const ModelCells& model,
                               Precision precision);
 

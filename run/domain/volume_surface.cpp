@@ -1,4 +1,4 @@
-// Reads the arrays first. A position is then evaluated in them, or follows from the cube.
+// Reads all arrays, and then evaluates the formula at the positions of a lattice.
 #include "run/domain/volume_surface.h"
 
 #include "core/printable.h"
@@ -21,17 +21,19 @@ namespace cascade {
 
 namespace {
 
-/// The length of a cube's longest side, in edges of triangles: the default without volumes, and the
-/// limit, since many more would take minutes.
+/// The length of the cube's longest side, as a multiple of the triangles' edges: the default if
+/// there are no arrays, and the largest value. With many more edges, making the surface would take
+/// minutes.
 constexpr double usual_edges = 50, most_edges = 100;
-/// The number of positions whose values are computed together, so that they stay in the caches.
+/// The number of positions that are evaluated together. It is small enough for their values to stay
+/// in the caches.
 constexpr std::size_t places_together = 256;
 
-/// An array in the cube.
+/// An array, and its position in the cube.
 struct Volume {
     NpyArray array;
     std::array<std::int64_t, 3> sides;
-    double element = 0;  ///< The length of an element that fills the cube.
+    double element = 0;  ///< The length of an element if the array fills the cube.
 
     Volume(NpyArray read, double half)
         : array(std::move(read)),
@@ -73,16 +75,17 @@ public:
             const auto& places = literals_.reading(node.as<Call>()->detail).place;
             if (array->slices > 1 && places.size() == 2) {
                 return failure(
-                    fmt::format("'{}' has {} slices, and the place in it has two numbers",
+                    fmt::format("'{}' has {} slices, but the position has only two numbers",
                                 short_name(name), array->slices),
-                    "a third number says where between the first slice and the last");
+                    "a third number, from 0 to 1, selects a point between the first and the last slice");
             }
             volumes_.emplace(text, Volume(*std::move(array), half));
         }
         return {};
     }
 
-    /// Sets values[k] to the value at points[k]: below 0 outside of the arrays that fill the cube.
+    /// Sets values[k] to the value at points[k]. Values at points outside the arrays that fill the
+    /// cube are below 0.
     void at(std::span<const Vector3d> points, std::span<double> values) const {
         std::vector<double> depths(points.size(), std::numeric_limits<double>::infinity());
         const KnownValues known = [&](const Node& node, const auto&, std::span<double> own) {
@@ -92,7 +95,7 @@ public:
                 });
                 return true;
             }
-            if (node.is<TextId>()) return true;  // Its text is read below.
+            if (node.is<TextId>()) return true;  // The array with this name is read below.
             if (!node.calls(Function::field)) return false;
             const Volume& volume = volumes_.at(text_of(node));
             const auto& places = literals_.reading(node.as<Call>()->detail).place;
@@ -108,7 +111,7 @@ public:
         }
     }
 
-    /// The length of the smallest element, or `otherwise` if no array fills the cube.
+    /// The length of the smallest element, or `otherwise` if the formula reads no arrays.
     double element(double otherwise) const {
         double smallest = std::numeric_limits<double>::infinity();
         for (const auto& [text, volume] : volumes_) smallest = std::min(smallest, volume.element);
@@ -117,8 +120,9 @@ public:
     bool reads_volumes() const { return !volumes_.empty(); }
 
 private:
-    /// The position in an array that fills the cube. Lowers `depth` to the distance from its
-    /// nearest side, in elements, below 0 outside.
+    /// The position of a point in an array that fills the cube. Sets `depth` to the distance from
+    /// the nearest side of the array, in elements, if that is less than its present value. The
+    /// distance is negative outside.
     static FilePlace place_in_cube(const Volume& volume, const Vector3d& point, double& depth) {
         FilePlace place{0.5, 0.5, 0.5};
         const std::array along{point.x, point.y, point.z};
@@ -156,7 +160,8 @@ Result<SurfaceMesh> surface_of_formula(const ModelSettings& settings, const Lite
     ImplicitRequest request;
     request.edge = std::clamp(formula.element(2 * half / usual_edges), 2 * half / most_edges,
                               2 * half / usual_edges);
-    // A surface closed by the sides of an array touches the sides of the cube.
+    // A surface that is closed at the sides of an array touches the sides of the cube, so the
+    // lattice must extend beyond them.
     const double reach = formula.reads_volumes() ? half + 2 * request.edge : half;
     request.low = {-reach, -reach, -reach};
     request.high = {reach, reach, reach};

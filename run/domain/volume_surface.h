@@ -1,4 +1,4 @@
-// Surfaces of formulas of space that may read volumes: implicit(field("v.npy") - 0.5).
+// Makes surfaces of formulas in space, which may read volumes: implicit(field("v.npy") - 0.5).
 #pragma once
 
 #include "core/result.h"
@@ -10,11 +10,12 @@
 
 namespace cascade {
 
-/// The surface where the formula of the model is 0, with values above 0 inside. `field` without a
-/// position fills the cube with its array, the longest side from side to side and the others in the
-/// middle: x along rows, y along columns, z along slices. The sides of the array then close the
-/// surface, as for a body (run/tissue/grown_body.h). Triangles are as large as elements of the
-/// largest array, within limits. Fails on an unreadable file.
+/// The surface on which the formula of the model is 0. The formula is above 0 inside. If the
+/// formula calls `field` without a position, the array of `field` fills the cube: the longest side
+/// of the array is as long as the cube, and the other sides are centred, with x along rows, y along
+/// columns and z along slices. The surface is then closed at the sides of the array, like a body
+/// (run/tissue/grown_body.h). Triangles are as large as the elements of the largest array, within
+/// limits. Fails if a file cannot be read.
 Result<SurfaceMesh> surface_of_formula(const ModelSettings& settings, const Literals& literals,
                                        const ModelAccess& access, const std::atomic<bool>& cancel);
 

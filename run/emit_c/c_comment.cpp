@@ -1,5 +1,5 @@
-// A blank separates the characters of comment marks and trigraphs; backslashes and unprintable
-// characters become question marks.
+// Blanks are inserted between the characters of comment marks and trigraphs. Backslashes and
+// unprintable characters become question marks.
 #include "run/emit_c/c_comment.h"
 
 #include "core/utf8.h"

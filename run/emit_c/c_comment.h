@@ -1,4 +1,4 @@
-// Arbitrary text in a comment of C.
+// Makes any text safe for use in a comment of C.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace cascade {
 
-/// The text as one line that is safe in a C comment: blanks break up comment marks, line
-/// continuations and trigraphs, and unprintable characters become question marks.
+/// The text as a single line for a C comment. Blanks are inserted between the characters of comment
+/// marks, line continuations and trigraphs. Unprintable characters become question marks.
 std::string c_comment(std::string_view text);
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
-// Fills the patterns of run/emit_c/c_header_text.h, in which $ is the stage's name and $$ the name
-// in capitals, and writes the tables, the struct and the functions between them.
+// Fills in the texts of run/emit_c/c_header_text.h, in which $ is replaced by the stage's name and
+// $$ by that name in capitals. Writes the tables, the struct and the functions in between.
 #include "run/emit_c/c_header.h"
 
 #include "core/plane.h"
@@ -23,7 +23,7 @@ std::string upper(std::string text) {
     return text;
 }
 
-/// A float literal of C; NaN and infinities as expressions.
+/// A float literal of C. NaN and infinity become expressions.
 std::string c_number(float value) {
     if (std::isnan(value)) return "(0.0f / 0.0f)";
     if (std::isinf(value)) return value > 0 ? "(1.0f / 0.0f)" : "(-1.0f / 0.0f)";
@@ -67,7 +67,7 @@ public:
     }
 
 private:
-    /// A text with the names in place of $$ and $.
+    /// The text with the names in place of $$ and $.
     std::string filled(std::string_view pattern) const {
         std::string text;
         for (std::size_t k = 0; k < pattern.size(); ++k) {
@@ -154,7 +154,8 @@ private:
     }
 
     std::string constants() const {
-        const auto cells = static_cast<std::size_t>(layout_.size());  // Including padding and halo.
+        // Includes the padding of rows and the halo.
+        const auto cells = static_cast<std::size_t>(layout_.size());
         const std::size_t plane_bytes = cells * sizeof(float);
         const std::size_t mask_bytes = cells * compiled_.masks.size();
         const std::size_t row_bytes =
@@ -189,7 +190,8 @@ private:
         return text;
     }
 
-    /// Members that are arrays of planes, with their lengths, in the order of their memory.
+    /// The members of the struct that are arrays of planes, with the lengths of the arrays, in the
+    /// order in memory.
     std::vector<std::pair<std::string, std::size_t>> plane_tables() const {
         const std::size_t species = compiled_.species.size();
         std::vector<std::pair<std::string, std::size_t>> tables;
@@ -341,7 +343,9 @@ static inline void $_step(struct $ *s) {
         const bool needs_time = uses("(float)t") || uses("(float)(t +");
         const std::string length = compiled_.speed
                                        ? fmt::format("(double)s->numbers[{}]", *compiled_.speed)
-                                       : "0";  // Steps that vary by cell are not timed.
+                                       // If the length of steps varies by cell, there is no common
+                                       // time.
+                                       : "0";
         if (needs_time || uses("length)")) {
             text += fmt::format("    const double length = {};\n", length);
         }

@@ -1,4 +1,4 @@
-// The C header for the object file of a compiled stage.
+// Writes the C header for the object file of a compiled stage.
 #pragma once
 
 #include "lang/program/program.h"
@@ -8,9 +8,9 @@
 
 namespace cascade {
 
-/// A self-contained header in plain C99: a struct with the stage's planes and numbers, and
-/// functions that lay it out in memory, compute the starting values and take steps. Its comment
-/// documents all tables. `script` is the name of the source file.
+/// A self-contained header in plain C99. It has a struct with the stage's planes and numbers. Its
+/// functions give the struct its layout in memory, compute the starting values and take steps. A
+/// comment in the header describes all tables. `script` is the name of the source file.
 std::string c_header(const Program& program, std::uint32_t stage, const CStage& compiled,
                      const std::string& script);
 

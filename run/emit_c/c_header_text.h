@@ -1,4 +1,4 @@
-// The constant parts of C headers of compiled stages, with NAME and name written as $$ and $.
+// The fixed parts of the C headers of compiled stages. $$ is replaced by NAME, and $ by name.
 #pragma once
 
 #include <string_view>
@@ -27,26 +27,27 @@ extern "C" {
 )";
 
 inline constexpr std::string_view sides = R"(
-/* What a species is at a side. `value` is that of fixed and slope; where `values` is not NULL it
- * points to cell (0, 0, 0) of a plane with a value for each cell beside the side. */
+/* The rule of a species at a side. `value` is the value of fixed and slope. `values` is NULL, or
+ * points to cell (0, 0, 0) of a plane that holds a value for each cell beside the side. */
 struct $_side {
     int kind;
     float value;
     const float *values;
 };
 enum { $_periodic, $_noflux, $_fixed, $_slope };
-/* Sides in their order. */
+/* The order of the sides. */
 enum { $_left, $_right, $_top, $_bottom, $_front, $_back };
 
 )";
 
 inline constexpr std::string_view planes = R"(
-/* Where cell (column i, row j, slice k) is in a plane, from its cell (0, 0, 0). */
+/* The offset of cell (column i, row j, slice k) from cell (0, 0, 0) of its plane. */
 static inline int64_t $_at(int64_t i, int64_t j, int64_t k) {
     return k * $$_SLICE_STRIDE + j * $$_STRIDE + i;
 }
 
-/* Sets how this thread computes. Arithmetic on memory is not moved across. */
+/* Sets the floating-point control register of this thread. The compiler moves no arithmetic on
+ * memory across this call. */
 static inline void $_set_control(uint64_t control) {
 #if defined(__x86_64__)
     __asm__ volatile("" : : : "memory");
@@ -59,7 +60,7 @@ static inline void $_set_control(uint64_t control) {
 #endif
 }
 
-/* Flushes denormal numbers to zero on this thread, as Cascade does; returns what was before. */
+/* Flushes denormal numbers to zero on this thread, as Cascade does. Returns the earlier setting. */
 static inline uint64_t $_enter(void) {
     uint64_t before = 0;
 #if defined(__x86_64__)
@@ -72,7 +73,7 @@ static inline uint64_t $_enter(void) {
     return before;
 }
 
-/* A product by itself: compilers may not contract it with a sum after it to one rounding. */
+/* A rounded product. Compilers cannot contract it with a following sum to one rounding. */
 static inline double $_rounded(double product) {
     const volatile double rounded = product;
     return rounded;

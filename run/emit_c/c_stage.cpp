@@ -1,5 +1,5 @@
-// Binds the plans of a stage as a run would, though nothing has planes yet, then writes each pass
-// of the problem as C statements.
+// Binds the plans of a stage in the same way as a run does, although no planes exist. Then writes
+// each pass as C statements.
 #include "run/emit_c/c_stage.h"
 
 #include "core/overloaded.h"
@@ -17,7 +17,7 @@ namespace {
 
 using SpeciesPlane = StepProblem::SpeciesPlane;
 
-/// A C literal that reads back as the same number.
+/// A C literal for a number. Reading the literal gives exactly the same number.
 std::string c_number(double value) {
     const std::string text = fmt::format("{:.17g}", value);
     return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
@@ -41,8 +41,8 @@ std::string_view c_kind(ReductionKind kind) {
 struct PassText {
     std::string kernel;
     std::vector<std::string> fields, masks, uniforms, results;
-    std::vector<std::string> before;  ///< Statements before the kernel …
-    std::vector<std::string> after;   ///< … and after it.
+    std::vector<std::string> before;  ///< Statements before the call of the kernel.
+    std::vector<std::string> after;   ///< Statements after the call of the kernel.
 };
 
 class Describer {
@@ -78,8 +78,8 @@ private:
                                    system_.species_count() +
                                species);
     }
-    /// The rules at the sides of a plane that is read at neighbours and is not a species of this
-    /// step.
+    /// The rules at the sides of a plane that is read at neighbours. A species of this step has no
+    /// such rules here.
     std::string rules_of(const PlaneSource& source) {
         const auto* const item = std::get_if<StageItem>(&source);
         if (item != nullptr && item->stage != k_ &&
@@ -126,7 +126,8 @@ private:
         return text + "    }\n";
     }
 
-    /// The statements of a plan other than that of a step; `result(k)` is the plane of result k.
+    /// The statements of a plan that is not part of a step. `result(k)` returns the plane of result
+    /// k.
     template <typename ResultPlane>
     std::string plan_text(const StepPlan& plan, const ResultPlane& result) {
         const StepProblem problem = bind_plan(plan, {}, context());
@@ -140,7 +141,7 @@ private:
         return plan.aggregates > 0 ? "    {\n" + text + "    }\n" : text;
     }
 
-    /// Where a run would have its values. Planes of stages stay empty.
+    /// The sources of values, as in a run. The planes of stages are empty.
     BindingContext context() const {
         return {states_, request_.files, 0, program_.domain.grid, Precision::single,
                 0,       request_.metric};
@@ -153,7 +154,7 @@ private:
             const ItemId item = plan.results[number];
             const StageItem source{k_, item};
             if (!stage_.uniform[item]) return tables_.plane(source);
-            // Uniform: the first cell is read.
+            // The item is uniform, so the value of the first cell is used.
             const std::string plane = tables_.temporary(plan.temporaries + taken.size());
             taken.push_back(fmt::format("    {} = {}[0];\n", tables_.number(source), plane));
             return plane;
@@ -166,7 +167,7 @@ private:
         }
     }
 
-    /// After all starting values.
+    /// Must be called after all starting values have been described.
     void describe_sides() {
         for (const SpeciesId species : stage_.sides.ids()) {
             for (std::size_t side = 0; side < side_count; ++side) {
@@ -190,7 +191,7 @@ private:
         }
     }
 
-    // A step: the sweeps of its scheme, bound as in a run.
+    // The following functions write a step: the sweeps of its scheme, bound as in a run.
 
     void describe_step() {
         std::vector<StepPlan> plans;
@@ -216,7 +217,8 @@ private:
         }
     }
 
-    /// A pass of a bound plan. `written` names the plane of a result that is no temporary.
+    /// Writes a pass of a bound plan. `written` returns the plane of each result that is not a
+    /// temporary.
     template <typename Written>
     std::string pass_text(const StepProblem& problem, std::size_t number, const Pass& pass,
                           bool starts, const Written& written) {
@@ -262,8 +264,8 @@ private:
         return write(lines);
     }
 
-    /// True if a later sweep of the same step reads the plane at neighbours. The next step fills
-    /// the halo of its old values itself.
+    /// Whether a later sweep of the same step reads the plane at neighbours. If only the next step
+    /// does, that step itself fills the halo of the old values.
     bool is_read_at_neighbours_later(const StepProblem& problem, std::size_t number,
                                      SpeciesPlane plane) const {
         for (std::size_t later = number + 1; later < problem.passes.size(); ++later) {
@@ -293,14 +295,14 @@ private:
         };
         for (const StepProblem::ChangingUniform& changing : bound.changing) {
             if (changing.slot != slot) continue;
-            // Step and time are 0 when a stage starts.
+            // Step and time are 0 at the start of a stage.
             const bool is_aggregate = std::holds_alternative<AggregateId>(changing.value);
             return starts && !is_aggregate ? "0" : std::visit(text, changing.value);
         }
         return tables_.number(std::get<StageItem>(source));
     }
 
-    /// Notes speed and frozen, which the functions around the statements read.
+    /// Records `speed` and `frozen`, which the code around the statements uses.
     void note_settings() {
         if (stage_.uniform[system_.speed_item()]) {
             result_.speed = tables_.number_place({k_, system_.speed_item()});

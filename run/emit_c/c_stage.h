@@ -1,5 +1,5 @@
-// A compiled stage for a C program: tables of planes and numbers, kernels, and the bodies of the
-// functions that run its passes, in the order of a run: the same plans, bound in the same way.
+// Describes a stage for a C program: tables of planes and numbers, kernels, and the bodies of the
+// functions that run its passes. The plans and their order are the same as in `cascade run`.
 #pragma once
 
 #include "core/result.h"
@@ -17,14 +17,15 @@
 
 namespace cascade {
 
-/// By stage and item: the values of uniform items that can be computed without any field.
+/// By stage and item, the values of uniform items that can be computed without any field.
 using KnownNumbers = std::vector<IdVector<ItemId, std::optional<float>>>;
 
-/// An entry of a table: `identifier` is its index in C, as in NAME_PLANE_BETA.
+/// A row of a table. `identifier` is the name of its index in C, as in NAME_PLANE_BETA.
 struct CEntry {
     std::string identifier;
-    std::string meaning;    ///< A description, for the header's comment.
-    bool is_given = false;  ///< Not computed: the program must set it before anything reads it.
+    std::string meaning;  ///< A description for the comment in the header.
+    /// Whether the program that includes the header must set the value, because it is not computed.
+    bool is_given = false;
 };
 
 struct CNumber : CEntry {
@@ -32,54 +33,60 @@ struct CNumber : CEntry {
 };
 
 struct CPlane : CEntry {
-    std::string data;  ///< Array of the object file that fills it; empty for none.
+    std::string data;  ///< The array of the object file with the values of the plane. Empty if
+                       ///< there is none.
 };
 
-/// A constant array in the object file, one number per cell.
+/// A constant array in the object file, with one number for each cell.
 struct CData {
     std::string name;
     std::vector<float> values;
 };
 
-/// A kernel and the name of its C function.
+/// A kernel, and the name of its function in C.
 struct CKernel {
     std::string name;
     CellKernel kernel;
 };
 
 struct CStage {
-    std::string name;  ///< Of the struct, and the prefix of all other names.
+    std::string name;  ///< The name of the struct, and the prefix of all other names.
     std::vector<CEntry> species;
     std::vector<CNumber> numbers;  ///< Uniform values.
-    std::vector<CPlane> planes;    ///< Step-invariant values that vary by cell.
+    std::vector<CPlane> planes;    ///< Values that are the same in all steps but vary by cell.
     std::vector<CEntry> masks;
     std::vector<CData> data;
     std::vector<CKernel> kernels;
-    /// By species; empty if the boundary of the domain holds for all.
+    /// For each species, the kinds of its sides. Empty if the boundary of the domain applies to all
+    /// species.
     std::vector<std::array<SideKind, side_count>> sides;
-    std::uint32_t side_planes = 0;  ///< Planes for values that vary along sides.
+    std::uint32_t side_planes = 0;  ///< The number of planes for values that vary along sides.
     std::uint32_t scratch_registers = 0;
     std::uint32_t temporaries = 0;
     std::uint32_t step_aggregates = 0;
-    bool reduces = false;               ///< True if there are aggregates over the domain.
-    std::optional<std::size_t> speed;   ///< Its number, if it is uniform.
-    std::optional<std::size_t> frozen;  ///< Its number, if it is uniform and not known to be 0.
-    std::string start;                  ///< Statements that compute the starting values.
-    std::string step;                   ///< Statements of a step, up to the exchange of registers.
+    bool reduces = false;              ///< Whether there are aggregates over the domain.
+    std::optional<std::size_t> speed;  ///< The index of `speed` in `numbers`, if it is uniform.
+    /// The index of `frozen` in `numbers`, if it is uniform and not known to be 0.
+    std::optional<std::size_t> frozen;
+    std::string start;  ///< Statements that compute the starting values.
+    /// Statements of a step, up to the point where old and new registers are exchanged.
+    std::string step;
 };
 
 /// The input of describe_c_stage().
 struct CStageRequest {
-    const Program& program;  ///< With per-cell parameters marked as varying.
+    /// The program, in which the parameters of CompileRequest::per_cell vary.
+    const Program& program;
     std::uint32_t stage = 0;
-    const KnownNumbers& numbers;  ///< Of the stages up to this one.
+    const KnownNumbers& numbers;  ///< The known numbers of all stages up to this one.
     const InputFiles& files;
     const std::vector<Field>& metric;
     const Scheme& scheme;
     std::string name;
 };
 
-/// Fails if the stage reads planes at neighbours whose side rules belong to another stage.
+/// Fails if the stage reads a plane at neighbours and the sides of another stage apply to this
+/// plane.
 Result<CStage> describe_c_stage(const CStageRequest& request);
 
 }  // namespace cascade

@@ -1,4 +1,5 @@
-// Tables grow as slots are encountered; identifiers are upper-case names, with a number if taken.
+// Rows are added to tables when operands are first read. Identifiers are upper-case names, with a
+// number added if the name is taken.
 #include "run/emit_c/c_tables.h"
 
 #include "core/check.h"
@@ -15,7 +16,7 @@ namespace cascade {
 
 namespace {
 
-/// A name as a part of an upper-case C identifier: u[2] is U_2.
+/// A name as part of an upper-case C identifier. u[2] becomes U_2.
 std::string capitals(std::string_view name) {
     std::string text;
     for (const char c : name) {
@@ -26,7 +27,7 @@ std::string capitals(std::string_view name) {
     return text;
 }
 
-/// Adds to a table, under an identifier that no other entry of it has.
+/// Adds an entry to a table, with an identifier that no other entry has.
 template <typename Entry>
 void add_entry(std::vector<Entry>& table, Entry entry, std::string_view name) {
     const std::string wanted = capitals(name);
@@ -41,7 +42,7 @@ void add_entry(std::vector<Entry>& table, Entry entry, std::string_view name) {
     table.push_back(std::move(entry));
 }
 
-/// The index of a source in `known`; calls `add` for a new one.
+/// The index of a source in `known`. If the source is new, appends it and calls `add`.
 template <typename Source, typename Add>
 std::size_t place_of(std::vector<Source>& known, const Source& source, const Add& add) {
     const auto place = std::find(known.begin(), known.end(), source) - known.begin();

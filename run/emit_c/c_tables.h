@@ -1,4 +1,4 @@
-// The operands of passes as C expressions. New ones are added to the tables of the stage.
+// Writes the operands of passes as C expressions, and adds new operands to the tables of the stage.
 #pragma once
 
 #include "lang/lower/step_plan.h"
@@ -14,20 +14,21 @@ namespace cascade {
 
 class CTables {
 public:
-    /// Adds the species and kinds of sides. Both arguments must outlive the tables.
+    /// Adds the species and the kinds of their sides to the tables. Both arguments must outlive
+    /// this object.
     CTables(const CStageRequest& request, CStage& stage);
 
-    /// Each returns a C expression, such as `s->numbers[3]`.
+    /// number() and plane() return C expressions, such as `s->numbers[3]`.
     std::string number(StageItem item);
-    std::string plane(const PlaneSource& source);  ///< Of registers only the old values.
+    std::string plane(const PlaneSource& source);  ///< For a register, its old values.
     std::string mask(StageItem item);
     std::string temporary(std::size_t number);
-    /// The name of a kernel's function; equal kernels share one.
+    /// The name of a kernel's function. Equal kernels have the same function.
     std::string kernel(const CellKernel& kernel);
 
-    /// The index of an item in the table of numbers.
+    /// The row of an item in the table of numbers.
     std::size_t number_place(StageItem item);
-    /// The items of the table of masks.
+    /// The items in the table of masks.
     const std::vector<StageItem>& masks() const { return masks_; }
 
     std::string item_path(StageItem item) const;
@@ -42,9 +43,9 @@ private:
     const Program& program_;
     const System& system_;
     CStage& stage_;
-    /// Uniform items whose values are known only once there are cells.
+    /// Uniform items whose values depend on cells. The compiled program computes them.
     std::vector<ItemId> late_;
-    // In the order of the tables.
+    // The items and sources in the tables, in the order of the rows.
     std::vector<StageItem> numbers_, masks_;
     std::vector<PlaneSource> planes_;
 };

@@ -1,4 +1,4 @@
-// Refuses what C cannot express, then compiles kernels and data into one object file.
+// Refuses stages that C cannot express, and compiles kernels and data into one object file.
 #include "run/emit_c/compile.h"
 
 #include "core/near_name.h"
@@ -24,7 +24,7 @@ namespace cascade {
 
 namespace {
 
-/// True if a formula reads a number that is unknown.
+/// Whether a formula reads a number that is unknown.
 bool reads_unknown(const Formula& formula, std::uint32_t stage, const KnownNumbers& numbers,
                    const Program& program) {
     return std::any_of(formula.nodes.begin(), formula.nodes.end(), [&](const Node& node) {
@@ -37,8 +37,8 @@ bool reads_unknown(const Formula& formula, std::uint32_t stage, const KnownNumbe
     });
 }
 
-/// For stages 0 … `last`: interprets the uniform starting values on one cell. A value that depends
-/// on an unknown one is unknown.
+/// Computes the uniform starting values of stages 0 … `last` with the interpreter on a single cell.
+/// A value that depends on an unknown value is unknown, too.
 KnownNumbers known_numbers(const Program& program, std::uint32_t last) {
     KnownNumbers numbers;
     std::vector<StageState> states;
@@ -60,7 +60,7 @@ KnownNumbers known_numbers(const Program& program, std::uint32_t last) {
             computed[plan.results[r]] = values[r].at(0, 0);
             states[k].numbers[plan.results[r]] = values[r].at(0, 0);
         }
-        // In the order of evaluation, so that operands come first.
+        // The items are in the order of evaluation, so operands come first.
         for (const ItemId item : stage.order) {
             if (!reads_unknown(stage.items[item], k, numbers, program))
                 known[item] = computed[item];
@@ -69,7 +69,7 @@ KnownNumbers known_numbers(const Program& program, std::uint32_t last) {
     return numbers;
 }
 
-/// Marks parameters as varying, so that the kernel takes a plane for each.
+/// Marks parameters as varying, so that the kernel reads a plane for each of them.
 Result<void> make_per_cell(Program& program, std::uint32_t k,
                            const std::vector<std::string>& names) {
     const System& system = program.system_of(k);
@@ -92,7 +92,8 @@ Result<void> make_per_cell(Program& program, std::uint32_t k,
     return {};
 }
 
-/// A text as a C identifier: other characters become '_', and a leading digit gets a '_' before it.
+/// A text as a C identifier. Invalid characters become '_'. If the text begins with a digit, '_' is
+/// added before it.
 std::string c_identifier(const std::string& text) {
     std::string name;
     for (const char c : text) {
@@ -103,9 +104,10 @@ std::string c_identifier(const std::string& text) {
     return name;
 }
 
-/// The scheme of a step, which must have a fixed length. `asked_solver`: the solver comes from
-/// --solver, and may choose its steps for that reason only.
-/// `parts`: those of a step of Euler.
+/// The scheme of a step, which must have a fixed length. `asked_solver` is true if the option
+/// --solver has chosen the solver. This may be the only reason why steps have no fixed
+/// length, and the error then says so. `parts` is the number of parts into which a step of Euler's
+/// method is divided.
 Result<Scheme> fixed_scheme(const Program& program, std::uint32_t k,
                             std::optional<std::uint32_t> stages, std::uint32_t parts,
                             bool asked_solver) {
@@ -113,7 +115,7 @@ Result<Scheme> fixed_scheme(const Program& program, std::uint32_t k,
     const std::string name(name_of(stage.time.solver));
     if (is_adaptive(stage.time.solver)) {
         return failure(
-            fmt::format("stage '{}' is solved by {}, which chooses its steps as it runs, "
+            fmt::format("stage '{}' is solved by {}, which chooses its steps during the run, "
                         "but compiled steps are of one length",
                         stage.name, name),
             "--solver rk4 takes such steps");
@@ -127,11 +129,17 @@ Result<Scheme> fixed_scheme(const Program& program, std::uint32_t k,
     }
     if (stage.time.automatic_speed) {
         return failure(
-            fmt::format("stage '{}' chooses its steps as it runs, but compiled steps are "
+            fmt::format("stage '{}' chooses its steps during the run, but compiled steps are "
                         "of one length",
                         stage.name),
             asked_solver ? fmt::format("--set {}.solver={} keeps its speed", stage.name, name)
                          : fmt::format("--set {}.speed=… is that length", stage.name));
+    }
+    if (stage.time.every > 0) {
+        return failure(fmt::format("steps of stage '{}' end at multiples of 'every', but compiled "
+                                   "steps are of one length",
+                                   stage.name),
+                       "'interval' counts steps instead");
     }
     if (is_stabilised(stage.time.solver) && !stages) {
         return failure(fmt::format("stage '{}' is solved by {}, which chooses the number of its "
@@ -155,10 +163,12 @@ Result<Scheme> fixed_scheme(const Program& program, std::uint32_t k,
                        takes_speed_by_cell(stage.time.solver), stages.value_or(3));
 }
 
-/// What sizes of stages change.
+/// The program after the sizes of its stages have been applied.
 struct SizedStages {
     Program program;
-    std::uint32_t parts = 0;  ///< Into which a step of the stage is split; 0 or 1: it is not.
+    /// The number of parts into which a step of the stage is divided. 0 and 1 mean that steps are
+    /// not divided.
+    std::uint32_t parts = 0;
 };
 
 Result<SizedStages> with_sizes(Script& script, const std::string& asked,
@@ -177,13 +187,13 @@ Result<SizedStages> with_sizes(Script& script, const std::string& asked,
         if (auto started = simulation.start_stage(k); !started)
             return tl::unexpected(started.error());
     }
-    (void)step_work(simulation, *stage);  // Begins the time of the stage.
+    (void)step_work(simulation, *stage);  // Called because it initialises the time of the stage.
     if (result.program.stages[*stage].time.solver == Solver::euler)
         result.parts = simulation.state(*stage).time.stages;
     return result;
 }
 
-/// Refuses domains and stages that the header cannot express.
+/// Fails if the header cannot express the domain or the stage.
 Result<void> check_header_knows(const Program& program, std::uint32_t stage) {
     if (program.domain.model) {
         return failure("a stage on a model is not compiled to an object file",

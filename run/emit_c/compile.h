@@ -1,4 +1,4 @@
-// `cascade compile`: a stage as an object file with a C header.
+// The command `cascade compile` compiles a stage to an object file with a C header.
 #pragma once
 
 #include "core/result.h"
@@ -12,16 +12,20 @@
 
 namespace cascade {
 
-/// The most stages of a step of rkl1 or rkl2.
+/// The largest number of stages of a step by the solvers rkl1 and rkl2.
 inline constexpr std::int64_t most_compiled_stages = 99;
 
 struct CompileRequest {
-    std::optional<std::string> stage = {};   ///< Name or number from 1; empty for the first.
-    std::vector<std::string> per_cell = {};  ///< Uniform parameters that get a plane nevertheless.
-    std::string target = {};                 ///< A processor name; "" for this machine's.
-    std::string function_name = {};          ///< "" derives it from the script's name.
-    std::optional<std::uint32_t> stages = {};  ///< Of a step of rkl1 or rkl2: odd, from 3.
-    /// Where the sizes of stages are kept (SimulationOptions::kernel_cache); empty: nowhere.
+    /// A name, or a number, counted from 1. Empty: the first stage.
+    std::optional<std::string> stage = {};
+    std::vector<std::string> per_cell = {};  ///< Uniform parameters that nevertheless get a plane.
+    std::string target = {};                 ///< The name of a processor. Empty: this machine's.
+    /// The prefix of the functions' names. Empty: derived from the script's name.
+    std::string function_name = {};
+    /// The number of stages of a step by the solvers rkl1 and rkl2. Odd, and at least 3.
+    std::optional<std::uint32_t> stages = {};
+    /// The folder that stores the sizes of stages for later runs (SimulationOptions::kernel_cache).
+    /// Empty: sizes are not stored.
     std::filesystem::path kernel_cache = {};
 };
 
@@ -30,8 +34,8 @@ struct CompiledStep {
     std::string header;
 };
 
-/// Compiles one stage for the script's grid. Errors of the request are Failures; those in files
-/// that the script reads are added to its diagnostics, and the result is a Failure, too.
+/// Compiles one stage for the script's grid. Fails if the request has errors. Errors in files that
+/// the script reads are added to its diagnostics, and the call then fails, too.
 Result<CompiledStep> compile_step(Script& script, const CompileRequest& request);
 
 }  // namespace cascade

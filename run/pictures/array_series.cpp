@@ -1,5 +1,5 @@
-// Files take their names with the first moment. What follows keeps them whole: data first, then the
-// length in the header.
+// A file gets its name with the first moment. For each further moment, first the data is appended
+// and then the length in the header is updated. So the file is always valid.
 #include "run/pictures/array_series.h"
 
 #include "core/csv.h"
@@ -26,12 +26,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A moment of the stage shown.
+/// A moment of the shown stage.
 struct Moment {
     std::string stage;
     std::int64_t step = 0;
-    double t = 0;     ///< Since the stage began; NaN where steps have no length.
-    double time = 0;  ///< Since the start of the run, likewise.
+    double t = 0;     ///< Time since the stage began. NaN if `speed` varies.
+    double time = 0;  ///< Time since the start of the run. NaN if `speed` varies.
 };
 
 Moment moment_of(const Simulation& simulation) {
@@ -40,7 +40,7 @@ Moment moment_of(const Simulation& simulation) {
             time_of(simulation, stage), time_since_start(simulation)};
 }
 
-/// The lengths of the axes of cells.
+/// The numbers of cells along each axis.
 std::vector<std::int64_t> sides_of(const Simulation& simulation) {
     if (const auto model = simulation.domain().shared_model())
         return {static_cast<std::int64_t>(model->count())};
@@ -56,7 +56,7 @@ std::int64_t cells_of(const std::vector<std::int64_t>& sides) {
     return cells;
 }
 
-/// Appends the cells of a field, or as many NaNs if it is empty.
+/// Appends the cells of a field, or NaN for each cell if the field is empty.
 void append_cells(std::string& bytes, const Field& field, const Simulation& simulation,
                   std::int64_t cells) {
     const auto model = simulation.domain().shared_model();
@@ -72,7 +72,7 @@ void append_cells(std::string& bytes, const Field& field, const Simulation& simu
     });
 }
 
-/// What both formats share: a moment is added as a whole or not at all.
+/// The common part of both formats. A moment is added completely or not at all.
 class ArraySeries : public SeriesWriter {
 public:
     ArraySeries(std::filesystem::path path, SeriesFields fields)
@@ -104,7 +104,7 @@ protected:
     std::vector<Field> values(const Simulation& simulation) const {
         return fields_.values(simulation);
     }
-    std::int64_t moments() const { return moments_; }  ///< Added so far.
+    std::int64_t moments() const { return moments_; }  ///< The number of moments added so far.
 
 private:
     virtual Result<void> add_moment(const Simulation& simulation) = 0;
@@ -116,7 +116,7 @@ private:
     std::optional<Failure> failure_;
 };
 
-/// A file that has its first bytes, and no name yet.
+/// Creates a file that begins with `bytes`. It has no name yet.
 Result<std::unique_ptr<GrowingFile>> begun(const std::filesystem::path& path,
                                            std::string_view bytes) {
     auto file = GrowingFile::create(path);
@@ -175,7 +175,7 @@ private:
         return npy_head(type_, shape, longest - fmt::formatted_size("{}", count));
     }
 
-    /// The file NAME.json up to its list of moments.
+    /// The contents of NAME.json, up to the list of moments.
     std::string describe(const Simulation& simulation,
                          const std::vector<std::int64_t>& sides) const {
         std::vector<std::string> axes = {"slice", "row", "column"};
@@ -206,14 +206,15 @@ private:
                                {"time", number(moment.time)}});
     }
 
-    /// Names of files may be no UTF-8.
+    /// Prints JSON. File names may contain bytes that are not UTF-8.
     static std::string written(const Json& json) {
         return json.dump(-1, ' ', false, Json::error_handler_t::replace);
     }
 
     static constexpr std::string_view end_of_list = "\n ]\n}\n";
 
-    std::string type_, shape_;  ///< The shape without the time.
+    /// The type of the elements, and the shape without the axis of time.
+    std::string type_, shape_;
     std::unique_ptr<GrowingFile> array_, list_;
 };
 

@@ -1,13 +1,15 @@
-// The fields of a run over time as one array that can be read at any moment of the run, even if the
-// program is killed.
+// Writes the fields of a run over time as one array. The file can be read at any moment of the run,
+// even if the program is killed.
 //
-// NAME.npy is an array of NumPy: time, the fields if there are several, and the cells (slices, rows
-// and columns; a grid of one row has columns alone; cells of a model are in the order of files).
-// Each moment is appended, and then the header gets the new length. NAME.json beside it says what
-// the axes and fields are, and lists the moments.
+// NAME.npy is a NumPy array. Its axes are time, the fields if there are several, and the cells. The
+// cells of a grid have slices, rows and columns, or columns alone if the grid has one row. The
+// cells of a model are one axis, in the order in which all files list them. Each moment is appended
+// to the file, and then the length in the file's header is updated. NAME.json in the same folder
+// describes the axes and fields, and lists the moments.
 //
-// NAME.csv has a row for each moment of a grid of one row: stage, step, t, and the cells of each
-// field. Columns are named after the field and the middle of the cell, in lengths.
+// NAME.csv is for grids of one row. It has a row for each moment, with the stage, the step, the
+// time t, and the cells of each field. A column is named after its field and the position of its
+// cell's centre, in the unit of the grid's spacing.
 #pragma once
 
 #include "core/result.h"
@@ -18,11 +20,12 @@
 
 namespace cascade {
 
-/// Both fail if the file is a pipe or a device. They begin the file at the first moment; until then
-/// a former file of this name stays.
+/// Makes a series for a domain of any kind. Fails if the file is a pipe or a device. An earlier
+/// file of this name is replaced when the first moment is added.
 Result<std::unique_ptr<SeriesWriter>> make_npy_series(const std::filesystem::path& path,
                                                       SeriesFields fields);
-/// For grids of one row.
+/// Makes a series for a grid of one row. Fails, and replaces an earlier file, like
+/// make_npy_series().
 Result<std::unique_ptr<SeriesWriter>> make_csv_series(const std::filesystem::path& path,
                                                       SeriesFields fields);
 

@@ -1,4 +1,4 @@
-// A body is drawn like the body below crawling cells, without any cells.
+// Draws a body by the code for bodies below crawling cells, with no cells on it.
 #include "run/pictures/body_picture.h"
 
 #include "core/counted_cells.h"
@@ -43,7 +43,9 @@ std::shared_ptr<const SurfaceMesh> body_of(const Field& values, const DomainMask
             value = std::isnan(value) ? -magnitude : std::clamp(value, -magnitude, magnitude);
         },
         inside);
-    constexpr double coarsest = 64;  // Cells per edge with which every grid is small.
+    // The length of edges in cells. With so large triangles, the surface of any grid has few of
+    // them.
+    constexpr double coarsest = 64;
     for (double edge = 1; edge < coarsest; edge *= 2) {
         auto body = grown_body(inside, boundary, never_cancelled, edge);
         if (body) return std::make_shared<const SurfaceMesh>(*std::move(body));

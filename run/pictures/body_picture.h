@@ -1,4 +1,5 @@
-// The body of a volume: the surface around the cells where the picture block's `body` is above 0.
+// The body of a volume: the surface around the cells in which the expression `body` of the picture
+// block is above 0.
 #pragma once
 
 #include "core/parallel.h"
@@ -15,21 +16,22 @@
 
 namespace cascade {
 
-/// Whether pictures of the script show a body. --slice and --flat show a slice instead.
+/// Whether pictures of the script show a body. With --slice or --flat they show a slice instead.
 bool draws_body(const Script& script, const PictureRequest& request);
 
-/// The closed surface around the cells whose values are above 0, in script lengths
-/// (run/tissue/grown_body.h). NaN and cells outside of `mask`, which may be null, are not inside.
-/// Its triangles are larger than cells where it would exceed implicit_surface()'s limit. Without
-/// points if no value is above 0. Throws std::bad_alloc.
+/// The closed surface around the cells with values above 0, in the script's unit of length
+/// (run/tissue/grown_body.h). Cells with NaN and cells outside of `mask` (null: no mask) count as
+/// outside the body. Triangles are as large as cells, or larger if the surface would otherwise
+/// exceed the limit of implicit_surface(). The surface is empty if no value is above 0. Throws
+/// std::bad_alloc.
 std::shared_ptr<const SurfaceMesh> body_of(const Field& values, const DomainMask* mask,
                                            Boundaries boundary);
 
-/// The values of a volume's cells, interpolated linearly to the points of a body: one row of
-/// binary32, or a single NaN if there are none.
+/// Interpolates the values of a volume's cells linearly at the points of a body. The result is a
+/// field of one row in binary32. If the body has no points, the row contains a single NaN.
 Field at_points(const Field& values, const SurfaceMesh& body, Boundaries boundary);
 
-/// Draws a body with these colours (sRGB) at its points. Throws std::bad_alloc.
+/// Draws a body. `colours` has one sRGB colour for each of its points. Throws std::bad_alloc.
 Image draw_body(std::shared_ptr<const SurfaceMesh> body, std::span<const Colour> colours,
                 const DrawOptions& options);
 

@@ -1,4 +1,4 @@
-// Scripts use upright models of length 1. Files use the coordinates of the model's file.
+// In scripts, models are upright and have length 1. Files use the coordinates of the model's file.
 #include "run/pictures/cell_files.h"
 
 #include "core/counted.h"
@@ -24,7 +24,7 @@ namespace cascade {
 
 namespace {
 
-/// Converts script lengths to the coordinates of a file.
+/// Converts positions from the script's unit of length to the coordinates of a file.
 class FilePlaces {
 public:
     explicit FilePlaces(const ModelCells* model) {
@@ -47,10 +47,10 @@ private:
     Stance stance_;
 };
 
-/// Facets of the things in files are as fine as in a picture of this height.
+/// Facets in files are as fine as those in a picture with this height in pixels.
 constexpr double pixels_of_files = 200, detail_of_files = 0.5;
 
-/// The things in a picture, in the coordinates of the model's file.
+/// The objects in a picture, in the coordinates of the model's file.
 Instances things_in_file(const GrownCells& cells) {
     const auto model = cells.simulation.domain().shared_model();
     const FilePlaces in_file(model.get());
@@ -65,7 +65,7 @@ Instances things_in_file(const GrownCells& cells) {
     return copies;
 }
 
-/// The model below them, in the same coordinates, and its colours.
+/// The model below the cells, in the coordinates of its file, and its colours.
 class Skin {
 public:
     Skin(const ModelCells& model, const MeshTexture& texture, const DrawnCells& drawn)
@@ -77,7 +77,7 @@ public:
         colours.coat = drawn.coat->painted();
     }
 
-    /// Colours the points of the mesh. A coat adds points.
+    /// The colours of the mesh's points. If there is a coat, the mesh gets more points.
     std::vector<Colour> colour_points() {
         if (!filter_) return std::vector<Colour>(mesh.points.size(), colours.colour);
         RefinedMesh fine = refined_for_colours(mesh, model_.spread().cells);
@@ -96,7 +96,7 @@ private:
     std::optional<CellFilter> filter_;
 };
 
-/// Says which programs cannot read the copies of a file.
+/// Notes that say which programs cannot read the copies in a file.
 std::vector<std::string> notes_on(const std::filesystem::path& path, std::size_t copies,
                                   bool is_merged) {
     if (is_merged || copies == 0 || !is_of_format(path, FileFormat::glb)) return {};
@@ -155,7 +155,7 @@ Result<void> write_values(const std::filesystem::path& path, const GrownCells& c
         const bool is_listed = !rules.has_component(item) && item != rules.radius;
         const bool varies = system.is_species(item) || !program.stages[cells.stage].uniform[item];
         if (!is_listed || !varies) continue;
-        const std::vector<double> of_item = number_order(state.field(item), *state.tissue);
+        const std::vector<double> of_item = number_order(state.field(item), *state.tissue());
         channels.push_back({std::string(system.item_name(item)),
                             std::vector<float>(of_item.begin(), of_item.end())});
     }

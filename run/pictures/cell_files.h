@@ -1,4 +1,5 @@
-// Crawling cells as files of `-o`: instances or triangles for other programs, and tables.
+// Writes crawling cells to the files of option `-o`: instances or triangles for other programs, and
+// tables.
 #pragma once
 
 #include "core/result.h"
@@ -11,7 +12,7 @@
 
 namespace cascade {
 
-/// Cells, their colours (sRGB, by cell in the order of numbers) and their surroundings.
+/// Cells with their surroundings. `colours` are in sRGB, in ascending order of the cells' numbers.
 struct GrownCells {
     const Simulation& simulation;
     std::uint32_t stage = 0;
@@ -19,11 +20,12 @@ struct GrownCells {
     std::span<const Colour> colours;
 };
 
-/// Writes them in the coordinates of the model's file or, without a model, of scripts: .glb and
-/// .obj with the things in a picture, .npz and .cells.vtp with the cells and all their values. A
-/// .glb that is_baked() is the model alone, with maps that show the things and carry the texts.
-/// `texture` are the model's texture coordinates. If it is empty they stay unchanged. Throws
-/// std::bad_alloc. Fails as the writers of export/ do.
+/// Writes cells in the coordinates of the model's file, or of the script if there is no model. .glb
+/// and .obj files contain the cells as objects, as pictures show them. .npz and .cells.vtp files
+/// contain all values of the cells. A .glb file for which options.is_baked() is true contains only
+/// the model, with maps that show the objects and contain `texts`. `texture` replaces the model's
+/// texture coordinates unless it is empty. Throws std::bad_alloc. Fails like the writers of
+/// export/.
 Result<WrittenFiles> write_cells(const std::filesystem::path& path, const GrownCells& cells,
                                  const MeshTexture& texture, const ModelFileOptions& options,
                                  const PngTexts& texts);

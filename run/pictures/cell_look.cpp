@@ -1,4 +1,4 @@
-// Copies values from the order in memory to the order of files.
+// Copies values from the order in memory to the order in which files list the cells.
 #include "run/pictures/cell_look.h"
 
 #include "export/channels.h"

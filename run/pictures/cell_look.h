@@ -11,27 +11,31 @@
 
 namespace cascade {
 
-/// The values of all cells of a field in the order of files.
+/// Returns the values of all cells of a field, in the order in which files list the cells.
 using InOrder = std::function<std::vector<double>(const Field&)>;
 
 struct CellLook {
     std::size_t channels = 1;
-    std::vector<float> values;  ///< `channels` numbers per cell, cell after cell.
+    std::vector<float> values;  ///< `channels` numbers for each cell, cell after cell.
     PlaceColour colour;
     ValueColours colours;
-    std::vector<float> heights;  ///< One per cell, in units of the model or plane. May be empty.
+    /// A height for each cell, in lengths of the model or plane. May be empty.
+    std::vector<float> heights;
     Material material;
-    bool displaces = false;  ///< Heights move the surface. Otherwise they only bend its normals.
+    /// Whether heights move the surface. Otherwise they only bend its normals.
+    bool displaces = false;
 
-    /// A number for the palette, to which the range applies, or red, green and blue.
+    /// The canvas contains either one number for each cell, which `range` maps to the palette, or
+    /// red, green and blue.
     CellLook(const Canvas& canvas, ValueRange range, const Palette& palette,
              const InOrder& in_order);
 
-    /// Refers to this object. Without occlusion, which depends on the surface.
+    /// The data for painting. They refer to this object. The occlusion is missing because it
+    /// depends on the surface.
     PaintedCells painted() const {
         return {channels, values, colour, heights, material.cells(), displaces, colours};
     }
-    /// The same without heights and material.
+    /// The data for painting without heights and material.
     PaintedCells painted_alone() const { return {channels, values, colour, {}}; }
 };
 

@@ -1,5 +1,6 @@
-// Blurs cells into levels, each twice as wide as the last, as in a mipmap. A sample blends the two
-// levels that match its footprint on the surface.
+// Blurs the values of cells to a series of levels, like a mipmap. The blur of each level is twice
+// as wide as in the level before. A sample mixes the two levels whose blur is nearest to the
+// width of the surface that the sample covers.
 #include "run/pictures/cell_picture.h"
 
 #include "core/check.h"
@@ -16,11 +17,11 @@ namespace cascade {
 
 namespace {
 
-/// Cosines between a ray and the normal are clamped to at least this.
+/// If the cosine between a ray and the normal is smaller, it counts as this value.
 constexpr float least_cosine = 0.1F;
 
-/// The variance of the filter along a direction, in cell spacings: s² / 2 times the mean of (d /
-/// s)² under its weights, where s is two spacings.
+/// The variance of the filter along a direction, in squares of the distance between cells: s² / 2
+/// times the mean of (d / s)² under the filter's weights, where s is twice that distance.
 constexpr double filter_variance = 2 * (1.0 / 28) / 0.15;
 
 bool is_finite(const Colour& colour) {
@@ -41,8 +42,8 @@ Colour mix(const Colour& a, const Colour& b, float part) {
     return result;
 }
 
-/// By cell: reflected light, and height in filter radii. With a material also emitted light,
-/// roughness and metalness.
+/// The numbers of a cell: reflected light, and height in units of the filter's radius. If there is
+/// a material, also emitted light, roughness and metalness.
 struct CellState {
     static constexpr std::size_t height = 3, glow = 4, roughness = 7, metalness = 8;
     explicit CellState(const PaintedCells& look)
@@ -54,7 +55,7 @@ struct CellState {
     bool shines, glows;
     std::size_t size;
 
-    /// Sets a cell's parts of a material.
+    /// Sets the numbers of a cell's material.
     void take(const MaterialCells& material, std::size_t cell, float* state) const {
         const auto part = [&](MaterialPart each, float usual) {
             return material[each].empty() ? usual : material[each][cell];
@@ -69,11 +70,12 @@ struct CellState {
     }
 };
 
-/// Level 0 has the cells unfiltered. Level k ≥ 1 has, together with the filter, the standard
-/// deviation of a sample 2^k spacings wide: 2^k / 2 spacings.
+/// Level 0 contains the unfiltered cells. Level k ≥ 1 is blurred so that its standard deviation,
+/// together with that of the filter, is 2^k / 2 distances between cells. A sample 2^k distances
+/// wide has the same standard deviation.
 using Levels = std::vector<std::vector<float>>;
 
-/// The level for a footprint with this side, in spacings.
+/// The level for a sample that covers a square with this side, in distances between cells.
 float level_of(float side) {
     return side > 1 ? static_cast<float>(std::log2(static_cast<double>(side))) : 0.0F;
 }
@@ -81,7 +83,7 @@ float level_of(float side) {
 /// Adds levels above level 0, up to `highest`.
 void add_levels(const SurfaceCells& cells, const CellState& parts, float highest, Levels& levels,
                 Team& team) {
-    // A blur as wide as the surface, √cells spacings, is enough.
+    // No blur wider than the surface is needed, and the surface is √cells distances wide.
     const double widest = std::log2(static_cast<double>(cells.places.size())) / 2;
     const double count = std::ceil(std::min<double>(highest, widest));
     double variance = 0;
@@ -94,12 +96,14 @@ void add_levels(const SurfaceCells& cells, const CellState& parts, float highest
     }
 }
 
-/// The drawn mesh, which may be a refined copy of the cells' mesh.
+/// The mesh to be drawn, which may be a refined copy of the cells' mesh.
 struct Ground {
     const TriangleMesh& mesh;
-    std::span<const TriangleOrigin> origins;  ///< By triangle. Empty if it is the same mesh.
+    /// For each triangle of the refined mesh, where it comes from. Empty if the mesh is not
+    /// refined.
+    std::span<const TriangleOrigin> origins;
 
-    /// The position of a hit for the cells.
+    /// The position on the cells' mesh at which a ray hits the drawn mesh.
     SurfacePlace place_of(const Hit& hit) const {
         const auto u = static_cast<double>(hit.u), v = static_cast<double>(hit.v);
         const std::array<double, 3> weights = {1 - u - v, u, v};
@@ -119,7 +123,7 @@ public:
           levels_(levels),
           spacing_(spacing) {}
 
-    /// The colour at a position seen from near, from the filtered values.
+    /// The colour at a position at close range, from filtered values.
     Colour light_of_cell(const SurfacePlace& place) const {
         std::vector<CellShare> shares;
         filter_.shares(place, shares);
@@ -147,7 +151,7 @@ public:
     }
 
 private:
-    /// Side of a sample's footprint on the surface, in spacings.
+    /// The side of the square of surface that a sample covers, in distances between cells.
     float side_of(const Sight& sight) const {
         const TriangleMesh& mesh = ground_.mesh;
         const auto& [a, b, c] = mesh.triangles[sight.hit.triangle];
@@ -188,7 +192,7 @@ private:
         }
     }
 
-    /// One number of the cells, between the two levels.
+    /// One of the cells' numbers at a position, mixed from two levels.
     template <typename Share>
     float state_at(const std::vector<Share>& shares, float level, std::size_t number) const {
         const auto below = static_cast<std::size_t>(level);
@@ -239,8 +243,8 @@ private:
     float spacing_;
 };
 
-/// The opacity at a hit, taken from near positions even if the camera is far. Holes have sharp
-/// edges, as in GLB files.
+/// The opacity where a ray hits the surface. It is computed from nearby cells even if the camera is
+/// far away, so that holes have sharp edges, as in GLB files.
 class Opacity {
 public:
     Opacity(std::span<const float> of_cells, const CellFilter& filter, const Ground& ground)
@@ -252,7 +256,7 @@ public:
         float sum = 0;
         for (const CellShare& share : shares) sum += share.weight * of_cells_[share.cell];
         if (is_cut_) return sum < 0.5F ? 0 : 1;
-        // The weights sum to 1 up to rounding.
+        // The weights sum to 1 except for rounding errors, so a smaller sum means 0.
         constexpr float little = 1e-3F;
         return sum < little ? 0 : sum > 1 - little ? 1 : sum;
     }
@@ -264,7 +268,8 @@ private:
     bool is_cut_;
 };
 
-/// The widest footprint of a sample in the picture, in units of the mesh.
+/// The width of the largest square of surface that a sample of the picture covers, in lengths of
+/// the mesh.
 float widest_side(const TriangleMesh& mesh, const DrawOptions& options) {
     const Camera camera(mesh, options.view, options.width, options.height);
     float farthest = 0;
@@ -275,7 +280,7 @@ float widest_side(const TriangleMesh& mesh, const DrawOptions& options) {
 
 }  // namespace
 
-/// A raised surface, drawn in place of the original one.
+/// The surface moved by heights, which is drawn instead of the original.
 struct CellScene::Raised {
     std::vector<float> heights;
     RefinedMesh fine;

@@ -1,5 +1,6 @@
-// Pictures of a surface whose cells have values: smooth from near, antialiased from afar, with
-// bumps. G. Turk, "Texturing Surfaces Using Reaction-Diffusion" (thesis, 1992), section 5.4.
+// Draws a surface whose cells have values. Pictures are smooth at close range and antialiased at a
+// distance, and may have bumps. G. Turk, "Texturing Surfaces Using Reaction-Diffusion" (thesis,
+// 1992), section 5.4.
 #pragma once
 
 #include "export/painted_cells.h"
@@ -12,20 +13,21 @@
 
 namespace cascade {
 
-/// A surface with its cells, prepared for drawing repeatedly.
+/// A surface with its cells, prepared to be drawn several times.
 class CellScene {
 public:
-    /// Both must outlive it. There must be at least one cell. Throws std::bad_alloc.
+    /// `mesh` and `cells` must outlive the scene. There must be at least one cell. Throws
+    /// std::bad_alloc.
     CellScene(const SurfaceMesh& mesh, const SurfaceCells& cells, Team& team);
     ~CellScene();
 
-    /// Colours are those of the filtered values. Where the footprint of a sample is larger than a
-    /// cell, the colours of the cells are used, blurred by diffusion to the footprint's width. Sets
-    /// `round_shadows` of the options. Bumps change the shading but not the outline. The picture
-    /// does not depend on the number of threads. `copies` stand on the surface, in the coordinates
-    /// of drawn(). If the look displaces, heights move the surface instead, and copies stay in
-    /// place. The raised surface is kept for the next picture with the same heights. Throws
-    /// std::bad_alloc.
+    /// Draws a picture. At close range, values are filtered and then coloured. If a sample covers
+    /// more than a cell, cells are coloured first, and their colours are blurred by diffusion to
+    /// the width of the sample. Sets `round_shadows` of the options. Bumps change the shading but
+    /// not the outline. `copies` are drawn on the surface, in the coordinates of drawn(). If
+    /// look.displaces is true, heights move the surface, but not the copies. The moved surface is
+    /// stored for the next picture with the same heights. The picture does not depend on the number
+    /// of threads. Throws std::bad_alloc.
     Image draw(const PaintedCells& look, DrawOptions options, Team& team,
                const Instances* copies = nullptr);
 
@@ -42,8 +44,9 @@ private:
     DrawnMesh drawn_;
     RayCaster caster_;
     CellFilter filter_;
-    std::unique_ptr<const Raised> raised_;  ///< By the last heights that displaced it.
-    float spacing_ = 0;                     ///< The cells' spacing, in units of the mesh.
+    /// The surface moved by heights, from the last picture in which heights moved it.
+    std::unique_ptr<const Raised> raised_;
+    float spacing_ = 0;  ///< The distance between cells, in lengths of the mesh.
 };
 
 }  // namespace cascade

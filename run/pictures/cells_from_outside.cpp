@@ -11,16 +11,17 @@ namespace cascade {
 
 namespace {
 
-/// Rays begin at this distance from the surface, so that they do not hit it there.
+/// Rays begin at this distance from the surface, so that they do not hit the surface where they
+/// begin.
 constexpr float clearance = 1e-5F;
 
 Vector3d in_double(const Vector3& a) {
     return {static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(a.z)};
 }
 
-/// The copies' farthest reach from the surface. Their positions may lie above it.
+/// The largest distance of any part of a copy from the surface. Copies may be above the surface.
 float farthest_of(const Instances& copies) {
-    std::vector<Vector3> corners;  // The farthest corners of the meshes' boxes along each axis.
+    std::vector<Vector3> corners;  // The farthest corner of each mesh's box, along each axis.
     for (const TriangleMesh& mesh : copies.meshes) {
         Vector3 corner;
         for (const Vector3& p : mesh.positions) {

@@ -1,5 +1,6 @@
-// A surface and the things on it, as seen by rays from outside: for maps with which the surface
-// alone resembles both from far away.
+// Finds what is visible from outside: a point of a surface, or an object on it. Maps made from
+// these points let the surface alone look like the surface with its objects, if it is seen from a
+// distance.
 #pragma once
 
 #include "export/painted_cells.h"
@@ -13,22 +14,23 @@
 
 namespace cascade {
 
-/// Rays go along the smooth normals of the surface, against their direction, and begin as far away
-/// as things reach. Where another part of the surface is nearer, they begin in the middle between
-/// both. Thread-safe. Refers to the mesh, which must outlive it.
+/// Finds the objects above points of a surface by tracing rays inwards along the smooth normals of
+/// the surface. A ray begins at the height that the highest object reaches, or half-way to another
+/// part of the surface if that is nearer. Any thread may use this object. The mesh must outlive it.
 class CellsFromOutside {
 public:
-    /// Copies are in the coordinates of the mesh. Throws std::bad_alloc.
+    /// Copies must be in the coordinates of the mesh. Throws std::bad_alloc.
     CellsFromOutside(const SurfaceMesh& mesh, Instances copies);
     CellsFromOutside(const CellsFromOutside&) = delete;
     CellsFromOutside& operator=(const CellsFromOutside&) = delete;
 
     struct Thing {
-        Colour light{};     ///< Reflected fractions, 0 … 1 (light_of).
-        double height = 0;  ///< Above the surface, in the unit of the mesh.
+        Colour light{};     ///< The reflected fractions of red, green and blue light, 0 … 1 (see
+                            ///< light_of()).
+        double height = 0;  ///< The height above the surface, in lengths of the mesh.
         Vector3d normal;    ///< Of length 1.
     };
-    /// The thing seen above a position. Empty for the surface itself.
+    /// The outermost object above a position of the surface. Empty if there is none.
     std::optional<Thing> above(const SurfacePlace& place) const;
 
 private:
@@ -37,29 +39,30 @@ private:
     DrawnMesh drawn_;
     Instances copies_;  ///< In the coordinates of the drawn mesh, like all lengths below.
     float farthest_ = 0;
-    std::optional<RayCaster> of_surface_, of_copies_;  ///< Empty without copies.
+    std::optional<RayCaster> of_surface_, of_copies_;  ///< Empty if there are no copies.
 };
 
-/// The surface below the things: one colour, or a coat.
+/// The colours of the surface below the objects: one colour, or a coat.
 struct SkinColours {
     Colour colour{};                     ///< sRGB.
-    const CellFilter* filter = nullptr;  ///< With a coat. Otherwise null.
+    const CellFilter* filter = nullptr;  ///< Null if there is no coat.
     PaintedCells coat;
 };
 
-/// Paints the view from outside. Its sources must outlive it.
+/// Paints the surface with the objects that hide it from outside. The arguments must outlive this
+/// object.
 class OutsideSamples : public SamplePainter {
 public:
     OutsideSamples(const CellsFromOutside& cells, const SkinColours& skin);
 
     MapSet maps() const override { return {.heights = true, .normals = true}; }
     void paint(const SampleRow& row) override;
-    /// The sum of the normals at all samples.
+    /// The sum of the normals of all samples, each of the visible object or surface.
     Vector3d raised_normal(std::span<const SurfacePlace> samples, const Vector3d& normal) override;
 
 private:
     const CellsFromOutside& cells_;
-    Colour skin_;  ///< Light.
+    Colour skin_;  ///< The skin's colour as reflected fractions of light (see light_of()).
     std::optional<PlacePainter> coat_;
 };
 

@@ -1,4 +1,4 @@
-// Measures are formulas of the picture block, evaluated in all cells at once.
+// Sizes and directions are formulas of the picture block. They are evaluated in all cells together.
 #include "run/pictures/drawn_cells.h"
 
 #include "core/check.h"
@@ -27,17 +27,17 @@ namespace cascade {
 
 namespace {
 
-/// Facets follow the form. Their edges may be long.
+/// The longest edge of facets. It is no limit, because facets only have to follow the shape.
 constexpr double longest_facet = 2 * largest_of_shape;
 
-/// The number settings of the picture block that every shape has.
+/// The numeric settings of the picture block that apply to every shape.
 struct Measure {
     enum Kind : std::size_t { width, length, height, tilt };
 };
 constexpr std::array<std::string_view, 4> measure_names{"width", "length", "height", "tilt"};
 
-/// The values of the picture block's number settings, in the order of the cells' numbers. Empty
-/// where the script sets none.
+/// The values of numeric settings of the picture block, in the order of the cells' numbers. There
+/// are no values for a missing setting.
 std::vector<std::vector<double>> numbers_of(Script& script, const Simulation& simulation,
                                             std::uint32_t stage,
                                             std::span<const std::string> names) {
@@ -46,7 +46,8 @@ std::vector<std::vector<double>> numbers_of(Script& script, const Simulation& si
     for (std::size_t k = 0; k < names.size(); ++k) {
         const auto expression = picture_expression(script.tree, names[k]);
         if (!expression) continue;
-        Diagnostics unspoken;  // Errors were reported on loading.
+        // Ignored, because the same errors were reported when the script was loaded.
+        Diagnostics unspoken;
         auto formula = check_view(script.tree, *expression, stage, stage, *script.program,
                                   script.sources, unspoken);
         if (!formula || formula->nodes.back().type != ValueType::number) continue;
@@ -58,14 +59,14 @@ std::vector<std::vector<double>> numbers_of(Script& script, const Simulation& si
     std::vector<const Formula*> each;
     for (const Formula& formula : formulas) each.push_back(&formula);
     const std::vector<Field> values = simulation.evaluate(each, stage);
-    const Tissue& tissue = *simulation.state(stage).tissue;
+    const Tissue& tissue = *simulation.state(stage).tissue();
     for (std::size_t k = 0; k < which.size(); ++k) {
         numbers[which[k]] = number_order(values[k], tissue);
     }
     return numbers;
 }
 
-/// The colours of a body's points. A canvas has colours in the cells of its grid.
+/// The colours of a body's points, from a canvas with a colour for each cell of the grid.
 std::vector<Colour> colours_on(const SurfaceMesh& body, const Canvas& canvas, Boundaries boundary) {
     std::array<PlaceValue, 3> channels;
     for (std::size_t k = 0; k < channels.size(); ++k) {
@@ -85,7 +86,7 @@ std::vector<Colour> colours_on(const SurfaceMesh& body, const Canvas& canvas, Bo
     return colours;
 }
 
-/// The colours of the surface below the cells, where the script sets them.
+/// Sets the colour or the coat of the surface below the cells if the script has one.
 void take_skin(Script& script, const Simulation& simulation, std::uint32_t stage,
                DrawnCells& drawn) {
     const auto expression = picture_expression(script.tree, "skin");
@@ -123,10 +124,10 @@ Quaternion leaning(double degrees) {
     return {std::cos(half), std::sin(half), 0, 0};
 }
 
-/// The shape of each cell, and the faults of some.
+/// The shapes of all cells, and the reasons why some shapes cannot be drawn.
 struct CellShapes {
     SharedShapes shared;
-    std::vector<std::string> faults;  ///< By shape. "" for sound ones.
+    std::vector<std::string> faults;  ///< For each shape, why it cannot be drawn. Empty if it can.
 };
 
 CellShapes shapes_of(const ShapeForm& form, std::vector<QuantityValues> values, std::size_t count) {
@@ -179,7 +180,7 @@ Field row_of_cells(const Field& field, const Tissue& tissue) {
 
 PlacedFrames frames_of(const Simulation& simulation, std::uint32_t stage) {
     const StageState& state = simulation.state(stage);
-    const Tissue& tissue = *state.tissue;
+    const Tissue& tissue = *state.tissue();
     const CellRules& rules = *simulation.domain().program->system_of(stage).cells;
     const auto values = [&](ItemId first, std::size_t k) {
         return number_order(state.field(ItemId(first.index() + k)), tissue);
@@ -214,7 +215,7 @@ Result<std::shared_ptr<const FileShape>> picture_file(Script& script) {
 
 namespace {
 
-/// Takes the shape that the picture names, or the file that was read for it.
+/// Sets the shape given by formulas that the picture block names, or the shape from a file.
 void take_shape(Script& script, std::shared_ptr<const FileShape> file, DrawnCells& drawn) {
     PictureShape shape = picture_shape(script.tree, script.sources);
     drawn.detail = shape.detail;
@@ -226,7 +227,8 @@ void take_shape(Script& script, std::shared_ptr<const FileShape> file, DrawnCell
     drawn.form = shape.form ? *std::move(shape.form) : library_shape(usual_shape);
 }
 
-/// The numbers of the cells, by Measure and then by quantity of the shape.
+/// The numbers of all cells: one list for each member of Measure, and one for each quantity of the
+/// shape.
 struct MeasuredCells {
     std::vector<std::vector<double>> measures;
     std::vector<QuantityValues> quantities;
@@ -253,8 +255,8 @@ MeasuredCells measured_cells(Script& script, const Simulation& simulation, std::
     return measured;
 }
 
-/// Where and how large a cell is drawn; nothing if it has no size. `model` is null for other shapes
-/// than files.
+/// The position and size of a cell. Empty if the cell has no size. `model` is null unless the shape
+/// comes from a file.
 std::optional<Placement> placement_of(const PlacedFrames& frames, std::size_t k,
                                       const MeasuredCells& measure, const FileShape* model) {
     const double wide = measure(Measure::width, k, 2 * frames.radii[k]);
@@ -285,8 +287,8 @@ Vector3d extent_in_longest_sides(const Grid& grid) {
 DrawnCells drawn_cells(Script& script, const Simulation& simulation, std::uint32_t stage,
                        std::shared_ptr<const FileShape> file) {
     const StageState& state = simulation.state(stage);
-    CHECK(state.tissue, "the stage is one of cells that crawl");
-    const Tissue& tissue = *state.tissue;
+    CHECK(state.tissue(), "the stage is one of cells that crawl");
+    const Tissue& tissue = *state.tissue();
     const PlacedFrames frames = frames_of(simulation, stage);
     DrawnCells placed;
     take_shape(script, std::move(file), placed);
@@ -325,7 +327,7 @@ DrawnCells drawn_cells(Script& script, const Simulation& simulation, std::uint32
 
 namespace {
 
-/// Facets are at most 2^-level from a shape of the default size.
+/// At level n, facets deviate by at most 2^-n from a shape of the default size.
 constexpr int coarsest_level = 2, finest_level = 8;
 
 int level_of(const Vector3d& scale, double pixels, double detail) {
@@ -364,7 +366,7 @@ Instances instances_of(const DrawnCells& cells, double pixels, double detail) {
         const auto each = static_cast<std::size_t>(team.size());
         for (auto k = static_cast<std::size_t>(thread); k < wanted.size(); k += each) {
             const SweptDetail fineness{longest_facet, std::exp2(-wanted[k].level)};
-            // A shape that turns out unsound has no triangles.
+            // A shape that turns out to be faulty gets no triangles.
             auto mesh = mesh_of(parts_of(cells.form, cells.shapes[wanted[k].shape]), fineness);
             if (mesh) instances.meshes[k] = std::move(*mesh);
         }

@@ -1,4 +1,4 @@
-// Crawling cells as things in space: a shape, a position and measures for each.
+// Crawling cells as objects in space, each with a shape, a position and a size.
 #pragma once
 
 #include "mesh/instances.h"
@@ -19,57 +19,66 @@ namespace cascade {
 class Tissue;
 struct ModelLook;
 
-/// The cells of a stage that have a size, in ascending order of their numbers. All lengths are in
-/// script units.
+/// The cells of a stage that are large enough to draw, in ascending order of their numbers. All
+/// lengths are in the script's unit.
 struct DrawnCells {
-    std::shared_ptr<const FileShape> file;  ///< For the shape of a file. Otherwise null.
-    ShapeForm form;                         ///< The shape of formulas, without a file.
-    double detail = 0.5;                    ///< In pixels of pictures.
-    std::vector<ShapeValues> shapes;        ///< The form's shapes in use.
-    std::vector<Placement> placements;      ///< `mesh` is the shape. Without colours.
-    std::vector<std::size_t> cells;    ///< By placement: the index of its cell in number_order().
-    std::size_t count = 0;             ///< All cells, including those without a size.
-    Colour skin{0.25F, 0.24F, 0.23F};  ///< The surface below them, sRGB, unless it has a coat.
-    /// The grown body below them, in script lengths, and the colours of its points (sRGB). Null
-    /// elsewhere.
+    /// The shape from a file. Null if the shape is given by formulas.
+    std::shared_ptr<const FileShape> file;
+    ShapeForm form;  ///< The shape given by formulas. Used if there is no file.
+    /// The largest distance between facets and the shape, in pixels.
+    double detail = 0.5;
+    std::vector<ShapeValues> shapes;  ///< The values of all shapes of `form` that are in use.
+    /// One for each drawn cell. Each refers to a shape by `mesh`, and has no colour.
+    std::vector<Placement> placements;
+    /// For each placement, the index of its cell in number_order().
+    std::vector<std::size_t> cells;
+    /// The number of all cells, including cells too small to draw.
+    std::size_t count = 0;
+    /// The colour of the surface below the cells, in sRGB, unless it has a coat.
+    Colour skin{0.25F, 0.24F, 0.23F};
+    /// The grown body below the cells, in the script's unit of length, and the colours of its
+    /// points in sRGB. Null if there is no body.
     std::shared_ptr<const SurfaceMesh> body;
     std::vector<Colour> body_colours;
-    /// Colours of the skin, held by fields in the cells of a model or plane. Otherwise null.
+    /// The coat: colours that fields give to the surface below the cells, on a model or on a plane.
+    /// Null if there is no coat.
     std::shared_ptr<const ModelLook> coat;
     std::shared_ptr<const Image> floor;
     Vector3d extent;    ///< The size of the plane, or of the box in space.
-    std::string fault;  ///< The message about cells that cannot be drawn. "" if all can.
+    std::string fault;  ///< A message about cells that cannot be drawn. Empty if all can.
 };
 
-/// True if a stage that runs has crawling cells.
+/// Whether any stage that runs has crawling cells.
 bool has_cells(const Script& script);
 
-/// Places the cells by the settings of the picture block, some of which may be missing. Settings
-/// that read something without a value yet count as missing, too. `file` comes from picture_file().
-/// Without it, the file is read.
+/// Places the cells by the settings of the picture block. A setting that is missing, or that reads
+/// a value that does not exist yet, has its default. `file` is the result of picture_file(). If it
+/// is null, this function reads the file.
 DrawnCells drawn_cells(Script& script, const Simulation& simulation, std::uint32_t stage,
                        std::shared_ptr<const FileShape> file = nullptr);
 
-/// The shape of the file named in the picture block. Null if none is named. Fails as read_shape()
-/// does.
+/// Reads the shape from the file that the picture block names. Null if it names none.
+/// Fails like read_shape().
 Result<std::shared_ptr<const FileShape>> picture_file(Script& script);
 
-/// The values of a plane of a tissue in ascending order of the cells' numbers.
+/// The values of a tissue's plane, in ascending order of the cells' numbers.
 std::vector<double> number_order(const Field& field, const Tissue& tissue);
 
-/// The same as one row of binary32, or a single NaN if there are no cells.
+/// The values of number_order() as one row in binary32, or a single NaN if there are no cells.
 Field row_of_cells(const Field& field, const Tissue& tissue);
 
-/// The cells of a stage in ascending order of their numbers, in script lengths.
+/// The positions, rotations and radii of a stage's cells, in ascending order of their numbers and
+/// in the script's unit of length.
 struct PlacedFrames {
     std::vector<Vector3d> places;
-    std::vector<Quaternion> turns;  ///< The rotations of their axes, of length 1.
+    /// The rotations of the cells' axes, as quaternions of length 1.
+    std::vector<Quaternion> turns;
     std::vector<double> radii;
 };
 PlacedFrames frames_of(const Simulation& simulation, std::uint32_t stage);
 
-/// Meshes whose facets are at most `detail` pixels from their shapes, if a length of 1 has
-/// `pixels`. Throws std::bad_alloc.
+/// Makes meshes whose facets deviate from their shapes by at most `detail` pixels, in a picture in
+/// which a length of 1 has `pixels` pixels. Throws std::bad_alloc.
 Instances instances_of(const DrawnCells& cells, double pixels, double detail);
 
 }  // namespace cascade

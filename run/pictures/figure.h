@@ -1,4 +1,4 @@
-// Figures for papers: a picture with axes in lengths and a bar of its colours, or a curve.
+// Draws figures for papers: a picture with axes in lengths and a bar of its colours, or a curve.
 #pragma once
 
 #include "core/palette.h"
@@ -12,30 +12,31 @@
 
 namespace cascade {
 
-/// The meaning of a picture's colours.
+/// A legend for the colours of a picture.
 struct ColourBar {
     const Palette* palette = nullptr;
-    ValueRange range;  ///< The values at the two ends of the palette.
-    std::string name;  ///< The name of the number shown.
+    ValueRange range;  ///< The values at the ends of the palette.
+    std::string name;  ///< The name of the number that the colours represent.
 };
 
-/// The rectangle of the plane covered by a picture, in lengths: x runs to the right and y down.
+/// The rectangle that a picture shows, in lengths. x runs to the right and y runs down.
 struct PlaneExtent {
     double width = 1, height = 1;
     std::string across = "x", down = "y";
 };
 
-/// The picture with its title above it, ticks at its sides if it shows a plane, and a bar at its
-/// right if its colours represent numbers. A plane keeps its proportions up to 1 : 12.
+/// Draws a picture with a title above it. A picture of a plane has ticks at its sides, and a
+/// picture whose colours represent numbers has a bar at its right. The sides of a plane keep their
+/// proportions up to 1 : 12.
 Drawing draw_figure(const Image& picture, const std::string& title,
                     const std::optional<PlaneExtent>& plane, const std::optional<ColourBar>& bar);
 
-/// Figures as the panels of one, in rows of at most three, four in a square, with a title above
-/// them.
+/// Combines figures as panels, with a title above them. Four panels form a square. Any other number
+/// of panels forms rows of at most three.
 Drawing side_by_side(std::span<const Drawing> panels, const std::string& title);
 
-/// A number along a line of cells: a curve over the length, from the lowest to the highest value.
-/// Values that are not finite leave gaps.
+/// Draws a number along a line of cells as a curve, from its lowest to its highest value. Values
+/// that are not finite leave gaps.
 Drawing draw_curve_figure(const std::vector<double>& values, double length,
                           const std::string& title, const std::string& name);
 

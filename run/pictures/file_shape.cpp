@@ -1,4 +1,4 @@
-// Scales the mesh of the file along its axes, and its normals by the inverse factors.
+// Scales the mesh of the file along its axes. Normals are scaled by the inverse factors.
 #include "run/pictures/file_shape.h"
 
 #include "mesh/make_mesh.h"
@@ -14,10 +14,10 @@ namespace cascade {
 
 namespace {
 
-/// The longest side is 1. A side as small as a rounding error counts as 0.
+/// The longest side is 1. A shorter side than this is a rounding error and counts as 0.
 constexpr float least_side = 1e-6F;
 
-/// Multiplies by factors along the axes.
+/// Multiplies each component by its factor.
 Vector3 times(Vector3 a, Vector3 factors) {
     return {a.x * factors.x, a.y * factors.y, a.z * factors.z};
 }

@@ -1,4 +1,4 @@
-// Shapes of cells from the files of models.
+// Reads the shapes of cells from the files of models.
 #pragma once
 
 #include "core/result.h"
@@ -9,15 +9,16 @@
 
 namespace cascade {
 
-/// A model as a shape: moved and stretched so that it reaches from −1 to 1 in x and z, and from 0
-/// to 1 in y, which points upwards in the file. Flat directions remain flat.
+/// A model as the shape of cells. It is moved and stretched so that it reaches from −1 to 1 in x
+/// and z, and from 0 to 1 in y, which points upwards. A model that is flat in a direction stays
+/// flat.
 struct FileShape {
     TriangleMesh mesh;
-    double length = 1, height = 1;  ///< The model's, as multiples of its width.
+    double length = 1, height = 1;  ///< Of the model before stretching, as multiples of its width.
 };
 
-/// Fails if the script may not read the file, and as read_model() and make_mesh() do. Throws
-/// std::bad_alloc.
+/// Fails if the script may not read the file, and in the same cases as read_model() and
+/// make_mesh(). Throws std::bad_alloc.
 Result<FileShape> read_shape(const Script& script, const std::string& path);
 
 }  // namespace cascade

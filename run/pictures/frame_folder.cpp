@@ -20,7 +20,7 @@ bool are_digits(std::string_view text, std::size_t least) {
     return text.size() >= least && text.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-/// True if frame_name() could have made the name.
+/// Whether frame_name() could return this name.
 bool is_frame_name(std::string_view name) {
     if (!name.ends_with(".png")) return false;
     name.remove_suffix(4);
@@ -50,7 +50,7 @@ Result<std::vector<std::filesystem::path>> earlier_frames(const std::filesystem:
                                                           const Script& script, bool is_resumed) {
     std::vector<std::filesystem::path> frames;
     std::error_code error;
-    // If the folder does not exist or cannot be read, writing into it reports that.
+    // A folder that is missing or cannot be read is reported when frames are written.
     for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
          entry.increment(error)) {
         if (is_frame_name(entry->path().filename().string())) frames.push_back(entry->path());
@@ -59,7 +59,7 @@ Result<std::vector<std::filesystem::path>> earlier_frames(const std::filesystem:
     if (is_resumed && !frames.empty()) {
         return failure(fmt::format("the folder '{}' holds frames of an earlier run",
                                    folder.string()),
-                       "name another one with --frames: those of a run that goes on have their own "
+                       "name another folder with --frames: a resumed run needs one of its own "
                        "numbers");
     }
     for (const auto& frame : frames) {
@@ -67,7 +67,7 @@ Result<std::vector<std::filesystem::path>> earlier_frames(const std::filesystem:
         if (drawn && file_name(drawn->name) == file_name(script.name)) continue;
         return failure(fmt::format("the folder '{}' holds frames that {} did not draw, as {}",
                                    folder.string(), script.name, frame.filename().string()),
-                       "name another one with --frames, or remove them");
+                       "name another folder with --frames, or remove them");
     }
     return frames;
 }

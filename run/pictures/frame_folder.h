@@ -1,4 +1,4 @@
-// The folder of --frames, and earlier frames in it.
+// The folder of --frames, and the frames of earlier runs in it.
 #pragma once
 
 #include "core/result.h"
@@ -11,19 +11,20 @@
 
 namespace cascade {
 
-/// True if the path has the ending of a movie (.mp4, .gif, .webm …), which a folder should not.
+/// Whether a path ends like a film (.mp4, .gif, .webm …). A folder should not.
 bool is_called_like_a_movie(const std::filesystem::path& path);
 
-/// "0012-large-0003400.png": the name of frame `number`.
+/// The name of frame `number`, such as "0012-large-0003400.png".
 std::string frame_name(std::size_t number, const std::string& stage, std::int64_t step);
 
-/// The frames of an earlier run of a script with the same name in the folder. They are removed
-/// after new ones have been written. Fails if there are frames of another script or of unknown
-/// origin, or any at all if the run is resumed. Other files are ignored.
+/// The frames in the folder that an earlier run of a script with the same name has written. They
+/// are removed after the new frames have been written. Fails if the folder has frames of another
+/// script or of unknown origin. Also fails if a resumed run finds any frames. Other files are
+/// ignored.
 Result<std::vector<std::filesystem::path>> earlier_frames(const std::filesystem::path& folder,
                                                           const Script& script, bool is_resumed);
 
-/// Removes those of `earlier` that were not written again. Returns their number.
+/// Removes the files of `earlier` that are not among `written`. Returns their number.
 std::size_t remove_stale_frames(std::span<const std::filesystem::path> earlier,
                                 std::span<const std::filesystem::path> written);
 

@@ -1,5 +1,5 @@
-// Writes planes to an unnamed temporary file and paints them after the run, when their range is
-// known.
+// Writes planes to an unnamed temporary file, and paints them after the run, when the range of all
+// values is known.
 #include "run/pictures/frames.h"
 
 #include "core/enough_memory.h"
@@ -26,11 +26,12 @@ std::size_t plane_size(const PlaneLayout& layout) {
     return static_cast<std::size_t>(layout.size());
 }
 
-/// The whole plane including halo and padding, which is contiguous.
+/// The beginning of a plane's memory, which is contiguous and includes the halo and the padding of
+/// rows.
 const float* storage(const Field& field) { return field.origin() - field.layout().offset(0, 0); }
 float* storage(Field& field) { return field.origin() - field.layout().offset(0, 0); }
 
-/// The last of the planes, if it has this layout. Otherwise a new one.
+/// The last of `planes` if it has this layout, or else a new plane.
 Field reused_plane(const PlaneLayout& layout, std::vector<Field>& planes) {
     if (planes.empty()) return Field(layout);
     Field plane = std::move(planes.back());
@@ -168,9 +169,10 @@ Result<Canvas> FrameRecorder::read_back(const Frame& frame, std::vector<Field> p
     return canvas;
 }
 
-/// As many as have room for a picture and its encoder's input, in half of the free memory.
+/// The number of threads for whose data half of the free memory has room, at most `threads`. Each
+/// thread needs a picture and the input of its encoder.
 int FrameRecorder::threads_for(const Painter& painter, int threads) const {
-    // All threads together draw a picture of a surface, or a smooth one.
+    // A picture of a surface, or a smooth picture, is drawn by all threads together.
     if (frames_.empty() || !painter.has_square_cells() || shows_cells()) return 1;
     constexpr std::uint64_t bytes_of_pixel = 40;
     const auto [across, down] = painter.request().copies;
@@ -186,13 +188,13 @@ int FrameRecorder::threads_for(const Painter& painter, int threads) const {
 
 Result<void> FrameRecorder::use_canvases(std::span<const std::size_t> numbers, int threads,
                                          const std::atomic<bool>& cancel, const UseCanvas& use) {
-    std::mutex mutex;  // For the following members and the file.
+    std::mutex mutex;  // Protects the variables below and the file.
     std::condition_variable is_done;
     std::size_t begun = 0, done = 0;
     std::optional<Failure> failed;
     const auto work = [&](int) {
         std::unique_lock lock(mutex);
-        std::vector<Field> planes;  // Planes that keep their memory from frame to frame.
+        std::vector<Field> planes;  // Planes whose memory is reused from frame to frame.
         Image image;
         while (!failed && !cancel && begun < numbers.size()) {
             const std::size_t turn = begun++;
@@ -225,7 +227,8 @@ Result<void> FrameRecorder::use_canvases(std::span<const std::size_t> numbers, i
 
 void FrameRecorder::draw_one(Painter& painter, std::size_t number, const Canvas& canvas,
                              Image& image) const {
-    // Frames of a film have one size.
+    // All frames of a film must have the same size, so those without cells get the size of those
+    // with cells.
     image = shows_cells() ? painter.image_beside_cells(canvas, range())
                           : painter.image(canvas, range(), std::move(image));
     const std::string& label = frames_[number].label;
@@ -246,8 +249,8 @@ Result<void> FrameRecorder::draw(Painter& painter, std::span<const std::size_t> 
 
 Result<std::vector<std::filesystem::path>> FrameRecorder::write(const std::filesystem::path& folder,
                                                                 Painter& painter,
-                                                                const PngTexts& texts,
-                                                                int threads) {
+                                                                const PngTexts& texts, int threads,
+                                                                const std::atomic<bool>& cancel) {
     std::vector<std::size_t> all(frames_.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     std::vector<std::filesystem::path> written;
@@ -273,7 +276,7 @@ Result<std::vector<std::filesystem::path>> FrameRecorder::write(const std::files
             return done;
         };
     };
-    auto drawn = use_canvases(all, threads_for(painter, threads), never_cancelled, use);
+    auto drawn = use_canvases(all, threads_for(painter, threads), cancel, use);
     if (!drawn) return tl::unexpected(drawn.error());
     return written;
 }

@@ -1,4 +1,5 @@
-// Frames: moments of a run, stored until the range of all of them is known.
+// Frames show moments of a run. They are stored until the run ends, because all share one range of
+// values, which is known only then.
 #pragma once
 
 #include "core/result.h"
@@ -18,45 +19,48 @@
 
 namespace cascade {
 
-/// Stores the values of frames in an unnamed temporary file, since a long run may not fit into
-/// memory, and draws them at the end.
+/// Stores the values of frames in an unnamed temporary file, because all frames of a long run may
+/// not fit into memory. Draws them after the run.
 class FrameRecorder {
 public:
-    /// `keep_values` is for pictures and films. `space_time` is for a space-time picture, whose
-    /// rows stay in memory.
+    /// `keep_values` is needed for pictures and films. `space_time` is needed for a space-time
+    /// picture, whose rows stay in memory.
     static Result<FrameRecorder> create(bool keep_values, bool space_time);
 
-    /// Adds a frame. A full disk is remembered for failure(). `label` is drawn into a corner of its
-    /// picture, if it is not empty and the picture has room.
+    /// Adds a frame. If the disk is full, failure() reports the error later. `label` is drawn into
+    /// a corner of the picture if the picture has room for it.
     void record(const Canvas& canvas, const std::string& stage, std::int64_t step,
                 std::string label = "");
     std::optional<Failure> failure() const { return failure_; }
-    /// True if every frame shows a stage before its first step.
+    /// Whether every frame shows a stage before its first step.
     bool holds_starts_alone() const;
 
     std::size_t count() const { return frames_.size(); }
-    /// The values of a frame. Fails if they cannot be read back.
+    /// The values of a frame. Fails if they cannot be read from the file.
     Result<Canvas> canvas(std::size_t number) { return read_back(frames_[number]); }
-    /// The range of all frames.
+    /// The automatic range over the values of all frames.
     ValueRange range() const { return automatic_range(values_); }
 
-    /// The rest of a picture's work, done once the pictures before it are done.
+    /// The part of the work on a picture that must be done in the order of the pictures. It runs
+    /// after that of all earlier pictures.
     using InOrder = std::function<Result<void>()>;
-    /// Takes the picture of frame `number`, on several threads at once.
+    /// Processes the picture of frame `number`, and returns the work that must be done in order.
+    /// Called on several threads at the same time.
     using UseImage = std::function<Result<InOrder>(std::size_t number, const Image& image)>;
 
-    /// Draws frames, whose numbers rise, with one range for all, several at a time on at most this
-    /// number of threads. After a failure, and once `cancel` is set, no more are done.
+    /// Draws the frames with the given ascending numbers, with one range for all. Draws several at
+    /// the same time, on at most `threads` threads. Stops after a failure, and when `cancel` is
+    /// set.
     Result<void> draw(Painter& painter, std::span<const std::size_t> numbers, int threads,
                       const std::atomic<bool>& cancel, const UseImage& use);
 
-    /// Draws every frame as NUMBER-STAGE-STEP.png into the folder. A failure leaves only the frames
-    /// before the failed one.
+    /// Draws every frame into the folder as NUMBER-STAGE-STEP.png. After a failure, only the frames
+    /// before the failed one remain. Once `cancel` is set, no more are begun.
     Result<std::vector<std::filesystem::path>> write(const std::filesystem::path& folder,
                                                      Painter& painter, const PngTexts& texts,
-                                                     int threads);
+                                                     int threads, const std::atomic<bool>& cancel);
 
-    /// The rows of a one-row grid, stacked vertically, the first frame at the top.
+    /// The space-time picture of a grid of one row. Each frame is a row, the first at the top.
     Image space_time(Painter& painter) const;
 
 private:
@@ -65,21 +69,25 @@ private:
         std::int64_t step = 0;
         std::string label;
         std::size_t planes = 1;
-        std::bitset<2 + material_parts> extras;  ///< The extra_planes() that follow.
+        /// Which of the extra_planes() follow the fields in the file.
+        std::bitset<2 + material_parts> extras;
         PlaneLayout layout;
-        std::int64_t place = 0;  ///< The offset of its values in the file, in bytes.
-        /// For a stage of crawling cells. Vectors with an entry for each of them are in the file.
+        std::int64_t place = 0;  ///< The position of its values in the file, in bytes.
+        /// The cells of a stage of crawling cells, without their vectors, which are in the file.
         std::shared_ptr<const DrawnCells> cells;
-        std::size_t placements = 0, colours = 0;  ///< The lengths of its vectors.
-        bool has_body = false;                    ///< Canvas::body is in the file.
-        std::size_t points = 0, triangles = 0;    ///< The body's counts.
+        /// The lengths of the vectors of placements and colours in the file.
+        std::size_t placements = 0, colours = 0;
+        bool has_body = false;  ///< Whether the frame has a body (Canvas::body) in the file.
+        /// The numbers of points and triangles of the body.
+        std::size_t points = 0, triangles = 0;
     };
     struct CloseFile {
         void operator()(std::FILE* file) const { std::fclose(file); }
     };
 
-    /// Takes the values of frame `number`, on several threads at once. Each thread has its own
-    /// `image`, which keeps its memory from frame to frame.
+    /// Processes the values of frame `number`, and returns the work that must be done in order.
+    /// Called on several threads at the same time. Each thread has its own `image`, whose memory is
+    /// reused from frame to frame.
     using UseCanvas =
         std::function<Result<InOrder>(std::size_t number, const Canvas& canvas, Image& image)>;
     Result<void> use_canvases(std::span<const std::size_t> numbers, int threads,
@@ -95,7 +103,7 @@ private:
     bool keep_items(const std::vector<T>& items);
     template <typename T>
     bool read_items(std::vector<T>& items, std::size_t count);
-    /// Fields may be made in the memory of other planes.
+    /// Reads a frame. Its fields reuse the memory of `planes`.
     Result<Canvas> read_back(const Frame& frame, std::vector<Field> planes = {});
 
     bool keep_rows_ = false;
@@ -103,7 +111,7 @@ private:
     std::int64_t kept_ = 0;  ///< Bytes in the file.
     std::vector<Frame> frames_;
     std::vector<Canvas> rows_;
-    Spread values_;  ///< For all frames.
+    Spread values_;  ///< The spread of the values of all frames.
     std::optional<Failure> failure_;
 };
 

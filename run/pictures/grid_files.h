@@ -1,5 +1,6 @@
-// Patterns on grids as the files of `-o`: the body of a volume as a model for other programs, and a
-// plane, or a slice of a volume, as maps that repeat where the plane does.
+// Writes patterns on grids to the files of option `-o`. The body of a volume becomes a model. A
+// plane, or a slice of a volume, becomes a rectangle with maps, which repeat along the axes in
+// which the plane is periodic.
 #pragma once
 
 #include "core/plane.h"
@@ -15,14 +16,14 @@ namespace cascade {
 struct ModelFileOptions;
 struct PlaneLook;
 
-/// Writes a body (run/pictures/body_picture.h) with the colours and numbers of its points, and its
-/// levels of detail, as write_levels() does, with lengths in the unit of the grid's spacing. Fails
-/// on an empty body, as write_levels() does, and if memory is short.
+/// Writes a body (run/pictures/body_picture.h) with colours and numbers at its points, and with
+/// `levels` levels of detail. Lengths are in the unit of the grid's spacing. Fails if the body is
+/// empty or memory is exhausted, and in the same cases as write_levels().
 Result<WrittenFiles> write_body(const std::filesystem::path& path, const SurfaceMesh& body,
                                 const Grid& grid, const PointResults& results, int levels);
 
-/// Writes a rectangle with maps, of which the longer side has options.bake texels, as a GLB file,
-/// and the maps beside it (export/material_maps.h).
+/// Writes a rectangle as a GLB file with maps, and the maps as files in the same folder
+/// (export/material_maps.h). The longer side of the maps has options.bake texels.
 Result<WrittenFiles> write_plane(const std::filesystem::path& path, const PlaneLook& look,
                                  const ModelFileOptions& options, const PngTexts& texts);
 

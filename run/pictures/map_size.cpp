@@ -1,4 +1,4 @@
-// All cells share N × N texels, of which a part is covered.
+// The cells together cover a part of the N × N texels of a map. N is computed from this part.
 #include "run/pictures/map_size.h"
 
 #include "atlas/texture_facts.h"
@@ -20,7 +20,7 @@ double side_needed(double texels_per_cell, std::int64_t cells, double covered) {
 
 double covered_by(const ModelCells& model, const MeshTexture& texture) {
     const SurfaceMesh mesh = mesh_in_files(model, texture);
-    // A texture that covers next to nothing is refused or reported elsewhere.
+    // A texture that covers almost no texel is refused or reported by other code.
     return std::max(texture_facts(mesh).covered, 1e-4);
 }
 
@@ -36,7 +36,7 @@ MapSize map_size_for(double texels_per_cell, const Simulation& simulation,
                      const MeshTexture& texture) {
     constexpr std::int64_t most = ModelFileOptions::most_texels;
     std::int64_t wanted = 0;
-    double cells_along = 0;  // The number of cells side by side that span the map.
+    double cells_along = 0;  // The number of adjacent cells that span the map.
     if (const auto& model = simulation.domain().model) {
         const double covered = covered_by(*model->cells, texture);
         const auto count = static_cast<std::int64_t>(model->cells->count());

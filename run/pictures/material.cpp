@@ -1,4 +1,4 @@
-// Each setting is a separate formula, like the colour.
+// Evaluates each setting as a separate formula, in the same way as the colour.
 #include "run/pictures/material.h"
 
 #include "lang/check/check.h"
@@ -16,11 +16,11 @@ namespace cascade {
 
 namespace {
 
-/// A setting that is a single number.
+/// A setting with a single number.
 struct NumberSetting {
     std::string_view name;
     MaterialPart part;
-    float usual;  ///< For cells without one.
+    float usual;  ///< The default of the setting.
 };
 constexpr std::array<NumberSetting, 3> number_settings = {{
     {"roughness", MaterialPart::roughness, 0.6F},
@@ -30,7 +30,8 @@ constexpr std::array<NumberSetting, 3> number_settings = {{
 constexpr std::array<MaterialPart, 3> emission_parts = {MaterialPart::red, MaterialPart::green,
                                                         MaterialPart::blue};
 
-/// The numbers from 0 to 1 of all cells, and in how many cells inside they had to change.
+/// Clamps the numbers of all cells to 0 … 1. Adds to `changed` the number of cells inside that had
+/// to be changed.
 std::vector<float> clamped(const std::vector<double>& values, float usual,
                            std::span<const std::uint8_t> inside, std::size_t& changed) {
     std::vector<float> result;
@@ -50,7 +51,9 @@ std::vector<Field> setting_values(const Script& script, std::string_view setting
                                   std::uint32_t last_stage) {
     const auto expression = picture_expression(script.tree, setting);
     if (!expression) return {};
-    Diagnostics unspoken;  // Errors were reported on loading. Here a name may have no value yet.
+    // Errors were reported when the script was loaded. The only new error is a name that has no
+    // value yet.
+    Diagnostics unspoken;
     const auto formula = check_view(script.tree, *expression, stage, last_stage, *script.program,
                                     script.sources, unspoken);
     return formula ? evaluate(*formula) : std::vector<Field>();
@@ -94,7 +97,7 @@ Material::Material(const MaterialFields& fields,
     }
     for (const MaterialPart part : emission_parts) {
         const Field& field = fields.parts[part];
-        std::size_t unspoken = 0;  // Colours are clamped without a message.
+        std::size_t unspoken = 0;  // Not used, because colours are clamped without a message.
         if (!field.empty()) parts[part] = clamped(in_order(field), 0, inside, unspoken);
     }
     if (fields.height.empty()) return;

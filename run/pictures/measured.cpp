@@ -1,4 +1,4 @@
-// If the picture shows colours, measures the stage's default number.
+// If the picture shows colours, the default number of the stage is measured instead.
 #include "run/pictures/measured.h"
 
 #include "core/spread.h"
@@ -49,7 +49,7 @@ std::string name_of_number(const Script& script, std::uint32_t stage,
 
 measure::Features measure_shown(Painter& painter, const Simulation& simulation) {
     const Field shown = shown_number(painter, simulation);
-    const auto& tissue = simulation.state(shown_stage(simulation)).tissue;
+    const Tissue* const tissue = simulation.state(shown_stage(simulation)).tissue();
     if (tissue) return without_places(number_order(shown, *tissue));
     if (const auto& model = simulation.domain().model)
         return without_places(cell_values(shown, *model->cells));

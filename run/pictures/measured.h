@@ -1,4 +1,4 @@
-// Features of a picture's number, measured by measure/.
+// Measures the features of the number that a picture shows.
 #pragma once
 
 #include "core/plane.h"
@@ -11,17 +11,18 @@
 
 namespace cascade {
 
-/// The number in a picture, in all cells, also of a volume. For a colour it is the number that the
-/// stage shows by default (its `show`, or its last species).
+/// The number in a picture, in all cells (in a volume, of all slices). If the picture shows
+/// colours, it is the number that the stage shows by default: the setting `show` of its system, or
+/// its last species.
 Field shown_number(Painter& painter, const Simulation& simulation);
 
-/// Its name in figures: the text of `--show`, or the species that the stage shows by default. Empty
-/// if it has none.
+/// The name of shown_number() in figures: the text of `--show`, or the species that the stage shows
+/// by default. Empty if the number has no name.
 std::string name_of_number(const Script& script, std::uint32_t stage,
                            const PictureRequest& request);
 
-/// The features of shown_number(). Without rows and columns of cells, on a model and for crawling
-/// cells, only mean, deviation, smallest and largest are numbers.
+/// The features of shown_number(). On a model and for crawling cells, which have no rows and
+/// columns, only the mean, deviation, smallest and largest value are measured.
 measure::Features measure_shown(Painter& painter, const Simulation& simulation);
 
 }  // namespace cascade

@@ -1,4 +1,5 @@
-// Chooses between refined, retiled and baked models. Makes meshes and filters once for all files.
+// Chooses between refined, retiled and baked models. Each mesh and filter is made once and used for
+// all files.
 #include "run/pictures/model_files.h"
 
 #include "core/enough_memory.h"
@@ -26,7 +27,8 @@ namespace cascade {
 
 namespace {
 
-constexpr double usual_cover = 0.6;  ///< The part of a map that our own atlases cover.
+/// The usual fraction of a map that the texture coordinates made by Cascade cover.
+constexpr double usual_cover = 0.6;
 
 }  // namespace
 

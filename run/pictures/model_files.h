@@ -1,4 +1,4 @@
-// Patterns on models as the files of `-o`: models, cells and baked maps for other programs.
+// Writes patterns on models to the files of `-o`: models, cells and baked maps for other programs.
 #pragma once
 
 #include "atlas/unwrap.h"
@@ -25,64 +25,71 @@ struct ModelLook;
 struct RefinedMesh;
 
 struct ModelFileOptions {
-    bool retile = false;    ///< Triangulate the cells instead of refining the model's triangles.
-    std::int64_t bake = 0;  ///< The side of the maps of GLB files in texels. 0 if not known yet.
-    double texels_per_cell = 0;  ///< Along a cell, to choose `bake`. 0 if `bake` is given.
-    bool animate = false;        ///< GLB files show the growth of the model.
-    bool merge = false;          ///< Crawling cells are plain triangles instead of instances.
-    bool unwrap = false;         ///< Make texture coordinates, even if the model has some.
-    MapFormat map_format = MapFormat::png;  ///< For the maps beside GLB files.
-    int levels = 1;  ///< Levels of detail, each with a quarter of the triangles of the one before.
+    bool retile = false;  ///< Whether triangles are made between the cells, instead of refining the
+                          ///< model's triangles.
+    std::int64_t bake = 0;  ///< The side of the maps of GLB files, in texels. 0 if not known yet.
+    /// The requested width of a cell in texels, from which `bake` is computed. 0 if `bake` is
+    /// given.
+    double texels_per_cell = 0;
+    bool animate = false;  ///< Whether GLB files show the growth of the pattern.
+    /// Whether crawling cells are written as plain triangles instead of instances.
+    bool merge = false;
+    bool unwrap = false;  ///< Whether new texture coordinates are made even if the model has some.
+    /// The format of map files, which are written beside GLB files.
+    MapFormat map_format = MapFormat::png;
+    int levels = 1;  ///< Levels of detail. Each has a quarter of the triangles of the level before.
     static constexpr int most_levels = 8;
     static constexpr std::int64_t most_texels = 8192;
     bool has_maps() const { return bake > 0 || texels_per_cell > 0; }
-    /// True if this file gets maps.
+    /// Whether this file gets maps.
     bool is_baked(const std::filesystem::path& path) const;
-    /// True if this file shows the growth.
+    /// Whether this file shows the growth.
     bool is_animated(const std::filesystem::path& path) const;
 };
 
-/// Whether files of a model need texture coordinates that have not been made.
+/// Whether files of a model need texture coordinates that still have to be made.
 inline bool needs_texture(const SurfaceMesh& mesh, const ModelFileOptions& options) {
     return options.unwrap || (options.has_maps() && mesh.texture.empty());
 }
-/// The side of maps for these coordinates, estimated for this number of cells if it is not known
-/// yet.
+/// The side of the maps for which texture coordinates are made. If it is not known yet, it is
+/// estimated from the number of cells.
 std::int64_t texture_side(const ModelFileOptions& options, std::int64_t cells);
-/// Makes them, as unwrap() does, for maps with this side in texels. Fails if memory is short, too.
+/// Makes texture coordinates with unwrap(), for maps with `side` × `side` texels. Fails like
+/// unwrap(), and if memory is exhausted.
 Result<MeshTexture> made_texture(const SurfaceMesh& mesh, std::int64_t side, Team& team,
                                  const std::atomic<bool>& cancel);
 
-/// The mesh in the coordinates of the model's file, with this texture unless it is empty.
+/// The mesh in the coordinates of the model's file. Its texture coordinates are replaced by
+/// `texture` unless that is empty.
 SurfaceMesh mesh_in_files(const ModelCells& model, const MeshTexture& texture);
 
-/// The appearance of a model at moments of a run, the last one last.
+/// The appearance of a model at moments of a run, in the order of time.
 struct ModelGrowth {
-    static constexpr std::size_t most = 64;  ///< Of moments.
+    static constexpr std::size_t most = 64;  ///< The largest number of moments.
     std::size_t count = 0;
     std::function<Result<ModelLook>(std::size_t number)> look;
-    double seconds = 0;  ///< From one moment to the next.
+    double seconds = 0;  ///< Seconds from one moment to the next.
 };
 
-/// Writes a GLB file that shows the growth: the mesh, refined as for colours, appears as `last`,
-/// and its animation begins with moment 0 and ends with moment growth.count − 1, which is `last`.
-/// Fails as encode_growing_glb() does, and if memory is short.
+/// Writes a GLB file that shows how the pattern grew. The mesh is refined for the colours and has
+/// the material of `last`. Its animation runs from moment 0 to moment growth.count − 1, which must
+/// look like `last`. Fails like encode_growing_glb(), and if memory is exhausted.
 Result<void> write_growing_model(const std::filesystem::path& path, const ModelCells& model,
                                  const MeshTexture& texture, const ModelLook& last,
                                  const ModelGrowth& growth);
 
-/// Writes the state at one moment. Objects passed to it must outlive it.
+/// Writes the pattern at one moment. All arguments of the constructor must outlive the writer.
 class ModelFileWriter {
 public:
-    /// `texture` are the model's texture coordinates in files. If it is empty they stay unchanged.
-    /// `channels` are numbers of cells to write besides colours. `texts` are written into maps.
-    /// Throws std::bad_alloc.
+    /// `texture` replaces the model's texture coordinates in files unless it is empty. `channels`
+    /// are numbers of cells that are written besides colours. `texts` are written into maps. Throws
+    /// std::bad_alloc.
     ModelFileWriter(const ModelCells& model, const MeshTexture& texture, const ModelLook& look,
                     std::vector<Channel> channels, const ModelFileOptions& options, PngTexts texts);
     ~ModelFileWriter();
 
-    /// Writes a model or cells, with the available levels and maps. Fails as the writers of export/
-    /// do.
+    /// Writes a model or its cells, with levels of detail and maps if they are requested and the
+    /// format has them. Fails like the writers of export/.
     Result<WrittenFiles> write(const std::filesystem::path& path);
 
 private:
@@ -92,20 +99,22 @@ private:
     Result<void> make_levels();
     Result<std::vector<ModelLevel>> simplified_levels();
     const CellFilter& filter();
-    const RefinedMesh& refined();  ///< Raised by its heights if the look displaces.
+    /// The mesh, refined for colours and raised by heights if look.displaces is true.
+    const RefinedMesh& refined();
 
     const ModelCells& model_;
-    SurfaceMesh changed_;      ///< Empty if files have the model unchanged.
-    const SurfaceMesh& mesh_;  ///< In the coordinates of the model's file, like all outputs.
+    SurfaceMesh changed_;  ///< Empty if files contain the model unchanged.
+    /// In the coordinates of the model's file, like everything that is written.
+    const SurfaceMesh& mesh_;
     const ModelLook& look_;
     std::vector<Channel> channels_;
     ModelFileOptions options_;
     PngTexts texts_;
     Team team_;
-    // Made on the first use.
+    // The following members are made when they are first needed.
     std::unique_ptr<CellFilter> filter_;
-    std::unique_ptr<RefinedMesh> refined_;  ///< Displaced, if requested.
-    std::vector<ModelLevel> levels_;        ///< The finest one first.
+    std::unique_ptr<RefinedMesh> refined_;  ///< Raised by heights if look.displaces is true.
+    std::vector<ModelLevel> levels_;        ///< From the finest to the coarsest.
 };
 
 }  // namespace cascade

@@ -1,4 +1,5 @@
-// Bakes the model, then each simplified one from the nearest positions on it.
+// Bakes the model, and then each simplified level. A texel of a level takes its values from the
+// nearest position on the model.
 #include "run/pictures/model_maps.h"
 
 #include "core/run_control.h"
@@ -23,11 +24,11 @@ namespace {
 
 static_assert(ModelFileOptions::most_texels == BakeOptions::largest_texture);
 
-constexpr std::int64_t least_texels = 16;  ///< The least side of a level's maps.
+constexpr std::int64_t least_texels = 16;  ///< The smallest side of a level's maps.
 
-/// A sentence about maps of this side that are far finer than the cells. "" if they are not.
+/// A sentence that the maps are far finer than the cells. Empty if they are not.
 std::string describe_spare_texels(std::int64_t side, double texels_of_cell) {
-    constexpr double most = 16, enough = 4;  // Per side of a cell.
+    constexpr double most = 16, enough = 4;  // Texels along a cell.
     const double along = std::sqrt(texels_of_cell);
     if (!(along > most)) return {};
     const auto needed = static_cast<std::uint64_t>(static_cast<double>(side) * enough / along);
@@ -48,7 +49,7 @@ public:
                const ModelFileOptions& options, Team& team)
         : surface_(surface), painted_(painted), options_(options), team_(team) {}
 
-    /// The model, then its levels.
+    /// Bakes the model and its levels.
     Result<std::deque<BakedLevel>> bake_all() {
         std::deque<BakedLevel> levels;
         auto first = bake_model();

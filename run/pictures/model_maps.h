@@ -1,4 +1,4 @@
-// Baked models: a pattern on a model as maps, and levels of detail with maps of their own.
+// Writes baked models, which show a pattern by maps. Each level of detail has separate maps.
 #pragma once
 
 #include "core/result.h"
@@ -11,26 +11,27 @@
 
 namespace cascade {
 
-/// The mesh that maps are drawn on.
+/// The mesh for which maps are drawn.
 struct MappedSurface {
-    const SurfaceMesh& mesh;  ///< With texture coordinates, in the coordinates of the file.
+    const SurfaceMesh& mesh;  ///< In the coordinates of the file; has texture coordinates.
     const SurfaceCells& cells;
     const CellFilter& filter;
-    const RefinedMesh* displaced;  ///< The mesh raised by the heights of the look, or none.
+    /// The mesh raised by the heights of the look. Null if heights do not move the surface.
+    const RefinedMesh* displaced;
 };
 
-/// Writes a GLB file with maps of options.bake texels along a side, and the maps beside it. A
-/// displaced surface has no maps of heights and normals, which are in its shape. Coarser levels
-/// have their own texture coordinates, maps half as wide as the level before, and normals of the
-/// finest surface. Each is also written to separate files. Fails as bake() and write_maps() of
-/// export/ do.
+/// Writes a GLB file with maps of options.bake texels along a side, and the maps as files in the
+/// same folder. A displaced surface has no maps of heights and normals, because its shape contains
+/// both. Each coarser level has its own texture coordinates, maps half as wide as the maps of the
+/// previous level, and the normals of the finest surface. A coarser level is also written to a GLB
+/// file of its own. Fails like bake() and write_maps() of export/.
 Result<WrittenFiles> write_model_maps(const std::filesystem::path& path,
                                       const MappedSurface& surface, const ModelLook& look,
                                       const ModelFileOptions& options, const PngTexts& texts,
                                       Team& team);
 
-/// The files that write_model_maps makes for level k, 0 being the model itself. `said` are the maps
-/// set in the script, and `displaces` says that heights raise the surface.
+/// The files that write_model_maps() writes for a level. Level 0 is the model itself. `said`
+/// contains the maps that the script sets. `displaces` says whether heights move the surface.
 std::vector<std::filesystem::path> map_paths_of_level(const std::filesystem::path& path,
                                                       std::size_t level, const MapSet& said,
                                                       bool displaces, MapFormat format);

@@ -18,7 +18,8 @@ namespace cascade {
 namespace {
 
 constexpr std::uint32_t rays = 64;
-constexpr float occlusion_clearance = 1e-4F;  ///< In longest sides of the model.
+/// The distance from the surface at which rays begin, as a fraction of the model's longest side.
+constexpr float occlusion_clearance = 1e-4F;
 
 }  // namespace
 
@@ -39,7 +40,7 @@ std::vector<float> model_occlusion(const SurfaceMesh& mesh, const SurfaceCells& 
         const Vector3d top =
             position_of(mesh, place) + outwards * static_cast<double>(finite[cell]);
         const Vector3 normal = single(outwards);
-        // The raised triangles lie slightly above or below the cell's own height.
+        // The raised triangles may be slightly above or below the height of the cell.
         Vector3 begin = single((top - drawn.middle) * drawn.scale) + normal * nearby;
         const auto hit = caster.nearest({begin, -normal});
         begin = begin - normal * (hit && hit->distance < 2 * nearby ? hit->distance : nearby);

@@ -1,4 +1,4 @@
-// The visible part of the sky from each cell of a model raised by heights.
+// Computes how much of the sky is visible from each cell of a model that is raised by heights.
 #pragma once
 
 #include "core/parallel.h"
@@ -9,10 +9,11 @@
 
 namespace cascade {
 
-/// For each cell the part, 0 … 1, of 64 rays from the raised surface that leave the model. Rays are
-/// as dense as the light of a uniform sky on ground level with the smooth surface, as in
-/// height_occlusion(). Heights are in the unit of the mesh. Non-finite ones count as 0. The same on
-/// any number of threads. Throws std::bad_alloc.
+/// For each cell, the fraction (0 … 1) of 64 rays from the raised surface that leave the model. The
+/// directions of the rays are distributed like the light of a uniform sky over the tangent plane of
+/// the smooth surface (see height_occlusion()). Heights are in lengths of the mesh. A height that
+/// is not finite counts as 0. The result does not depend on the number of threads. Throws
+/// std::bad_alloc.
 std::vector<float> model_occlusion(const SurfaceMesh& mesh, const SurfaceCells& cells,
                                    const CellFilter& filter, std::span<const float> heights,
                                    Team& team);

@@ -1,4 +1,5 @@
-// Values of cells in the order of files, with heights in lengths of the model.
+// Converts values of cells to the order in which files list the cells, and heights to lengths of
+// the model.
 #include "run/pictures/model_picture.h"
 
 #include <algorithm>

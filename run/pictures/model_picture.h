@@ -1,4 +1,4 @@
-// Patterns on a model: numbers and colours at its cells, and pictures.
+// Draws patterns on a model, from numbers and colours of its cells.
 #pragma once
 
 #include "core/palette.h"
@@ -15,27 +15,27 @@
 
 namespace cascade {
 
-/// The values of a canvas at the cells of a model.
+/// The values of a canvas in the cells of a model.
 struct ModelLook : CellLook {
     ModelLook(const ModelCells& model, const Canvas& canvas, ValueRange range,
               const Palette& palette);
 
-    /// Sets other heights: a number's position in the range times `bump` times the model's longest
-    /// side.
+    /// Sets heights computed from a number. The height of a cell is the position of its number in
+    /// `range`, 0 … 1, times `bump` times the longest side of the model.
     void raise(const ModelCells& model, const Field& number, ValueRange range, float bump);
-    /// The visible colour of cell k, which lies at `place`.
+    /// The visible colour of cell k, which is at `place`.
     Colour colour_of(std::size_t k, const SurfacePlace& place) const {
         return colour(std::span(values).subspan(k * channels, channels), place);
     }
 };
 
-/// Draws one model repeatedly.
+/// Draws pictures of a model. Later pictures reuse data of earlier ones.
 class ModelDrawer {
 public:
     /// Throws std::bad_alloc.
     explicit ModelDrawer(std::shared_ptr<const ModelCells> model);
 
-    /// Draws it with copies on it, if any, in the coordinates of drawn().
+    /// Draws the model. `copies` are objects on it, in the coordinates of drawn(). Null: none.
     Image draw(const ModelLook& look, const DrawOptions& options,
                const Instances* copies = nullptr);
     const DrawnMesh& drawn() const { return scene_.drawn(); }

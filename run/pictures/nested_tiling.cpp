@@ -1,4 +1,4 @@
-// Blurs values on all cells, and then takes them at the remaining ones.
+// Blurs values over all cells, and then reads them at the cells of the level.
 #include "run/pictures/nested_tiling.h"
 
 #include "core/run_control.h"
@@ -44,7 +44,8 @@ public:
             }
             auto level = level_of(kept, k == 0 ? 0 : std::exp2(k) / 2);
             if (!level) return tl::unexpected(level.error());
-            // The topology may need nearly all remaining points.
+            // The topology may need nearly all remaining points, so that further levels would
+            // hardly be smaller.
             if (k > 0 && 2 * level->mesh.triangles.size() > levels.back().mesh.triangles.size()) {
                 break;
             }
@@ -54,8 +55,8 @@ public:
     }
 
 private:
-    /// The numbers of all cells, blurred by `sigma` spacings. Non-finite ones count nowhere, and
-    /// remain where there are no others.
+    /// The numbers of all cells, blurred by `sigma` distances between cells. Numbers that are not
+    /// finite are left out. A cell with only such numbers nearby keeps its own number.
     std::vector<float> blurred(const std::vector<float>& numbers, double sigma) const {
         if (sigma == 0) return numbers;
         std::vector<float> sums;  // A number and its weight for each cell.
@@ -73,7 +74,8 @@ private:
         return means;
     }
 
-    /// The points of `cells` in ascending order, with values blurred by `sigma` spacings.
+    /// A level whose points are the cells `kept`, in ascending order, with values blurred by
+    /// `sigma` distances between cells.
     Result<ModelLevel> level_of(const std::vector<std::uint32_t>& kept, double sigma) const {
         std::vector<SurfacePlace> places;
         for (const std::uint32_t cell : kept) places.push_back(cells_.places[cell]);
@@ -115,7 +117,8 @@ private:
     const ModelLook& look_;
     std::span<const Channel> channels_;
     Team& team_;
-    std::array<std::vector<float>, 3> lights_;  ///< Red, green and blue of all cells.
+    /// Red, green and blue of all cells, as linear light.
+    std::array<std::vector<float>, 3> lights_;
 };
 
 }  // namespace

@@ -1,4 +1,5 @@
-// A model whose triangles lie between its cells, and coarser ones between fewer and fewer of them.
+// Retiles a model: replaces its triangles by triangles between its cells. Coarser levels use fewer
+// of the cells.
 #pragma once
 
 #include "core/parallel.h"
@@ -11,12 +12,13 @@
 
 namespace cascade {
 
-/// Levels of detail by retiling at several densities (G. Turk, "Re-Tiling Polygonal Surfaces",
-/// SIGGRAPH 1992, section 5): the points of level 0 are the cells, and each next level has a
-/// quarter of the points, spread uniformly (nested_order). Colours, channels and heights are
-/// blurred to the distance of the level's points, colours in linear light (G. Turk, "Texturing
-/// Surfaces Using Reaction-Diffusion", thesis, 1992, section 5.4). Up to `count` levels, fewer
-/// where the topology needs the remaining points. Fails as retile() does. Throws std::bad_alloc.
+/// Makes levels of detail by retiling at several densities (G. Turk, "Re-Tiling Polygonal
+/// Surfaces", SIGGRAPH 1992, section 5). The points of level 0 are the cells. Each further level
+/// has a quarter of the points of the level before, spread uniformly (see nested_order()). Colours,
+/// channels and heights are blurred to the distance between the level's points, colours in linear
+/// light (G. Turk, "Texturing Surfaces Using Reaction-Diffusion", thesis, 1992, section 5.4). Makes
+/// at most `count` levels. Stops earlier if the topology of the surface needs more than half of the
+/// triangles of the level before. Fails like retile(). Throws std::bad_alloc.
 Result<std::vector<ModelLevel>> nested_tiling(const SurfaceMesh& mesh, const SurfaceCells& cells,
                                               const ModelLook& look,
                                               std::span<const Channel> channels, int count,

@@ -1,4 +1,4 @@
-// Checks --show once, evaluates it in the stage shown, and paints a plane, a slice, a surface or a
+// Checks --show once, evaluates it in the shown stage, and paints a plane, a slice, a surface or a
 // model.
 #include "run/pictures/painter.h"
 
@@ -28,13 +28,14 @@ namespace cascade {
 
 namespace {
 
-/// A field for painting: in binary32, and only the requested slice of a volume.
+/// Prepares a field for painting: converts it to binary32, and cuts the requested slice of a
+/// volume.
 Field shown(Field field, const PictureRequest& request) {
     if (field.precision() != Precision::single) field = field.converted(Precision::single);
     return field.layout().depth > 1 ? cut(field, request.slice) : std::move(field);
 }
 
-/// The last stage that formulas can read: the stage shown, or a later one that has started.
+/// The last stage whose values formulas may read: the shown stage or the last started one.
 std::uint32_t last_to_read(const Simulation& simulation, std::uint32_t stage) {
     std::uint32_t last = stage;
     while (last + 1 < simulation.domain().program->stages.size() &&
@@ -44,14 +45,14 @@ std::uint32_t last_to_read(const Simulation& simulation, std::uint32_t stage) {
     return last;
 }
 
-/// In the stage shown.
+/// Evaluates formulas in the shown stage.
 EvaluateFormula evaluation_in(const Simulation& simulation) {
     return [&simulation](const Formula& formula) {
         return simulation.evaluate(formula, shown_stage(simulation));
     };
 }
 
-/// The same for a copy that is NaN outside of the mask.
+/// Prepares a copy of a field for painting. Cells outside the mask become NaN.
 Field as_shown(const Field& field, const DomainMask* mask, const PictureRequest& request) {
     return shown(mask ? with_outside(field, *mask, nothing_outside) : field.clone(), request);
 }
@@ -99,7 +100,7 @@ std::optional<Formula> Painter::formula(const Simulation& simulation) {
     const auto expression = show_ ? show_ : picture_expression(script_->tree);
     if (!expression) return std::nullopt;
     const std::uint32_t stage = shown_stage(simulation);
-    // Errors were reported on loading. Here a name may have no value yet.
+    // Errors in the script have been reported. The only new error is a name without a value.
     Diagnostics unspoken;
     return check_view(script_->tree, *expression, stage, last_to_read(simulation, stage),
                       *script_->program, script_->sources, unspoken);
@@ -118,10 +119,10 @@ Canvas Painter::values(const Simulation& simulation) {
     return {evaluate(simulation, evaluation_in(simulation))};
 }
 
-/// Records the domain of the canvas.
+/// Records which domain and which kind of stage a canvas shows.
 void Painter::look_at_domain(const Simulation& simulation) {
     model_ = simulation.domain().shared_model();
-    shows_cells_ = simulation.state(shown_stage(simulation)).tissue != nullptr;
+    shows_cells_ = simulation.state(shown_stage(simulation)).tissue() != nullptr;
     if (const DomainMask* mask = simulation.domain().inside()) {
         outside_ = as_shown(Field(PlaneLayout(simulation.domain().grid)), mask, request_);
     }
@@ -214,7 +215,7 @@ Image Painter::texture(const Canvas& canvas, std::optional<ValueRange> range, Im
     return image;
 }
 
-/// Draws one copy.
+/// Draws a smooth picture. If copies are shown side by side, draws one of them.
 Image Painter::smooth(const Canvas& canvas, std::optional<ValueRange> range) const {
     const PlaneLook look = plane_look(canvas, range);
     const PictureSize size = copy_size(script_->program->domain.grid, request_);
@@ -262,7 +263,7 @@ DrawOptions Painter::draw_options() const {
 Image Painter::on_model(const Canvas& canvas, std::optional<ValueRange> range) {
     if (!drawer_) drawer_ = std::make_shared<ModelDrawer>(model_);
     DrawOptions options = draw_options();
-    options.view.up = {0, 1, 0};  // Models are turned upright when they are read.
+    options.view.up = {0, 1, 0};  // Models have been turned upright when they were read.
     return drawer_->draw(look(canvas, range), options);
 }
 
@@ -270,7 +271,7 @@ bool Painter::is_plane() const {
     return !model_ && (!script_->program->domain.surface || request_.flat);
 }
 
-/// The body, and the values at its points. Empty if its formula names a stage that has not run.
+/// A canvas with the body. Empty if the formula of the body reads a stage that has not run.
 Canvas Painter::canvas_of_body(const Simulation& simulation, Canvas values) {
     const std::uint32_t stage = shown_stage(simulation);
     const auto inside = setting_values(*script_, "body", evaluation_in(simulation), stage,
@@ -288,10 +289,10 @@ Image Painter::of_body(const Canvas& canvas, std::optional<ValueRange> range) co
     return draw_body(canvas.body, colours_of_row(canvas, range), options);
 }
 
-/// The values in the order of the cells' numbers, and the cells.
+/// The canvas with the crawling cells, whose values are in the order of the cells' numbers.
 Canvas Painter::canvas_of_cells(const Simulation& simulation, Canvas values) {
     const std::uint32_t stage = shown_stage(simulation);
-    const Tissue& tissue = *simulation.state(stage).tissue;
+    const Tissue& tissue = *simulation.state(stage).tissue();
     for (Field& field : values.fields) field = row_of_cells(field, tissue);
     values.cells =
         std::make_shared<const DrawnCells>(drawn_cells(*script_, simulation, stage, file_shape_));
@@ -329,7 +330,7 @@ bool Painter::has_pixel_per_cell(const Canvas& canvas) const {
 }
 
 Image Painter::image(const Canvas& canvas, std::optional<ValueRange> range, Image earlier) {
-    // Other images are not made in its memory.
+    // Images of other kinds do not reuse memory.
     if (!has_pixel_per_cell(canvas)) earlier = {};
     if (canvas.cells) return with_cells(canvas, range);
     if (canvas.body) return of_body(canvas, range);

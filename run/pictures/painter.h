@@ -1,4 +1,4 @@
-// Pictures of a simulation.
+// Makes the pictures of a simulation.
 #pragma once
 
 #include "core/result.h"
@@ -22,23 +22,27 @@ struct DrawnCells;
 struct FileShape;
 struct SurfaceMesh;
 
-/// Values to paint, in binary32: one field for the palette, or red, green and blue.
+/// The values to paint, in binary32: one field for the palette, or red, green and blue.
 struct Canvas {
     std::vector<Field> fields;
-    Field relief = {};             ///< For a colour with bumps: the number of the heights.
-    MaterialFields material = {};  ///< For a model, and for map_canvas().
-    std::int64_t parts = 1;        ///< Per cell along each axis: more for maps and smooth pictures.
-    /// For a stage of crawling cells: the fields are in their order. Otherwise null.
+    /// For a colour with bumps, the number from which the heights are computed.
+    Field relief = {};
+    MaterialFields material = {};  ///< Has values for models and in the result of map_canvas().
+    /// The number of parts of a cell along each axis. Above 1 in maps and smooth pictures.
+    std::int64_t parts = 1;
+    /// The cells of a stage of crawling cells, in the order of the values in the fields. Otherwise
+    /// null.
     std::shared_ptr<const DrawnCells> cells = nullptr;
-    /// For a volume drawn as a body: its surface, in script lengths. The fields are at its points,
-    /// in one row. Otherwise null. Without points it is empty.
+    /// The surface of a volume that is drawn as a body, in the script's unit of length. The fields
+    /// are then one row with the values at its points. It has no points if the body is empty. Null
+    /// if no body is drawn.
     std::shared_ptr<const SurfaceMesh> body = nullptr;
     bool is_colour() const { return fields.size() == 3; }
-    /// The number that heights and range refer to. Null if there are only colours.
+    /// The number that heights and the range refer to. Null if there are only colours.
     const Field* number() const;
 };
 
-/// The planes of a canvas besides `fields`, possibly empty: relief, height and material.
+/// All planes of a canvas besides `fields`: relief, height and material. Some may be empty.
 template <typename AnyCanvas>
 auto extra_planes(AnyCanvas& canvas) {
     std::array<decltype(&canvas.relief), 2 + material_parts> planes{&canvas.relief,
@@ -51,74 +55,77 @@ class ModelDrawer;
 struct ModelLook;
 struct PlaneLook;
 
-/// Computes and paints the requested picture at any stage of a simulation.
+/// Computes and paints the requested picture at any moment of a simulation.
 class Painter {
 public:
-    /// Checks `show`, given by `option`, and the palette. Errors in `show` go to
-    /// `script.diagnostics`.
+    /// Checks the expression `show` of the option named `option`, and the palette. Errors in `show`
+    /// are added to `script.diagnostics`.
     static Result<Painter> create(Script& script, const PictureRequest& request,
                                   std::string_view option = "--show");
 
-    /// The values to paint now: of a slice or a body for a volume. If the picture block names a
-    /// stage that has not run, uses the default picture, and `fell_back()` is true from then on.
+    /// The values to paint now. For a volume these are the values of a slice or a body. If the
+    /// picture block reads a stage that has not run, the default picture is used, and from then on
+    /// fell_back() returns true.
     Canvas canvas(const Simulation& simulation);
-    /// The same for all cells, also of a volume, in the run's precision.
+    /// The values of all cells (in a volume, of all slices), in the run's precision.
     Canvas values(const Simulation& simulation);
     bool fell_back() const { return fell_back_; }
-    /// The values of a plane for maps whose longer side has this many texels, with the material.
-    /// Divides cells larger than texels, at most into 8 × 8, and computes formulas in the parts, so
-    /// that thresholds have smooth outlines. Canvases of smooth pictures are made in this way, too,
-    /// without a material.
+    /// The values of a plane, with the material, for maps whose longer side has `texels` texels.
+    /// Cells larger than texels are divided into up to 8 × 8 parts in which formulas are evaluated,
+    /// so that thresholds have smooth outlines. Canvases of smooth pictures are made in the same
+    /// way, but without the material.
     Canvas map_canvas(const Simulation& simulation, std::int64_t texels);
 
-    /// The expression of --show or the picture block for the stage shown. Empty for the default.
+    /// The expression of --show, or else of the picture block, for the shown stage. Empty for the
+    /// default picture.
     std::optional<Formula> formula(const Simulation& simulation);
 
-    /// The canvas as an image, enlarged or smooth, and transparent outside of the mask, drawn on
-    /// the surface if the domain has one. `range` overrides the automatic range. The image may be
-    /// made in the memory of an earlier one.
+    /// Paints a canvas. The image is enlarged or smooth as requested, transparent outside the mask,
+    /// and drawn on the surface if the domain has one. `range` replaces the automatic range. The
+    /// image may reuse the memory of `earlier`.
     Image image(const Canvas& canvas, std::optional<ValueRange> range = {}, Image earlier = {});
-    /// image() for a film that also shows crawling cells, in the size of those frames. A plane, or
-    /// a slice, is drawn as the floor below the cells.
+    /// Paints a canvas as image() does, for a film that also shows crawling cells. The image has
+    /// the size of frames with cells. A plane or slice is drawn as the floor below the cells.
     Image image_beside_cells(const Canvas& canvas, std::optional<ValueRange> range);
-    /// The painting that image() makes, if it does no more than paint: there is a pixel for each
-    /// cell, and no mask.
+    /// The data with which another program paints the canvas, with one pixel for each cell and
+    /// without a mask. Empty if image() draws more than that.
     std::optional<Painting> painting(const Canvas& canvas,
                                      std::optional<ValueRange> range = {}) const;
-    /// True if the last canvas appears as the plane it is, or as the texture of a surface.
+    /// Whether the last canvas is shown as a plane, or as the texture of a surface.
     bool is_flat() const { return !shows_cells_ && !shows_body_ && is_plane(); }
-    /// True if, moreover, each of its cells becomes a square of pixels. Then image() may be called
-    /// from several threads at once, and uses one.
+    /// Whether the last canvas is shown as a plane on which each cell is a square of pixels. If
+    /// true, several threads may call image() at the same time, and each call uses one thread.
     bool has_square_cells() const { return is_flat() && !request_.size; }
     const PictureRequest& request() const { return request_; }
     const Palette& palette() const { return *palette_; }
-    /// Sets the view of later pictures.
+    /// Sets the direction and distance of the viewer for later pictures.
     void set_view(const View& view) { request_.view = view; }
     /// Sets the width, in pixels, of later pictures of surfaces and of crawling cells.
     void set_width(std::int64_t width) { width_ = width; }
-    /// Called while later pictures of surfaces are drawn with the part that is done, 0 … 1. If it
-    /// returns false, the picture stays unfinished.
+    /// Sets a function that is called while later pictures of surfaces are drawn. Its argument is
+    /// the finished fraction. If it returns false, the picture remains incomplete.
     void set_report(std::function<bool(double)> report) { report_ = std::move(report); }
-    /// Sets the slice of later canvases.
+    /// Sets the slice for later canvases.
     void set_slice(const Slice& slice) { request_.slice = slice; }
-    /// The colours of a canvas of crawling cells, in the order of their numbers, or of a body at
-    /// its points.
+    /// The colours of a canvas of crawling cells, in the order of the cells' numbers, or of the
+    /// points of a body.
     std::vector<Colour> colours_of_row(const Canvas& canvas,
                                        std::optional<ValueRange> range = {}) const;
-    /// The values of the last canvas at the cells of its model.
+    /// The values of the last canvas in the cells of its model.
     ModelLook look(const Canvas& canvas, std::optional<ValueRange> range = {}) const;
-    /// The values of the last canvas, of a plane or a slice.
+    /// The values of the last canvas, which must be of a plane or slice.
     PlaneLook plane_look(const Canvas& canvas, std::optional<ValueRange> range = {}) const;
 
-    /// The range of the palette: --range, or `range`, or the automatic one.
+    /// The range of values for the palette: --range if given, else `range` if given, else the
+    /// automatic range.
     ValueRange range_of(const Canvas& canvas, std::optional<ValueRange> range = {}) const;
 
 private:
     void look_at_domain(const Simulation& simulation);
     Canvas canvas_of_plane(const Simulation& simulation, std::int64_t texels, bool has_material);
-    /// True if fields appear as planes.
+    /// Whether fields are shown as planes.
     bool is_plane() const;
-    /// True if the image has exactly one pixel for each cell.
+    /// Whether the image has exactly one pixel for each cell.
     bool has_pixel_per_cell(const Canvas& canvas) const;
     Image texture(const Canvas& canvas, std::optional<ValueRange> range, Image earlier = {}) const;
     Image smooth(const Canvas& canvas, std::optional<ValueRange> range) const;
@@ -136,17 +143,19 @@ private:
     std::optional<ast::Expression> show_;
     const Palette* palette_ = nullptr;
     bool fell_back_ = false;
-    std::shared_ptr<const FileShape> file_shape_;  ///< For the file in the picture block, or null.
-    std::shared_ptr<const ModelCells> model_;      ///< The last canvas's. Null on grids.
-    std::shared_ptr<ModelDrawer> drawer_;          ///< Made with the first picture.
-    std::optional<std::int64_t> width_;            ///< Otherwise the default.
+    /// The shape from the file that the picture block names. Null if it names none.
+    std::shared_ptr<const FileShape> file_shape_;
+    std::shared_ptr<const ModelCells> model_;  ///< The model of the last canvas. Null on grids.
+    std::shared_ptr<ModelDrawer> drawer_;      ///< Made for the first picture.
+    std::optional<std::int64_t> width_;        ///< Empty: the default width.
     std::function<bool(double)> report_;
-    bool shows_cells_ = false;  ///< The last canvas was of crawling cells.
-    bool shows_body_ = false;   ///< Volumes are drawn as bodies.
-    Field outside_;  ///< For the last canvas: NaN outside of the domain. Empty without a mask.
+    bool shows_cells_ = false;  ///< Whether the last canvas was of crawling cells.
+    bool shows_body_ = false;   ///< Whether volumes are drawn as bodies.
+    Field outside_;  ///< A mask for the last canvas: NaN outside the domain. Empty if the domain
+                     ///< has no mask.
 };
 
-/// One labelled picture of all species of all started stages.
+/// Draws all species of all started stages in one labelled picture.
 Image draw_sheet(const Simulation& simulation, const PictureRequest& request);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Detects pictures of a single colour, and waves too short for the grid.
+// Detects pictures of a single colour, and waves that are too short for the grid.
 #include "run/pictures/picture_remarks.h"
 
 #include "measure/resolution.h"
@@ -16,12 +16,12 @@ namespace cascade {
 
 namespace {
 
-/// Skips larger grids: their spectrum would cost as much as many steps.
+/// The spectrum of a larger grid would take as much time as many steps, so it is not computed.
 constexpr std::int64_t most_cells_of_spectrum = std::int64_t{1} << 20;
-/// The part of a pattern's variance in short waves above which the grid is blamed. White noise on a
-/// plane has 0.8.
+/// Waves count as too short for the grid if short waves have more than this fraction of a pattern's
+/// variance. For white noise on a plane the fraction is 0.8.
 constexpr double mostly_unresolved = 0.7;
-/// For a picture with 8 bits.
+/// The number of different greys in a picture with 8 bits.
 constexpr double levels = 256;
 
 constexpr const char* is_one_colour = "the picture is of one colour";
@@ -42,25 +42,27 @@ std::string describe_range(const Spread& values, ValueRange range) {
     return {};
 }
 
-/// Red, green and blue are clamped to 0 … 1 when drawn.
+/// Describes which of red, green and blue are outside of 0 … 1. They are clamped when they are
+/// drawn.
 std::string describe_clamped(const Canvas& canvas) {
-    const bool is_even =
+    const bool is_uniform =
         std::all_of(canvas.fields.begin(), canvas.fields.end(), [](const Field& field) {
             const Spread values = spread_of(field);
             return values.count > 0 &&
                    std::clamp(values.largest, 0.0, 1.0) - std::clamp(values.smallest, 0.0, 1.0) <
                        1 / levels;
         });
-    if (!is_even) return {};
+    if (!is_uniform) return {};
     return fmt::format(
         "{}: what differs in red, green and blue lies beyond 0 … 1, or within one level of it",
         is_one_colour);
 }
 
-std::string describe_even(const Canvas& canvas) {
-    const bool is_even = std::all_of(canvas.fields.begin(), canvas.fields.end(),
-                                     [](const Field& field) { return spread_of(field).is_even(); });
-    if (!is_even) return {};
+std::string describe_uniform(const Canvas& canvas) {
+    const bool is_uniform =
+        std::all_of(canvas.fields.begin(), canvas.fields.end(),
+                    [](const Field& field) { return spread_of(field).is_uniform(); });
+    if (!is_uniform) return {};
     if (canvas.is_colour()) return is_one_colour;
     if (spread_of(canvas.fields[0]).count == 0) {
         return fmt::format("{}: what it shows is infinite or not a number in all cells",
@@ -87,7 +89,7 @@ std::string describe_waves(Painter& painter, const Simulation& simulation, std::
     if (!made_its_pattern(simulation, stage)) return {};
     const double part = measure::unresolved_part(samples);
     if (part < mostly_unresolved) return {};
-    return fmt::format("{:.0f} % of the pattern is waves of fewer than {:.0f} cells: {}",
+    return fmt::format("{:.0f} % of the pattern consists of waves shorter than {:.0f} cells: {}",
                        100 * part, measure::fewest_cells_a_wave, why);
 }
 
@@ -99,7 +101,7 @@ std::string remark_on_picture(Painter& painter, const Simulation& simulation,
     const StageState& state = simulation.state(stage);
     if (!state.started) return {};
     if (canvas.cells) return canvas.cells->fault;
-    if (state.course.empty() || state.course.ended_even()) return {};
+    if (state.course.empty() || state.course.ended_uniform()) return {};
     if (canvas.body) {
         return canvas.body->points.empty()
                    ? "the body of the picture is empty: its formula is nowhere above 0"
@@ -110,7 +112,7 @@ std::string remark_on_picture(Painter& painter, const Simulation& simulation,
         if (!remark.empty()) return remark;
     }
     if (!remark_on(simulation, stage).empty()) return {};
-    std::string remark = describe_even(canvas);
+    std::string remark = describe_uniform(canvas);
     if (remark.empty() && canvas.is_colour()) remark = describe_clamped(canvas);
     return remark.empty() ? describe_waves(painter, simulation, stage) : remark;
 }
@@ -120,7 +122,7 @@ std::string remark_on_look(const Painter& painter, const Simulation& simulation,
     const PictureRequest& request = painter.request();
     const bool has_palette = request.palette != PictureRequest().palette;
     if (!(has_palette || request.range) || !simulation.state(0).started) return {};
-    // A canvas with a number uses the range.
+    // The range applies to the number of the canvas, so the options have an effect.
     if (canvas.number() != nullptr) return {};
     const char* const options = !request.range ? "--palette changes"
                                 : has_palette  ? "--palette and --range change"

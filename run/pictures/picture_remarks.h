@@ -8,14 +8,14 @@
 
 namespace cascade {
 
-/// A sentence about the final picture of a run, with the painter's last canvas, or "". Says that it
-/// has a single colour because its values are outside of the requested range or uniform, or, if
-/// there is no other remark on the stage (Simulation::remark_on), that its waves are too short for
-/// the grid. "" if the species themselves are uniform.
+/// A remark on the final picture of a run, or an empty text. `canvas` is the painter's last canvas.
+/// The remark says that the picture has a single colour because its values are uniform or outside
+/// of the requested range. It may instead say that the waves of the stage are too short for the
+/// grid, if remark_on() has no remark on the stage. Empty if the species themselves are uniform.
 std::string remark_on_picture(Painter& painter, const Simulation& simulation, const Canvas& canvas);
 
-/// A sentence if a palette or a range was requested for a picture made of colours, which ignores
-/// them. Otherwise "".
+/// A remark if a palette or a range was requested for a picture whose formula gives colours,
+/// because such a picture uses neither. Otherwise empty.
 std::string remark_on_look(const Painter& painter, const Simulation& simulation,
                            const Canvas& canvas);
 

@@ -1,4 +1,4 @@
-// Counts pixels, and the memory in use while a picture is painted.
+// Counts the pixels of a picture, and the memory that painting it needs.
 #include "run/pictures/picture_size.h"
 
 #include "core/quantities.h"
@@ -20,7 +20,7 @@ PictureSize cells_of(const Grid& grid, const Slice& slice) {
     return {shown.width, shown.height};
 }
 
-/// The size that `scale` multiplies: a pixel for each cell, or the requested size.
+/// The size before multiplication by `scale`: a pixel for each cell, or the requested size.
 PictureSize unscaled_copy(const Grid& grid, const PictureRequest& picture) {
     const PictureSize cells = cells_of(grid, picture.slice);
     if (!picture.size) return cells;
@@ -88,7 +88,7 @@ Result<void> check_picture_size(const Script& script, const PictureRequest& pict
                                    most_picture_pixels),
                        hint);
     }
-    // An enlarged picture is painted at one pixel per cell first.
+    // An enlarged picture is first painted with one pixel for each cell.
     const std::int64_t pixels_of_cell = pixels_per_cell > 1 ? 1 + pixels_per_cell : 1;
     const auto pixels = static_cast<double>(count * pixels_of_cell);
     const double bytes = memory + pixels * sizeof(Colour);

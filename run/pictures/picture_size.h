@@ -1,4 +1,4 @@
-// The size of a picture, and its limits.
+// Computes the size of a picture, and refuses pictures that are too large.
 #pragma once
 
 #include "core/result.h"
@@ -11,21 +11,21 @@
 
 namespace cascade {
 
-/// True if pictures are drawn from a viewpoint in space: for models, surfaces, bodies and crawling
-/// cells.
+/// Whether pictures are drawn from a viewpoint in space, as pictures of models, surfaces, bodies
+/// and crawling cells are.
 bool draws_scene(const Script& script, const PictureRequest& picture);
 
-/// Whether a picture of the plane, or of a slice, continues at its left and right sides, and at its
-/// upper and lower ones, with a copy of itself.
+/// Whether a picture of a plane or slice continues with a copy of itself, first at its left and
+/// right sides, second at its upper and lower sides.
 std::array<bool, 2> sides_that_repeat(const Grid& grid, const Slice& slice);
 
-/// The size of one of the copies that form a picture of the plane, or of a slice.
+/// A picture of a plane or slice may consist of several copies. Returns the size of a single copy.
 PictureSize copy_size(const Grid& grid, const PictureRequest& picture);
 
 PictureSize picture_size(const Script& script, const PictureRequest& picture);
 
-/// Refuses pictures of more than 2²⁸ pixels, and those that do not fit into memory. `memory` is the
-/// run's own requirement, in bytes. 0 means no limit.
+/// Refuses pictures of more than 2²⁸ pixels, and pictures that do not fit into memory. `memory` is
+/// the number of bytes that the run itself needs. A `memory_limit` of 0 means no limit.
 Result<void> check_picture_size(const Script& script, const PictureRequest& picture,
                                 double memory = 0, std::uint64_t memory_limit = 0);
 

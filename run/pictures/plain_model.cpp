@@ -1,4 +1,5 @@
-// Attributes called red, green and blue are the colour. Normals are recomputed. Others are numbers.
+// The attributes red, green and blue become the colour. Normals are not copied but computed again.
+// All other attributes become numbers.
 #include "run/pictures/plain_model.h"
 
 #include "core/enough_memory.h"
@@ -22,7 +23,7 @@ const PointAttribute* attribute_called(const SurfaceMesh& mesh, std::string_view
     return found == mesh.attributes.end() ? nullptr : &*found;
 }
 
-/// The data of a mesh at its points, as in files.
+/// The attributes of the points of a mesh, in the form in which files contain them.
 struct PlainResults {
     std::vector<Colour> colours;
     std::vector<Channel> channels;

@@ -1,4 +1,5 @@
-// An unchanged model, with its file's data at points, as a file for another program.
+// Writes a model without a pattern for another program, with the attributes that its file gives to
+// its points.
 #pragma once
 
 #include "core/result.h"
@@ -10,8 +11,8 @@
 
 namespace cascade {
 
-/// Writes a mesh with its colours and numbers, as write_model() of export/ does. Returns sentences
-/// about data that the format cannot hold. Fails if memory is short, too.
+/// Writes a mesh with its colours and numbers by write_model() of export/. Returns sentences about
+/// data that the format cannot hold. Fails like write_model(), and if memory is exhausted.
 Result<std::vector<std::string>> write_plain_model(const std::filesystem::path& path,
                                                    const SurfaceMesh& mesh);
 

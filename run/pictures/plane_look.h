@@ -6,11 +6,11 @@
 
 namespace cascade {
 
-/// The cells of a plane in rows from the top. Outside of the domain the opacity is 0.
+/// The cells of a plane, row by row from the top. The opacity outside the domain is 0.
 struct PlaneLook : CellLook {
     FlatCells cells;
 
-    /// The fields of the canvas have the columns and rows of `plane`.
+    /// The fields of the canvas must have as many columns and rows as `plane`.
     PlaneLook(const Canvas& canvas, ValueRange range, const Palette& palette, FlatCells plane);
 };
 

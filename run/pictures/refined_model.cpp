@@ -1,4 +1,5 @@
-// Between points colours are linear: at this distance they follow the filter of cells.
+// Colours are linear between points. The filter of cells is nearly linear over the distance chosen
+// here.
 #include "run/pictures/refined_model.h"
 
 #include "export/point_values.h"
@@ -12,7 +13,9 @@ namespace cascade {
 
 namespace {
 
-constexpr double colour_distance = 0.75;  ///< In cell spacings. The filter's radius is two.
+/// The distance between points, in distances between cells. The radius of the filter is two
+/// distances between cells.
+constexpr double colour_distance = 0.75;
 constexpr std::size_t most_triangles = std::size_t{1} << 23;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Models with triangles as fine as their cells.
+// Refines models so that their triangles are as fine as their cells.
 #pragma once
 
 #include "core/parallel.h"
@@ -10,12 +10,13 @@
 
 namespace cascade {
 
-/// Refines the mesh so far that the colours of cells at its points show their pattern.
+/// Refines the mesh until colours at its points can show the pattern of the cells.
 RefinedMesh refined_for_colours(const SurfaceMesh& mesh, const SurfaceCells& cells);
 
-/// The refined mesh `fine` of `mesh`, raised along the smooth normals of `mesh` by the filtered
-/// heights of its cells, one each, in lengths of the mesh. Positions refer to `mesh`. Non-finite
-/// heights count as 0 near a point. The same on any number of threads. Throws std::bad_alloc.
+/// Raises the refined mesh `fine` along the smooth normals of `mesh`. `heights` has a height for
+/// each cell, in lengths of the mesh. They are filtered before use. The positions in `fine` refer
+/// to `mesh`. Heights that are not finite count as 0 at points near their cells. The result does
+/// not depend on the number of threads. Throws std::bad_alloc.
 RefinedMesh raised_model(RefinedMesh fine, const SurfaceMesh& mesh, const CellFilter& filter,
                          std::span<const float> heights, Team& team);
 

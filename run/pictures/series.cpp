@@ -1,4 +1,4 @@
-// The list of .pvd is the collection of ParaView: XML with a time and a file for each moment.
+// A .pvd file is ParaView's collection: XML with a time and a file for each moment.
 #include "run/pictures/series.h"
 
 #include "core/check.h"
@@ -35,7 +35,7 @@ std::string name_of_file(const std::filesystem::path& list, std::size_t number, 
     return fmt::format("{}/{:06}.{}", list.stem().string(), number, is_model ? "vtp" : "vti");
 }
 
-/// Whether a series of this list gives this name.
+/// Whether a series with this list would use the name `file`.
 bool is_own(const std::filesystem::path& list, const std::string& file) {
     const std::string begin = list.stem().string() + "/";
     if (!file.starts_with(begin) || file.size() != begin.size() + 10) return false;
@@ -45,7 +45,7 @@ bool is_own(const std::filesystem::path& list, const std::string& file) {
            (name.ends_with(".vti") || name.ends_with(".vtp"));
 }
 
-/// The files of its series that a list names.
+/// The files in the list that belong to its own series.
 std::vector<std::string> files_in(const std::filesystem::path& list) {
     std::vector<std::string> files;
     const auto text = read_file(list, largest_list);
@@ -135,7 +135,7 @@ public:
     Result<WrittenSeries> finish() override;
 
 private:
-    /// The mesh that carries the values of cells.
+    /// The mesh with the values of a model's cells.
     struct Surface {
         explicit Surface(const ModelCells& model)
             : team(hardware_threads()),
@@ -150,7 +150,7 @@ private:
     };
     struct Moment {
         std::string file;
-        double time = 0;  ///< Since the start of the run. NaN where steps have no length.
+        double time = 0;  ///< Time since the start of the run. NaN if `speed` varies.
     };
 
     explicit ParaviewSeries(std::filesystem::path path) : path_(std::move(path)) {}
@@ -160,7 +160,7 @@ private:
     std::filesystem::path path_;
     std::vector<std::string> former_;  ///< The files of the previous list.
     std::vector<Moment> moments_;
-    std::unique_ptr<Surface> surface_;  ///< The model's, made on the first use.
+    std::unique_ptr<Surface> surface_;  ///< Only for models. Made when it is first needed.
     std::optional<Failure> failure_;
 };
 
@@ -210,7 +210,7 @@ Result<void> ParaviewSeries::write_surface(const std::filesystem::path& path,
 }
 
 Result<WrittenSeries> ParaviewSeries::finish() {
-    // Numbers moments without a time.
+    // If a moment has no time, moments are numbered instead.
     const bool has_times = std::all_of(moments_.begin(), moments_.end(), [](const Moment& moment) {
         return std::isfinite(moment.time);
     });
@@ -262,7 +262,7 @@ Result<std::unique_ptr<SeriesWriter>> make_series(const std::filesystem::path& p
     std::error_code error;
     if (is_resumed && std::filesystem::exists(path, error)) {
         return failure(fmt::format("'{}' holds moments of an earlier run", path.string()),
-                       "name another file with --series: a run that goes on begins its own series");
+                       "name another file with --series: a resumed run begins its own series");
     }
     const FormatRow* const format = find_format(path);
     const SeriesRow* const writer = format ? row_of(series_writers, format->format) : nullptr;

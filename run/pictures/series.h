@@ -1,5 +1,5 @@
-// The fields of a run at its intervals: arrays that grow, or for ParaView a file for each moment
-// and a list of them.
+// Writes the fields of a run at its intervals, as arrays that grow, or for ParaView as a file for
+// each moment and a list of these files.
 #pragma once
 
 #include "core/result.h"
@@ -15,33 +15,35 @@
 
 namespace cascade {
 
-/// The numbers of a field in a file.
+/// Returns the numbers of a field for a file.
 using FieldNumbers = std::function<std::vector<float>(const Field& field)>;
-/// A channel for each species of the stage shown, with these numbers of its field.
+/// Makes a channel for each species of the shown stage. `numbers` converts the species' field to
+/// numbers.
 std::vector<Channel> species_channels(const Simulation& simulation, const FieldNumbers& numbers);
-/// The numbers of a field at the cells of a model, in the order of files.
+/// The numbers of a field in the cells of a model, in the order in which files list the cells.
 std::vector<float> numbers_of_cells(const Field& field, const ModelCells& model);
 
-/// Writes the species of the stage shown, on a grid, in the format of the path's ending, with these
-/// texts if the format holds any. Hides cells outside of the mask.
+/// Writes the species of the shown stage, on a grid, in the format of the path's ending. `texts`
+/// are written if the format has room for texts. Cells outside the mask are marked as hidden.
 Result<void> write_volume(const std::filesystem::path& path, const Simulation& simulation,
                           const std::map<std::string, std::string>& texts = {});
 
-/// The time from the start of the run to the present moment of the stage shown; NaN if steps have
-/// no length.
+/// The time from the start of the run to the present moment of the shown stage.
+/// NaN if `speed` varies.
 double time_since_start(const Simulation& simulation);
 
-/// The fields of arrays, at any moment of a run.
+/// Fields for a series. They can be computed at any moment of a run.
 struct SeriesFields {
     std::vector<std::string> names;
-    /// By name, in all cells of the domain; empty where a name has no meaning in the stage shown.
+    /// Returns a field for each name, in all cells of the domain. A field is empty if its name has
+    /// no meaning in the shown stage.
     std::function<std::vector<Field>(const Simulation& simulation)> values;
 };
 
-/// What a series has written.
+/// The files that a series has written.
 struct WrittenSeries {
     std::vector<std::filesystem::path> paths;
-    std::size_t removed = 0;  ///< Files of a former series.
+    std::size_t removed = 0;  ///< The number of files of an earlier series that were removed.
 };
 
 class SeriesWriter {
@@ -51,24 +53,27 @@ public:
     SeriesWriter& operator=(const SeriesWriter&) = delete;
     virtual ~SeriesWriter() = default;
 
-    /// Adds the present moment. An error is remembered for finish(), and nothing is added after it.
+    /// Adds the present moment. After the first error nothing more is added, and finish() returns
+    /// that error.
     virtual void add(const Simulation& simulation) = 0;
-    /// Completes what was written, also after a cancelled run, or returns the first error.
+    /// Completes the files, also after a cancelled run. Returns the first error, if any.
     virtual Result<WrittenSeries> finish() = 0;
 };
 
-/// A series in the format of the path's ending.
+/// Makes a series in the format of the path's ending.
 ///
-/// .pvd: a collection of VTK's files, and in the folder NAME beside it a file for each moment with
-/// all species: .vti for a grid, .vtp for a model, whose triangles are refined as for its colours.
+/// .pvd is a collection of VTK files: NAME.pvd is a list, and the folder NAME contains a file with
+/// all species for each moment, .vti for a grid or .vtp for a model. The triangles of the model are
+/// refined for its colours.
 ///
-/// .npy, .csv: the fields in one array (run/pictures/array_series.h).
+/// .npy and .csv contain the fields as one array (run/pictures/array_series.h).
 ///
-/// Fails if a run that is resumed would replace an earlier series, and if a folder cannot be made.
+/// Fails if a resumed run would replace an earlier series, or if a folder cannot be made.
 Result<std::unique_ptr<SeriesWriter>> make_series(const std::filesystem::path& path,
                                                   SeriesFields fields, bool is_resumed);
 
-/// The files of a series that have a name of their own: the list or the array, and what is beside.
+/// The files of a series whose names are known before the run: the list or the array, and files
+/// beside it.
 std::vector<std::filesystem::path> files_of_series(const std::filesystem::path& path);
 
 }  // namespace cascade

@@ -1,4 +1,5 @@
-// Each part has its own functions, which keep values between points.
+// Each part of a shape has its own functions. They store the values of the last point, which later
+// calls reuse.
 #include "run/pictures/shape_meshes.h"
 
 #include <fmt/format.h>
@@ -15,7 +16,7 @@ namespace {
 
 constexpr double steps_of_range = 16;
 
-/// Functions are copied along with their owner, and share what they keep.
+/// Makes a function of a point. Its copies share stored values.
 std::shared_ptr<ShapeFunction> function_of(const Formula& formula, std::span<const double> values,
                                            double part) {
     return std::make_shared<ShapeFunction>(formula, values, part);
@@ -40,7 +41,7 @@ SweptSurface surface_of(const ShapeForm& form, std::span<const double> values, d
     return surface_of(std::move(tube));
 }
 
-/// The rounding of a quantity's values.
+/// How the values of a quantity are rounded.
 struct Rounding {
     double low = 0, high = 0, step = 0;
 

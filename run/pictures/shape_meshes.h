@@ -1,4 +1,4 @@
-// The shapes of crawling cells by a script's formulas, as meshes.
+// Makes the meshes of crawling cells from the formulas of a shape.
 #pragma once
 
 #include "lang/program/shape_form.h"
@@ -10,32 +10,33 @@
 
 namespace cascade {
 
-/// A shape's values, one for each of its quantities (ShapeForm::quantities).
+/// The values of a shape, one for each of its quantities (ShapeForm::quantities).
 using ShapeValues = std::vector<double>;
 
-/// Coordinates of points beyond this make no picture.
+/// A shape is not drawn if the absolute value of a coordinate exceeds this.
 inline constexpr double largest_of_shape = 1000;
 
-/// The parts of a shape with these values.
+/// The parts of the shape that these values of its quantities give.
 std::vector<ShapePart> parts_of(const ShapeForm& form, std::span<const double> values);
 
-/// Why a shape cannot be drawn, such as "is not finite at t = 0.5, s = 0". "" if it is sound at the
-/// points tested.
+/// The reason why a shape cannot be drawn, such as "is not finite at t = 0.5, s = 0". Empty if all
+/// tested points of the shape are finite and not too far away.
 std::string fault_of(const ShapeForm& form, std::span<const double> values);
 
-/// The values of quantities for many cells at once.
+/// The values of a quantity in all cells.
 struct QuantityValues {
     ItemId quantity;
-    std::vector<double> of_cells;  ///< One for each cell, possibly not finite.
+    std::vector<double> of_cells;  ///< One for each cell. May contain values that are not finite.
 };
 
-/// The shapes of cells. Values are clamped to the ranges of quantities and rounded, so that many
-/// cells share one shape: to the step of the range, or to sixteenths of it or, without a range, of
-/// the span of the cells' values. If there are still more than `most` shapes, the rounding is
-/// doubled repeatedly.
+/// Shapes that many cells share. To that end, values of quantities are clamped to their ranges and
+/// rounded: to the step of the range, or else to 1/16 of the range, or, without a range, to 1/16 of
+/// the difference between the largest and the smallest value. The rounding unit is doubled until
+/// there are at most `most` shapes.
 struct SharedShapes {
     std::vector<ShapeValues> shapes;
-    std::vector<std::uint32_t> of_cells;  ///< Indices. `none` where a value is not finite.
+    /// For each cell, the index of its shape. `none` if a value of the cell is not finite.
+    std::vector<std::uint32_t> of_cells;
     static constexpr std::uint32_t none = UINT32_MAX;
 };
 inline constexpr std::size_t most_shapes = 1000;

@@ -1,4 +1,4 @@
-// Many cells have few facets each, because each one appears small.
+// The more cells there are, the smaller each of them appears, so the fewer facets it gets.
 #include "run/pictures/shown_cells.h"
 
 #include "run/pictures/tissue_picture.h"
@@ -12,10 +12,10 @@ namespace cascade {
 
 namespace {
 
-/// Facets are at most this many pixels from their shapes, the default of pictures.
+/// The largest distance, in pixels, between facets and their shapes. It is the default of pictures.
 constexpr double shown_detail = 0.5;
 
-/// The pixels of a length of 1 that meshes are made for.
+/// Meshes are made for pictures in which a length of 1 has this many pixels.
 double pixels_for(std::size_t copies) {
     constexpr double most = 512, least = 64;
     constexpr double copies_of_most = 1000;

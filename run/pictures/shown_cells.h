@@ -1,5 +1,5 @@
-// Crawling cells for a program that draws them itself, such as a page: a few meshes, and the
-// positions of their copies.
+// Prepares crawling cells for a program that draws them itself, such as the page in a browser: a
+// few meshes, and the positions of their copies.
 #pragma once
 
 #include "mesh/instances.h"
@@ -12,22 +12,23 @@
 
 namespace cascade {
 
-/// The cells of a moment.
+/// The cells at one moment.
 struct ShownCells {
-    std::size_t count = 0;  ///< All cells, including those not drawn.
+    std::size_t count = 0;  ///< The number of all cells, including cells that are not drawn.
     std::vector<TriangleMesh> meshes;
-    /// By mesh: its copies are placements[ends[k − 1]] up to placements[ends[k]]. Lengths are in
-    /// script units. Without a model everything lies flat, as in pictures.
+    /// The copies of mesh k are placements[ends[k − 1]] up to placements[ends[k]]. Lengths are in
+    /// the script's unit. Without a model everything is turned like pictures, with z upwards (see
+    /// lay_flat()).
     std::vector<std::uint32_t> ends;
     std::vector<Placement> placements;
-    /// By placement: the column of its cell in the row of values.
+    /// For each placement, the column of its cell in the row of values.
     std::vector<std::uint32_t> cells;
-    Colour skin;      ///< The surface below them, sRGB.
-    Vector3d extent;  ///< Without a model: the size of the plane, whose z is 0, or of the box.
+    Colour skin;      ///< The colour of the surface below the cells, in sRGB.
+    Vector3d extent;  ///< Without a model: the size of the plane (with z = 0) or of the box.
     bool is_on_model = false, is_on_body = false;
 };
 
-/// `surface` is null on a plane and in a box. Throws std::bad_alloc.
+/// `surface` is null if the cells crawl on a plane or in a box. Throws std::bad_alloc.
 ShownCells shown_cells(const DrawnCells& cells, const SurfaceSource* surface);
 
 }  // namespace cascade

@@ -1,4 +1,5 @@
-// Refines models as for files with vertex colours. Their values are those of the cell filter.
+// Refines models in the same way as for files with vertex colours. The cell filter gives the values
+// of vertices.
 #include "run/pictures/shown_surface.h"
 
 #include "export/refine.h"
@@ -21,13 +22,15 @@ namespace {
 
 constexpr std::size_t most_shown_triangles = std::size_t{1} << 20;
 
-/// The longest edge in cell spacings: the filter, whose radius is two, is nearly linear along it.
+/// The longest edge, in distances between cells. Along such an edge the filter, whose radius is two
+/// of these distances, is nearly linear.
 constexpr double longest_edge = 0.75;
 
-/// The least number of quadrilaterals along a side of a function's surface, for a smooth outline.
+/// The smallest number of quadrilaterals along a side of a function's surface. With fewer, the
+/// outline would not be smooth.
 constexpr double least_facets = 160;
 
-/// The mesh with a point for each normal, so that creases become boundaries.
+/// A copy of the mesh with a point for each normal, so that creases become boundaries.
 SurfaceMesh cut_at_creases(const SurfaceMesh& mesh, const CornerNormals& corners) {
     SurfaceMesh cut;
     for (const std::uint32_t point : corners.points) cut.points.push_back(mesh.points[point]);
@@ -48,10 +51,10 @@ SurfaceMesh cut_at_creases(const SurfaceMesh& mesh, const CornerNormals& corners
     return cut;
 }
 
-/// A copy with fewer triangles. Empty if the mesh is small, or cannot be copied.
+/// A copy with fewer triangles. Empty if the mesh is already small or cannot be copied.
 std::optional<SurfaceMesh> reduced(const SurfaceMesh& mesh) {
     if (mesh.triangles.size() <= most_shown_triangles) return std::nullopt;
-    // A collapsed mesh has triangles of this area, and some smaller ones.
+    // In a mesh whose edges have been collapsed, triangles have at most this area.
     const double area = mesh.total_area() / static_cast<double>(most_shown_triangles / 2);
     auto copy = coarse_copy(mesh, std::sqrt(area * 4 / std::sqrt(3.0)));
     if (!copy) return std::nullopt;
@@ -89,8 +92,8 @@ ShownSurface shown_model(const ModelCells& model, Team& team) {
     return shown;
 }
 
-/// Two quadrilaterals for each cell along both sides, so that a vertex lies in the middle of each
-/// cell and between any two.
+/// A lattice with two quadrilaterals for each cell along both axes. So there is a vertex at the
+/// centre of each cell and half-way between any two neighbours.
 SurfaceLattice lattice_of(const Grid& grid) {
     const auto along = [](std::int64_t cells) {
         const auto side = static_cast<double>(cells);

@@ -1,5 +1,6 @@
-// The surface of a pattern as a mesh for a program that draws it itself, such as a page: sent once,
-// followed by one number per cell for each moment.
+// Prepares the surface of a pattern as a mesh for a program that draws it itself, such as the page
+// in a browser. The mesh is sent once. Afterwards only one number for each cell is sent at each
+// moment.
 #pragma once
 
 #include "lang/program/program.h"
@@ -14,40 +15,46 @@
 
 namespace cascade {
 
-/// The surface below cells: a model, a function of two parameters under a grid, or a body.
+/// The surface below cells: a model, a function of two parameters over a grid, or a body.
 struct SurfaceSource {
     std::shared_ptr<const ModelCells> model;
-    std::shared_ptr<const SurfaceMesh> body;  ///< Below crawling cells, in script lengths.
-    std::optional<SurfaceSettings> function;  ///< Without a model and a body.
+    /// A body below crawling cells, in the script's unit of length. Otherwise null.
+    std::shared_ptr<const SurfaceMesh> body;
+    std::optional<SurfaceSettings> function;  ///< Given if there is neither a model nor a body.
     Grid grid;
 
-    /// `body` is null without one. Empty if there is no surface.
+    /// Chooses the surface of a program. `body` is null if the cells have no body. The result is
+    /// empty if there is no surface.
     static std::optional<SurfaceSource> of(const Program& program,
                                            std::shared_ptr<const ModelCells> model,
                                            std::shared_ptr<const SurfaceMesh> body);
-    /// Whether both give the same mesh. Compares functions at about a hundred points.
+    /// Whether both sources give the same mesh. Functions are compared at about a hundred points.
     bool is_same_as(const SurfaceSource& other) const;
 };
 
-/// Triangles about as fine as the cells, and each vertex's shares of the cells' values. Between
-/// vertices values are linear.
+/// A mesh whose triangles are about as fine as the cells. The value at a vertex is a weighted sum
+/// of values of cells. Between vertices it is linear.
 struct ShownSurface {
     Axis up = Axis::y;
-    double spacing = 0;  ///< The spacing of a model's cells, in the same lengths. 0 for a function.
-    /// In script coordinates, for a function in its own, for a body laid flat as in pictures.
+    /// The distance between a model's cells, in the lengths of `positions`. 0 for a function.
+    double spacing = 0;
+    /// The positions of a model are in the coordinates of scripts, and those of a function in its
+    /// own space. A body is turned like pictures, with z upwards (see lay_flat()).
     std::vector<Vector3> positions;
-    std::vector<Vector3> normals;  ///< Of length 1. A point on a crease is several vertices.
+    std::vector<Vector3> normals;  ///< Of length 1. A point on a crease is stored as several
+                                   ///< vertices with different normals.
     /// For a function: x and y of the vertices in script coordinates. Otherwise empty.
     std::vector<std::array<float, 2>> places;
     std::vector<std::array<std::uint32_t, 3>> triangles;
-    /// Vertex v shows shares[ends[v − 1]] up to shares[ends[v]]. Cells are numbered in the order of
-    /// planes, row after row.
+    /// The weights of vertex v are those from shares[ends[v − 1]] up to shares[ends[v]]. Cells are
+    /// numbered in the order of planes, row by row.
     std::vector<std::uint32_t> ends;
     std::vector<CellShare> shares;
 };
 
-/// At most about 2²⁰ triangles: larger models are shown by a coarse copy, and the pattern on more
-/// cells by linear interpolation between fewer points. Throws std::bad_alloc.
+/// Makes at most about 2²⁰ triangles. A larger model is replaced by a coarser copy. If there are
+/// more cells, the mesh has fewer points than cells, and the pattern is interpolated linearly
+/// between them. Throws std::bad_alloc.
 ShownSurface shown_surface(const SurfaceSource& source, Team& team);
 
 }  // namespace cascade

@@ -1,4 +1,5 @@
-// A mesh of triangles over the parameters. Texels are interpolated bilinearly where rays hit it.
+// Makes a mesh over the parameters. Where a ray hits the mesh, the texture is interpolated
+// bilinearly.
 #include "run/pictures/surface_picture.h"
 
 #include "run/pictures/surface_lattice.h"
@@ -12,10 +13,10 @@ namespace cascade {
 
 namespace {
 
-/// Quadrilaterals along a side: enough for a smooth outline, whatever the grid.
+/// The number of quadrilaterals along a side. With this number the outline is smooth for any grid.
 constexpr std::uint32_t facets = 384;
 
-/// The texel at the centre of a quadrilateral.
+/// The colour of the texture at the centre of a quadrilateral.
 const Colour& middle_of(std::uint32_t quadrilateral, const Image& texture) {
     const auto texel = [](std::uint32_t facet, std::int64_t side) {
         return static_cast<std::int64_t>((facet + 0.5) / facets * static_cast<double>(side));
@@ -24,8 +25,8 @@ const Colour& middle_of(std::uint32_t quadrilateral, const Image& texture) {
                       texel(quadrilateral / facets, texture.height));
 }
 
-/// Removes triangles on transparent parts of the texture. Returns the original indices of the
-/// remaining ones.
+/// Removes the triangles on transparent parts of the texture. Returns the original indices of the
+/// remaining triangles.
 std::vector<std::uint32_t> cut_holes(TriangleMesh& mesh, const Image& texture) {
     std::vector<std::uint32_t> numbers;
     std::size_t kept = 0;
@@ -39,7 +40,8 @@ std::vector<std::uint32_t> cut_holes(TriangleMesh& mesh, const Image& texture) {
     return numbers;
 }
 
-/// Interpolates between the visible ones of four texels, or returns `otherwise` if none is visible.
+/// Interpolates between those of four texels that are visible. Returns `otherwise` if none is
+/// visible.
 Colour mix_of_seen(const std::array<std::pair<Colour, float>, 4>& texels, const Colour& otherwise) {
     Colour sum{};
     float weights = 0;

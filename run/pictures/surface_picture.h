@@ -1,4 +1,4 @@
-// Draws a texture on the surface where it has grown.
+// Draws a texture on a surface given by a function.
 #pragma once
 
 #include "core/parallel.h"
@@ -8,9 +8,9 @@
 
 namespace cascade {
 
-/// Draws `surface` with `texture`, which has a pixel for each cell. Colours are linear between the
-/// centres of cells. They continue across joined sides and are constant beyond the last cell at
-/// others. Throws std::bad_alloc.
+/// Draws `surface` with `texture`, which has a pixel for each cell. Colours are interpolated
+/// linearly between the centres of cells, also across joined sides. Between the outermost centres
+/// and any other side they are constant. Throws std::bad_alloc.
 Image draw_on_surface(const SurfaceFunction& surface, const Image& texture, bool periodic_x,
                       bool periodic_y, const DrawOptions& options, Team& team);
 

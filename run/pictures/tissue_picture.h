@@ -1,4 +1,4 @@
-// Pictures of crawling cells: things in space, and the surface below them.
+// Draws crawling cells as objects in space, and the surface below them.
 #pragma once
 
 #include "mesh/instances.h"
@@ -12,16 +12,17 @@ namespace cascade {
 
 class ModelDrawer;
 
-/// Draws the cells with their colours (sRGB, in the order of numbers) on their model, on their
-/// body, over their plane or, in a box, alone. `model` is null without one. `drawer` draws a coat
-/// of a model. Throws std::bad_alloc.
+/// Draws the cells on their model, on their body, over their plane, or in a box without any
+/// surface. `colours` are in sRGB, in the order of the cells' numbers. `model` is null if there is
+/// none. `drawer` draws the coat of a model. Throws std::bad_alloc.
 Image draw_cells(const DrawnCells& cells, std::span<const Colour> colours, const ModelCells* model,
                  ModelDrawer* drawer, const DrawOptions& options);
 
-// Lays everything flat without a model, with the plane's normal upwards: y of scripts, which points
-// downwards in pictures, comes towards the viewer. That swaps left and right.
+// lay_flat() turns everything for pictures if there is no model, so that the plane's normal points
+// upwards. The y axis of scripts, which points downwards in pictures of planes, then points towards
+// the viewer. This swaps left and right.
 
-/// Positions are mirrored. Things at these positions keep their own left and right.
+/// Mirrors the positions of copies, but not the shape of each copy.
 void lay_flat(Instances& copies);
 void lay_flat(TriangleMesh& mesh);
 

@@ -1,4 +1,4 @@
-// Reports of the writers of models, cells and maps.
+// What the writers of models, cells and maps report.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,9 @@ namespace cascade {
 
 struct WrittenFiles {
     std::vector<std::filesystem::path> paths;
-    std::vector<std::string> warnings = {};  ///< A sentence each.
-    std::vector<std::string> notes = {};     ///< What readers of the files need to know, likewise.
+    std::vector<std::string> warnings = {};  ///< Each is a sentence.
+    /// Advice for readers of the files. Each is a sentence.
+    std::vector<std::string> notes = {};
 };
 
 }  // namespace cascade

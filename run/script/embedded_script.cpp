@@ -1,4 +1,5 @@
-// Overrides as JSON in PNG text chunks. What is read back may come from anywhere and is checked.
+// Stores overrides as JSON in PNG text chunks. Everything that is read is checked, because a file
+// may come from anywhere.
 #include "run/script/embedded_script.h"
 
 #include "core/file.h"
@@ -21,7 +22,7 @@ constexpr const char* key_seed = "Cascade seed";
 constexpr const char* key_picture = "Cascade picture";
 constexpr const char* key_sweep = "Cascade sweep";
 
-/// The list in a sheet's chunk; empty if it is not a list of strings.
+/// The strings in the chunk of a sweep's sheet. Empty if the chunk is not a list of strings.
 std::vector<std::string> texts_of(const std::string& text) {
     if (!is_small_json(text)) return {};
     const auto json = nlohmann::json::parse(text, nullptr, false);
@@ -95,7 +96,7 @@ Result<Overrides> overrides_from_json(const std::string& text) {
 
 namespace {
 
-/// Of a model that gives way to another.
+/// If `changes` replace the model, discards the orientation of the old model.
 void leave_stance(Overrides& base, const Overrides& changes) {
     base.up = changes.up;
     base.facing = changes.facing;
@@ -112,7 +113,8 @@ Overrides merge(Overrides base, const Overrides& changes) {
     if (changes.member) base.member = changes.member;
 #include "run/script/override_options.def"
     if (changes.model) {
-        // A picture holds only the name of its model; the user says where it is now.
+        // A picture stores only the file name of its model, but the user gives its present path. So
+        // file names are compared.
         const bool is_same_model =
             base.model && std::filesystem::path(*base.model).filename() ==
                               std::filesystem::path(*changes.model).filename();

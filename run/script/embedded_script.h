@@ -1,5 +1,5 @@
-// The text chunks of a picture, from which `cascade run picture.png` draws it again; the same data
-// describe a saved run.
+// Reads and writes the text chunks of a PNG picture, from which `cascade run picture.png` computes
+// the picture again. Saved runs store the same data.
 #pragma once
 
 #include "core/result.h"
@@ -15,34 +15,38 @@
 
 namespace cascade {
 
-/// A script found in a picture or a saved run.
+/// The script from a picture or a saved run, with everything needed to repeat the run.
 struct EmbeddedScript {
     std::string name;
     std::string text;
     Overrides overrides;
-    std::string picture_options;      ///< JSON of a PictureRequest.
-    std::vector<std::string> varied;  ///< Of a sweep's sheet: texts for parse_variation().
-    std::string session;              ///< The log of a session; empty for other pictures.
+    std::string picture_options;      ///< A PictureRequest as JSON.
+    std::vector<std::string> varied;  ///< For a sheet of a sweep, the texts of its options --vary
+                                      ///< (see parse_variation()).
+    std::string session;              ///< The log of a session. Empty for other pictures.
 };
 
-/// The chunk of a picture that holds the log of a session.
+/// The key of the chunk that holds the log of a session.
 inline constexpr const char* key_session = "Cascade session";
 
-/// The chunks Software, Cascade name, Cascade script, Cascade overrides, Cascade seed, Cascade
-/// picture.
+/// The text chunks of a picture. Their keys are Software, Cascade name, Cascade script, Cascade
+/// overrides, Cascade seed and Cascade picture.
 PngTexts embed_script(const Script& script, const PictureRequest& picture);
 
-/// The same for a sheet of a sweep: Cascade sweep lists what was varied.
+/// The text chunks for a sheet of a sweep. They include Cascade sweep, which contains the texts of
+/// `varied`.
 PngTexts embed_sweep(const Script& script, const PictureRequest& picture,
                      const std::vector<std::string>& varied);
 
-/// Reads them back from the bytes of a file. Fails, naming the file, if it is not a PNG of Cascade.
+/// Reads the text chunks from `bytes`, which are the content of `file`. Fails with a message that
+/// names `file` if it is not a PNG that Cascade wrote.
 Result<EmbeddedScript> parse_embedded_script(std::string_view bytes, const std::string& file);
 
-/// The same for a file; links, pipes and devices are refused.
+/// Reads the text chunks of a file. Links, pipes and devices are refused.
 Result<EmbeddedScript> read_embedded_script(const std::filesystem::path& path);
 
-/// `base` with the members that `changes` overrides; sets are appended, so that they win.
+/// `base`, in which the members that are set in `changes` are replaced. The parameters set by
+/// `changes` are appended to the parameters of `base`, so that they are applied last.
 Overrides merge(Overrides base, const Overrides& changes);
 
 std::string overrides_to_json(const Overrides& overrides);

@@ -1,4 +1,5 @@
-// Reads the members of a JSON object of unknown origin without exceptions, which WebAssembly lacks.
+// Reads the members of a JSON object without exceptions, which WebAssembly lacks. The JSON may come
+// from an untrusted source.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -13,8 +14,8 @@
 
 namespace cascade {
 
-/// Sets a value from JSON. False, and the value has no meaning, if the JSON is of another type or
-/// out of the type's range. Whole numbers are not negative.
+/// Sets a value from JSON. Returns false if the JSON has another type or is out of range. The value
+/// is then unspecified. Integers must not be negative.
 template <typename T>
 bool from_json_value(const nlohmann::json& json, T& value) {
     if constexpr (std::is_same_v<T, bool>) {
@@ -57,7 +58,8 @@ bool from_json_value(const nlohmann::json& json, std::vector<T>& values) {
     return true;
 }
 
-/// Members that are missing leave a value as it is; wrong ones make all of the object wrong.
+/// Reads the members of an object. A missing member leaves the corresponding variable unchanged. A
+/// single invalid member makes the whole object invalid.
 class JsonFields {
 public:
     explicit JsonFields(const nlohmann::json& object)
@@ -68,7 +70,8 @@ public:
         const nlohmann::json* const member = is_sound_ ? find(name) : nullptr;
         if (member != nullptr) is_sound_ = from_json_value(*member, value);
     }
-    /// The same for what `parse` makes of a text, an optional that is empty if the text is wrong.
+    /// Reads a text and parses it. `parse` returns an optional, which is empty if the text is
+    /// invalid.
     template <typename T, typename Parse>
     void read(const char* name, std::optional<T>& value, const Parse& parse) {
         std::optional<std::string> text;

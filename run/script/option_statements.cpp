@@ -1,5 +1,5 @@
-// Options with a syntax of their own, such as --grid 64x32 and --mesh horse.ply, are put into the
-// tree directly; the texts of others are parsed as expressions.
+// Options with a syntax of their own, such as --grid 64x32 and --mesh horse.ply, become nodes of
+// the syntax tree directly. The values of other options are parsed as expressions.
 #include "run/script/option_statements.h"
 
 #include "lang/program/models.h"
@@ -20,7 +20,7 @@ class OptionStatements {
 public:
     explicit OptionStatements(Script& script) : script_(script) {}
 
-    /// `name: text` for `--name text`.
+    /// Adds the statement `name: text` for the option `--name text`.
     void add(std::string_view name, const std::string& text) {
         ast::Statement& statement = begin(name, text);
         const auto value = parse_expression(statement.span.source, script_.sources, script_.tree,
@@ -29,7 +29,7 @@ public:
         statement.values.push_back(*value);
     }
 
-    /// A setting without a value.
+    /// Adds a statement that has no value.
     void add(std::string_view name) { begin(name, ""); }
 
     void add_grid(const GridSize& size, bool is_one_number) {
@@ -45,7 +45,7 @@ public:
         }
     }
 
-    /// A named surface, else a file.
+    /// Adds a model: the built-in shape of that name if there is one, or else a file.
     void add_model(const std::string& model) {
         ast::Statement& statement = begin("mesh", model);
         const Span span = statement.span;

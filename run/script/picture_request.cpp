@@ -1,4 +1,4 @@
-// Conversion to and from JSON.
+// Converts requests to and from JSON.
 #include "run/script/picture_request.h"
 
 #include "core/json_size.h"
@@ -46,7 +46,7 @@ std::string name_of(const std::optional<Colour>& background) {
 
 namespace {
 
-/// The values of picture_options.def: how JSON has them, and which of them make sense.
+/// The kinds of values in picture_options.def: how JSON stores them, and which of them are valid.
 namespace stored_values {
 
 using Json = nlohmann::json;
@@ -60,14 +60,14 @@ T& filled(std::optional<T>& value) {
     return value ? *value : value.emplace();
 }
 
-/// `read` gives false for wrong JSON and for values without sense.
+/// How a value is written and read. `read` returns false if the JSON or the value is invalid.
 template <typename Write, typename Read>
 struct Stored {
     Write write;
     Read read;
 };
 
-/// Values that JSON knows.
+/// Values for which JSON has a type.
 template <typename IsSensible>
 auto plain(IsSensible is_sensible) {
     return Stored{[](auto value) -> Json { return filled(value); },
@@ -96,7 +96,7 @@ auto flag() {
 }
 auto yes_or_no() { return flag(); }
 
-/// Two members.
+/// Pairs of two members.
 template <typename T, typename First, typename Second>
 auto both(First T::*first, Second T::*second) {
     return Stored{[=](auto value) -> Json {
@@ -128,7 +128,7 @@ auto slice() {
                   }};
 }
 
-/// Values by name; `named` gives an optional or a Result.
+/// Values that are stored by their names. `named` converts a name to an optional or a Result.
 template <typename Named>
 auto by_name(Named named) {
     return Stored{[](const auto& value) -> Json { return name_of(value); },

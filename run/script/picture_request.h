@@ -20,20 +20,21 @@ struct PictureSize {
     bool operator==(const PictureSize&) const = default;
 };
 
-/// Of pictures that are drawn from a place in space, if nothing else is asked for.
+/// The default size of pictures that are drawn from a viewpoint in space.
 inline constexpr PictureSize usual_size{800, 600};
 
-/// Copies of a plane's picture side by side.
+/// A picture of a plane may show several copies of the plane side by side. These are their numbers.
 struct PictureCopies {
     int across = 1, down = 1;
     bool operator==(const PictureCopies&) const = default;
 };
 inline constexpr int most_copies = 16;  ///< Along each axis.
 
-/// The most parts of a cell along each axis.
+/// The largest number of parts of a cell along each axis.
 inline constexpr int most_detail = 8;
 
-/// The options of `cascade run` that determine a picture's look. They are stored in the picture.
+/// The options of `cascade run` that determine the appearance of a picture. They are stored in the
+/// picture.
 struct PictureRequest {
 #define CASCADE_PICTURE_OPTION(type, member, initial, ...) type member = initial;
 #include "run/script/picture_options.def"
@@ -48,7 +49,7 @@ bool makes_sense(const PictureSize& size);
 bool makes_sense(const PictureCopies& copies);
 bool makes_sense(const Slice& slice);
 
-/// Whether an option has been given another value. Of views their direction alone counts.
+/// Whether two values of an option differ. Of views, only the directions are compared.
 template <typename T>
 bool differ(const T& a, const T& b) {
     return a != b;
@@ -57,14 +58,14 @@ inline bool differ(const View& a, const View& b) {
     return a.azimuth != b.azimuth || a.elevation != b.elevation;
 }
 
-/// The default picture of an expression, or, if that is empty, of the script.
+/// A request for the default picture of an expression, or of the script if `expression` is empty.
 inline PictureRequest picture_of(std::string expression) {
     PictureRequest request;
     request.show = std::move(expression);
     return request;
 }
 
-/// A background by its name, "none" or "#204060"; fails for other names.
+/// The background with this name, such as "none" or "#204060". Fails for unknown names.
 Result<std::optional<Colour>> background_named(std::string_view name);
 std::string name_of(const std::optional<Colour>& background);
 

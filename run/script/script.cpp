@@ -1,4 +1,5 @@
-// Parses the script, the files that it uses, and the options that change it; then checks it all.
+// Parses a script, the files that it uses, and the options that change it. Then checks the whole
+// script.
 #include "run/script/script.h"
 
 #include "core/check.h"
@@ -26,7 +27,7 @@ namespace cascade {
 
 namespace {
 
-// `use "file.cascade"`: the systems and functions of other files.
+// Reads the files that a script names in `use "file.cascade"`. They contain systems and functions.
 
 constexpr std::size_t most_files = 1000;
 
@@ -37,7 +38,7 @@ public:
     }
 
     void run() {
-        // Each file appends the files that it uses to the list.
+        // While a file is read, the files that it uses are appended to this list.
         for (std::size_t k = 0; k < script_.tree.uses.size(); ++k) {
             const ast::Use use = script_.tree.uses[k];
             const auto folder = folders_.find(use.span.source);
@@ -87,7 +88,8 @@ void UsedFiles::add(const std::filesystem::path& path, const std::string& text) 
     set_folder_of_files(first, path.parent_path());
 }
 
-/// Paths of data files in a used file are relative to that file's folder.
+/// Makes the paths of data files, which a used file gives relative to its own folder, relative to
+/// the script's folder.
 void UsedFiles::set_folder_of_files(ast::ExprId first, const std::filesystem::path& folder) {
     if (folder.empty()) return;
     auto& expressions = script_.tree.expressions;
@@ -104,10 +106,11 @@ void UsedFiles::set_folder_of_files(ast::ExprId first, const std::filesystem::pa
     }
 }
 
-/// Reads the files that the script's tree uses, directly or indirectly, and adds their systems and
-/// functions to the tree. Paths are relative to the file they are written in. Each file is used
-/// once, even if named again or in a cycle. Texts in `script.overrides.used` are not read again; it
-/// holds all texts afterwards. Errors are reported at the name of the file.
+/// Reads all files that the script's tree uses, directly or indirectly, and adds their systems and
+/// functions to the tree. A path is relative to the folder of the file that contains it. Each file
+/// is read only once, even if it is named several times or in a cycle. Files whose texts are in
+/// `script.overrides.used` are not read. Afterwards, that list contains the texts of all files.
+/// Errors are reported at the name of the file.
 void load_used_files(Script& script) { UsedFiles(script).run(); }
 
 }  // namespace
@@ -209,13 +212,13 @@ void check_until_stage(Script& script) {
     find_stage_of_option(script, name, option_span(script.sources, "--until-stage", name));
 }
 
-/// Checks the picture block, and warns of stages that nothing reads.
+/// Checks the picture block, and warns of stages that no other stage and no picture reads.
 void check_views(Script& script) {
     if (script.program->stages.empty()) return;
     const std::uint32_t stage = script.final_stage();
     const std::uint32_t last = script.stage_count() - 1;
-    // With --until-stage, the picture may name stages that do not run, which is not an error in the
-    // script, so only a whole run is checked here.
+    // With --until-stage, the picture may name stages that do not run, which is no error in the
+    // script. So the picture is checked only if all stages run.
     if (last + 1 != script.program->stages.size()) return;
     const Program& program = *script.program;
     std::vector<PictureView> views{{stage, std::nullopt}};
@@ -229,7 +232,9 @@ void check_views(Script& script) {
                                      "use rgb(…) or palette(value, low, high, \"name\")");
         }
     }
-    Diagnostics unspoken;  // The checker of the picture has found the errors of its other settings.
+    // These diagnostics are ignored, because the checker of the picture block has reported the same
+    // errors.
+    Diagnostics unspoken;
     for (const char* const setting :
          {"height", "roughness", "metalness", "opacity", "emission", "body"}) {
         const auto expression = picture_expression(script.tree, setting);
@@ -291,8 +296,8 @@ Result<void> check_for_fields(const Script& script, std::string_view what) {
 Result<LoadedFile> load_script_file(const std::filesystem::path& path, Overrides overrides) {
     constexpr std::uint64_t largest_picture = std::uint64_t{1} << 30;
     constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
-    // Pictures may be larger than any script. Of a pipe or a device only the size of a script is
-    // read.
+    // A picture may be larger than any script. From a pipe or device, no more bytes are read than a
+    // script may have.
     const bool is_picture = first_bytes(path, signature.size()) == signature;
     auto bytes = read_file(path, is_picture ? largest_picture : largest_script);
     if (!bytes) {

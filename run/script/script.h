@@ -1,5 +1,5 @@
-// A script as requested: its text, the changes of the command line, and the resulting checked
-// program.
+// A script with the changes that the command line makes to it, and the checked program that
+// results.
 #pragma once
 
 #include "core/diagnostics.h"
@@ -20,43 +20,50 @@
 
 namespace cascade {
 
-/// Changes from outside the script. They are stored in pictures and saved runs.
+/// Changes to a script from outside. They are stored in pictures and saved runs.
 struct Overrides {
-    std::vector<std::string> sets;  ///< "large.ka=1/400", in order.
+    std::vector<std::string> sets;  ///< Settings in the order given, such as "large.ka=1/400".
     std::optional<GridSize> grid;
-    bool grid_is_one_number = false;  ///< As in --grid 100, which is a line of cells. Not stored.
+    /// Whether --grid has a single number, as in --grid 100. The domain is then a line of cells.
+    /// Not stored in pictures and saved runs.
+    bool grid_is_one_number = false;
 #define CASCADE_OVERRIDE(type, member, ...) std::optional<type> member;
 #include "run/script/override_options.def"
 
-    /// The files that the script uses, as (path, text), as far as they have been read, so that a
-    /// picture can be drawn again without them.
+    /// Path and text of all files with systems and functions that the script uses and that could be
+    /// read. With these texts a picture can be drawn again without the files.
     std::vector<std::pair<std::string, std::string>> used;
-    ReadAccess reads;   ///< Not stored.
-    bool fast = false;  ///< Steps are computed with fewer roundings.
-    /// The domain becomes this model: a file, or the name of a shape.
+    ReadAccess reads;   ///< Which files the script may read. Not stored in pictures and saved runs.
+    bool fast = false;  ///< Whether steps are computed with fewer roundings.
+    /// A model that replaces the domain: the path of a file, or the name of a built-in shape.
     std::optional<std::string> model;
-    bool model_is_asked_for = false;  ///< By the user, so the file may be anywhere. Not stored.
-    std::int64_t detail = 1;          ///< As in DomainSettings, of Script::detailed(). Not stored.
-    std::int64_t coarse = 1;          ///< Likewise, of Script::coarser(). Not stored.
+    /// Whether the user gave `model` on the command line. If so, the file may be in any folder. Not
+    /// stored in pictures and saved runs.
+    bool model_is_asked_for = false;
+    /// See DomainSettings. Set by Script::detailed(). Not stored in pictures and saved runs.
+    std::int64_t detail = 1;
+    std::int64_t coarse = 1;  ///< See DomainSettings. Set by Script::coarser(). Not stored in
+                              ///< pictures and saved runs.
 
     friend bool operator==(const Overrides&, const Overrides&) = default;
 };
 
-/// A loaded script. `program` is empty if `diagnostics` has errors.
+/// A loaded script. `program` is null if `diagnostics` has errors.
 struct Script {
     Script() = default;
     Script(Script&&) = default;
     Script& operator=(Script&&) = default;
-    Script(const Script&) = delete;  // The tree holds views into this script's own sources.
+    Script(const Script&) = delete;  // The tree refers to the sources in the same script.
     Script& operator=(const Script&) = delete;
 
-    /// The name in messages: as the user typed it, "examples/leopard.cascade", or as stored in a
-    /// picture or a saved run.
+    /// The script's name in messages, such as "examples/leopard.cascade", as the user typed it or
+    /// as a picture or a saved run stores it.
     std::string name;
-    /// The file that the user named: the script, or the picture or saved run that it was found in.
+    /// The file that the user named: the script, or the picture or saved run that contains the
+    /// script.
     std::filesystem::path file;
     std::string text;
-    std::filesystem::path folder;  ///< Paths in the script are relative to it.
+    std::filesystem::path folder;  ///< Relative paths in the script start at this folder.
     Overrides overrides;
 
     Sources sources;
@@ -64,54 +71,61 @@ struct Script {
     ast::Script tree;
     std::shared_ptr<const Program> program;
 
-    /// The same script, loaded again for cells that are this many times as short along each axis;
-    /// its program is null if there is an error.
+    /// The same script, loaded again for smaller cells: `times` cells replace one along each axis.
+    /// Its program is null if there is an error.
     Script detailed(std::int64_t times) const;
-    /// The program of the same script, checked again for cells that are this many times as wide, as
-    /// those of its stages may be. The script has no errors.
+    /// The program of this script, checked again for cells that are `times` as wide. Stages with
+    /// coarser grids use it. The script must have no errors.
     Program coarser(std::int64_t times) const;
 
-    /// All diagnostics, formatted.
+    /// All diagnostics as text.
     std::string messages(bool colour) const;
-    /// The last stage that takes a step, or the last stage if none does.
+    /// The last stage that takes a step, or the last stage if no stage takes one.
     std::uint32_t final_stage() const;
-    /// The number of stages that run: all, or those up to `until_stage`.
+    /// The number of stages that run: all stages, or those up to `until_stage` if that is given.
     std::uint32_t stage_count() const;
 };
 
-/// Fails if a stage that runs is one of cells that crawl, which `what` is not made for.
+/// Fails if a stage that runs has crawling cells. `what` names the command that cannot run such
+/// stages.
 Result<void> check_for_fields(const Script& script, std::string_view what);
 
-/// Parses and checks `text` with its overrides and the files it uses, and the picture block. Errors
-/// are reported in the diagnostics only.
+/// Parses and checks `text`, the files that it uses, its overrides and the picture block. Errors
+/// are reported only in the diagnostics of the result.
 Script load_script(std::string name, std::string text, std::filesystem::path folder,
                    Overrides overrides = {});
 
-/// Reads the file first. A PNG that Cascade wrote contains its script: that is loaded, with the
-/// stored overrides (those of `overrides` win). Fails if the file cannot be read.
+/// A script read from a file. If the file is a PNG that Cascade wrote, the script in it is loaded
+/// with its stored overrides, and members that are set in `overrides` replace stored members. Fails
+/// if the file cannot be read.
 struct LoadedFile {
     Script script;
-    std::string picture_options;  ///< JSON of the PictureRequest in a PNG; empty for a script.
-    std::vector<std::string> varied = {};  ///< Of a sweep's sheet: its --vary, in order.
-    std::string session = {};              ///< Of a picture of a session: its log, not yet parsed.
+    std::string picture_options;  ///< For a PNG, its PictureRequest as JSON. Empty for a script.
+    /// For a sheet of a sweep, the values of its options --vary, in order.
+    std::vector<std::string> varied = {};
+    std::string session = {};  ///< For a picture of a session, its log as text. Otherwise empty.
 };
 Result<LoadedFile> load_script_file(const std::filesystem::path& path, Overrides overrides = {});
 
-/// A hint for scripts without stages, with their last own system if there is one: "add 'stage
-/// spots: mine { }'".
+/// A hint for scripts without stages: "add 'stage spots: mine { }'". It names the last system that
+/// the script defines, if any.
 std::string example_of_stage(const Program& program);
 
-/// The default stem of outputs: "leopard" for "examples/leopard.cascade". It comes from the file
-/// that the user named, never from a name inside it; "cascade" if there is none.
+/// The default name of outputs without an ending: "leopard" for "examples/leopard.cascade". It
+/// comes from the file that the user named, even if that file contains another name for the script.
+/// "cascade" if there is no file.
 std::string output_stem(const Script& script);
 
-/// A span for messages about an option: its text becomes the source `<--option>`.
+/// A span for messages about an option. The option's value becomes a source text with the name
+/// `<--option>`.
 Span option_span(Sources& sources, const std::string& option, const std::string& value);
 
-/// The stage of a name, else of a number from 1. Fails with a list of the names.
+/// The stage with the name `asked`. If there is none and `asked` is a number, the stage with that
+/// number, counted from 1. Fails with a list of the names.
 Result<std::uint32_t> find_stage(const Program& program, const std::string& asked);
 
-/// The stage that an option names; reports an error at `span` if there is none. Needs a program.
+/// The stage that an option names. Reports an error at `span` if there is no such stage. The script
+/// must have a program.
 std::optional<std::uint32_t> find_stage_of_option(Script& script, const std::string& name,
                                                   Span span);
 

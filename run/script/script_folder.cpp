@@ -1,4 +1,5 @@
-// A script is recognised by its text, among the files of its name in two folders.
+// Searches two folders for files with the name of the script, and recognises the script by its
+// text.
 #include "run/script/script_folder.h"
 
 #include "core/granted_files.h"
@@ -25,7 +26,7 @@ struct Namesake {
     std::string name, text;
 };
 
-/// In the current folder, and in the one that contains the saved run.
+/// The files with this name in the current folder and in the folder that contains the saved run.
 std::vector<Namesake> namesakes(const fs::path& saved, const std::string& name) {
     const fs::path here = fs::path(portable_path(name));
     const fs::path above = (saved / "..").lexically_normal();

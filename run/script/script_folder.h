@@ -1,4 +1,5 @@
-// The folder of the files of a script from a picture or a saved run, and the paths stored in these.
+// Pictures and saved runs store the path of the folder of their script. Finds this folder when they
+// are read, and the path to store when they are written.
 #pragma once
 
 #include <filesystem>
@@ -7,17 +8,19 @@
 
 namespace cascade {
 
-/// A path as it is stored in pictures and saved runs, which may be published: unchanged if it is
-/// relative and leads only down, else its last component.
+/// Returns a path as pictures and saved runs store it. A path is stored unchanged only if it is
+/// relative and does not leave its folder, because pictures and saved runs may be published.
+/// Otherwise only the last component of the path is stored.
 std::string portable_path(const std::string& path);
 
-/// The folder of the script of a run saved in `saved`: the current folder or the one that contains
-/// `saved`, if a file of that name there still has that text; else `saved` itself. A folder named
-/// by a saved run is not trusted, since it would grant the right to read there.
+/// The folder for files that the script of a saved run names. This is the current folder, or else
+/// the folder that contains `saved`, if its file `name` still has this text. Otherwise it is
+/// `saved` itself. A folder named in a saved run is not trusted, because that would grant the right
+/// to read files there.
 std::filesystem::path find_script_folder(const std::filesystem::path& saved,
                                          const std::string& name, const std::string& text);
 
-/// The first file of that name in these folders, if none of them has that text.
+/// The first file of this name in these two folders, unless one of them has this text.
 std::optional<std::filesystem::path> find_edited_script(const std::filesystem::path& saved,
                                                         const std::string& name,
                                                         const std::string& text);

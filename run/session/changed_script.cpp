@@ -1,4 +1,4 @@
-// Numbers set in a session are settings from outside, like those of --set.
+// Numbers set in a session become settings from outside, like settings by --set.
 #include "run/session/changed_script.h"
 
 #include "run/script/embedded_script.h"
@@ -20,7 +20,7 @@ std::string_view name_of_setting(std::string_view setting) {
 }
 
 void set_number(Overrides& overrides, const SetNumber& number) {
-    // The last setting of a name wins, so earlier ones need not be kept.
+    // Only the last setting of a name counts, so earlier ones are removed.
     std::erase_if(overrides.sets, [&](const std::string& set) {
         return name_of_setting(set) == name_of_setting(number.name);
     });

@@ -10,15 +10,16 @@
 
 namespace cascade {
 
-/// A script with another text. Drops settings from outside that have become meaningless: their
-/// parameter may have gone with the old text.
+/// The script with another text. An option such as --set is dropped if its parameter no longer
+/// exists in the text.
 Script with_text(const Script& old, const std::string& text);
 
-/// A script with another value of a parameter or setting. It has no program if the value is wrong.
+/// The script with another value of a parameter or setting. It has no program if the value is
+/// invalid.
 Script with_number(const Script& script, const SetNumber& number);
 
-/// The script at the end of a session, with `options` in addition. It is not run, so changes that
-/// playing would refuse go unnoticed.
+/// The script at the end of a session, with `options` added. The session is not repeated, so no
+/// change is refused that would be refused if it were.
 Script script_at_end(const SessionLog& log, const std::filesystem::path& folder,
                      const Overrides& options);
 

@@ -1,6 +1,7 @@
-// Keeps only the values of a stage that starting it would not reproduce.
+// Stores only values that could not be computed again by starting the stage.
 #include "run/session/kept_state.h"
 
+#include "lang/program/stage_kinds.h"
 #include "run/simulation/stage_view.h"
 #include "run/simulation/tissue_stage.h"
 #include "run/stage/stage_time.h"
@@ -21,14 +22,18 @@ namespace cascade {
 
 namespace {
 
-// Crawling cells, kept at one moment, and a changed stage that continues with them.
+// Crawling cells from a stored state, and the changed stage that continues with them.
 
 using Values = std::vector<double>;
 
 class CellChange {
 public:
     CellChange(Simulation& simulation, std::uint32_t stage, const KeptStage& kept)
-        : simulation_(simulation), stage_(stage), kept_(kept), record_(*kept.record.cells) {}
+        : simulation_(simulation),
+          stage_(stage),
+          kept_(kept),
+          kept_cells_(*std::get<RecordedCells>(kept.record.values)),
+          record_(kept_cells_) {}
 
     Result<void> make(const Simulation* before, const StageMoment& moment) {
         take_values();
@@ -53,8 +58,8 @@ public:
 
 private:
     void restore(const StageMoment& moment) {
-        StageRecord record{moment, {}, std::make_shared<const TissueRecord>(record_)};
-        cascade::restore(simulation_, stage_, std::move(record));
+        cascade::restore(simulation_, stage_,
+                         {moment, std::make_shared<const TissueRecord>(record_)});
     }
 
     const System& system() const { return simulation_.domain().program->system_of(stage_); }
@@ -63,19 +68,19 @@ private:
         return species ? record_.species[species->index()] : record_.kept[item.index()];
     }
 
-    /// The index of an item among all kept items, or their number.
+    /// The index of an item among all stored items; their number if it is not stored.
     std::size_t kept_item(ItemId item) const {
         const auto found = std::ranges::find(kept_.items, system().item_name(item));
         return static_cast<std::size_t>(found - kept_.items.begin());
     }
 
-    /// The values kept by this name. None if it was the same in all cells.
+    /// The stored values of the item with this name. Empty if it was uniform.
     Values kept_values(ItemId item) const {
         const auto found = std::ranges::find(kept_.species, system().item_name(item));
         const auto species = static_cast<std::size_t>(found - kept_.species.begin());
-        if (species < kept_.species.size()) return kept_.record.cells->species[species];
+        if (species < kept_.species.size()) return kept_cells_.species[species];
         const std::size_t other = kept_item(item);
-        return other < kept_.items.size() ? kept_.record.cells->kept[other] : Values();
+        return other < kept_.items.size() ? kept_cells_.kept[other] : Values();
     }
 
     void take_values() {
@@ -99,14 +104,14 @@ private:
         record_.time.estimated_at = -1;
     }
 
-    /// The number of the kept stage in its program.
+    /// The index of the stored stage in its program.
     std::uint32_t stage_of(const Simulation& before) const {
         const auto& stages = before.domain().program->stages;
         const auto found = std::ranges::find(stages, kept_.name, &Stage::name);
         return static_cast<std::uint32_t>(found - stages.begin());
     }
 
-    /// Whether a parameter starts with other values than before.
+    /// Whether the start now gives a parameter other values than it gave before.
     bool is_changed(ItemId item, const std::vector<Values>& now,
                     const std::vector<Values>& then) const {
         const auto& restarts = system().cells->restarts;
@@ -120,26 +125,28 @@ private:
     Simulation& simulation_;
     std::uint32_t stage_;
     const KeptStage& kept_;
+    const TissueRecord& kept_cells_;
     TissueRecord record_;
-    std::vector<ItemId> missing_;  ///< Items without values.
+    std::vector<ItemId> missing_;  ///< Items for which there are no values.
 };
 
-/// Gives a started stage of a changed program the kept cells: quantities take the values of the
-/// same name. Quantities without one start at the cells' present positions, and so do parameters
-/// that were not painted and whose start gives other values than in `before` (may be null). A value
-/// that restarts after a division is left to divisions. Fails if a quantity has no value and cannot
-/// start.
+/// Gives the stored cells to a started stage of a changed program. Each quantity takes the values
+/// of the stored quantity of the same name. A quantity is computed from the start instead, at the
+/// present positions of the cells, if no values are stored, or if it is a parameter that was not
+/// painted and for which the start now gives other values than in `before` (may be null). A value
+/// that restarts at divisions is only changed by divisions. Fails if a quantity has neither a value
+/// nor a start.
 Result<void> go_on_with_cells(Simulation& simulation, const Simulation* before, std::uint32_t stage,
                               const KeptStage& kept, const StageMoment& moment) {
     return CellChange(simulation, stage, kept).make(before, moment);
 }
 
-/// The kept stage that stage `k` of a program continues from. Null if there is none. Crawling cells
-/// do not continue as a field, nor the reverse.
+/// The stored stage from which stage `k` of a program continues. Null if there is none. Crawling
+/// cells never continue as a field, nor a field as crawling cells.
 const KeptStage* counterpart(const Program& program, std::uint32_t k, const KeptState& state) {
     if (k >= state.stages.size()) return nullptr;
     const KeptStage& kept = state.stages[k];
-    if ((kept.record.cells != nullptr) != program.system_of(k).cells.has_value()) return nullptr;
+    if (kept.record.is_of_cells() != is_of_cells(program, k)) return nullptr;
     const bool is_elsewhere =
         kept.name != program.stages[k].name &&
         std::any_of(program.stages.begin(), program.stages.end(),
@@ -154,7 +161,45 @@ bool is_over(const Program& program, std::uint32_t k, const StageState& state,
     return then.t >= duration_of(stage, program.system_of(k), state);
 }
 
-/// Whether two expressions are the same except for their source locations.
+/// The moment at which stage `k` of a program goes on.
+StageMoment moment_of(const Simulation& simulation, std::uint32_t k, const KeptStage& kept,
+                      Continuation how, bool is_current) {
+    if (how == Continuation::same) return kept.record;
+    // Lengths of steps are chosen anew, so the state of the step control is not copied.
+    StageMoment moment;
+    moment.steps = kept.record.steps;
+    moment.t = kept.record.t;
+    moment.done = kept.record.done && (!is_current || is_over(*simulation.domain().program, k,
+                                                              simulation.state(k), kept.record));
+    moment.condition_met = kept.record.condition_met && moment.done;
+    return moment;
+}
+
+/// Gives a started stage the kept fields: painted ones, and species unless the stage starts anew.
+/// Returns the names of the painted ones.
+PaintedNames go_on_with_fields(Simulation& simulation, std::uint32_t k, const KeptStage& kept,
+                               StageMoment moment, bool is_anew) {
+    const Program& program = *simulation.domain().program;
+    const System& system = program.system_of(k);
+    const auto& before = std::get<RecordedFields>(kept.record.values);
+    PaintedNames still_painted;
+    RecordedFields fields;
+    for (const ItemId item : recorded_items(program, k)) {
+        const std::string name(system.item_name(item));
+        const bool is_species = system.is_species(item);
+        const bool was_painted = kept.painted.contains(name);
+        const auto old = before.find(name);
+        const bool is_kept = old != before.end() && (was_painted || (is_species && !is_anew));
+        if (!is_kept && !is_species) continue;
+        const Field& values = is_kept ? old->second : simulation.state(k).field(item);
+        fields.emplace(name, values.clone());
+        if (was_painted) still_painted.insert(name);
+    }
+    restore(simulation, k, {std::move(moment), std::move(fields)});
+    return still_painted;
+}
+
+/// Are two expressions the same except for their source locations.
 bool is_same(const Formula& first, const Formula& second) {
     return std::equal(first.nodes.begin(), first.nodes.end(), second.nodes.begin(),
                       second.nodes.end(), [](const Node& a, const Node& b) {
@@ -164,7 +209,7 @@ bool is_same(const Formula& first, const Formula& second) {
                       });
 }
 
-/// Files are read again.
+/// Expressions that read files never count as the same, because files are read again.
 bool is_same(const std::optional<Formula>& first, const std::optional<Formula>& second) {
     const auto reads = [](const Node& node) { return node.calls(Function::field); };
     if (first && std::ranges::any_of(first->nodes, reads)) return false;
@@ -178,7 +223,7 @@ bool is_same(const std::optional<DirectionSettings>& first,
            is_same(first->height, second->height) && first->smoothing == second->smoothing;
 }
 
-/// Whether two programs grow on the same model, except for its seed. False if there is none.
+/// Whether two programs have the same model, apart from its seed. False if they have no model.
 bool have_same_model(const Program& before, const Program& after) {
     const auto& first = before.domain.model;
     const auto& second = after.domain.model;
@@ -233,46 +278,22 @@ Result<std::vector<PaintedNames>> go_on(Simulation& simulation, const Simulation
         if (auto started = simulation.start_stage(k, cancel); !started) {
             return tl::unexpected(started.error());
         }
-        const System& system = program.system_of(k);
         const bool is_current = k + 1 == state.stages.size();
         const bool is_same_run = how == Continuation::same;
         const bool is_anew = !is_same_run && is_current && kept->record.steps == 0;
-        StageRecord record;
-        if (is_same_run) {
-            static_cast<StageMoment&>(record) = StageMoment(kept->record);
-        } else {
-            // The lengths of steps are chosen anew, so the rest of the moment is not copied.
-            record.steps = kept->record.steps;
-            record.t = kept->record.t;
-            record.done = kept->record.done &&
-                          (!is_current || is_over(program, k, simulation.state(k), kept->record));
-            record.condition_met = kept->record.condition_met && record.done;
-        }
-        PaintedNames& still_painted = painted.emplace_back();
-        if (kept->record.cells) {
-            still_painted = kept->painted;
-            if (is_anew && still_painted.empty()) continue;
-            record.cells = kept->record.cells;
-            if (is_same_run) {
-                restore(simulation, k, std::move(record));
-            } else if (auto gone = go_on_with_cells(simulation, before, k, *kept, record); !gone) {
-                return tl::unexpected(gone.error());
-            }
+        StageMoment moment = moment_of(simulation, k, *kept, how, is_current);
+        if (!kept->record.is_of_cells()) {
+            painted.push_back(go_on_with_fields(simulation, k, *kept, std::move(moment), is_anew));
             continue;
         }
-        for (const ItemId item : recorded_items(program, k)) {
-            const std::string name(system.item_name(item));
-            const bool is_species = system.is_species(item);
-            const bool was_painted = kept->painted.contains(name);
-            const auto old = kept->record.fields.find(name);
-            const bool is_kept =
-                old != kept->record.fields.end() && (was_painted || (is_species && !is_anew));
-            if (!is_kept && !is_species) continue;
-            const Field& values = is_kept ? old->second : simulation.state(k).field(item);
-            record.fields.emplace(name, values.clone());
-            if (was_painted) still_painted.insert(name);
+        painted.push_back(kept->painted);
+        if (is_anew && kept->painted.empty()) continue;
+        if (is_same_run) {
+            restore(simulation, k,
+                    {std::move(moment), std::get<RecordedCells>(kept->record.values)});
+        } else if (auto gone = go_on_with_cells(simulation, before, k, *kept, moment); !gone) {
+            return tl::unexpected(gone.error());
         }
-        restore(simulation, k, std::move(record));
     }
     return painted;
 }

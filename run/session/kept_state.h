@@ -1,5 +1,5 @@
-// The values of a run at one moment, separate from its simulation, and their use in another
-// simulation.
+// The values of a run at one moment, stored independently of its simulation, so that another
+// simulation can continue from them.
 #pragma once
 
 #include "core/result.h"
@@ -16,15 +16,15 @@
 
 namespace cascade {
 
-/// The names of a stage's items with painted values.
+/// The names of the items of a stage whose values were painted.
 using PaintedNames = std::set<std::string>;
 
-/// A stage that has started.
+/// The stored values of a stage that has started.
 struct KeptStage {
     std::string name;
     StageRecord record;    ///< Includes the painted parameters.
-    PaintedNames painted;  ///< Species and parameters.
-    /// The names of all items and of the species, for crawling cells.
+    PaintedNames painted;  ///< May contain species and parameters.
+    /// For crawling cells: the names of all items, and of the species.
     std::vector<std::string> items, species;
 };
 
@@ -34,33 +34,36 @@ struct KeptState {
     std::size_t bytes() const;
 };
 
-/// Copies all values that a simulation cannot recompute. `painted` has an entry for each stage.
+/// Copies all values that a simulation could not compute again. `painted` has an entry for each
+/// stage.
 KeptState keep(const Simulation& simulation, const std::vector<PaintedNames>& painted);
 
-/// How a simulation continues from a kept state.
+/// How a simulation continues from a stored state.
 enum class Continuation {
-    same,     ///< With the same program, and the same bits as without interruption.
-    changed,  ///< With a changed program: lengths of steps are chosen anew.
+    same,     ///< With the same program, and with the same bits as without interruption.
+    changed,  ///< With a changed program, which chooses lengths of steps anew.
 };
 
-/// Starts those stages of `simulation`, none of them started, that have a counterpart in `state`:
-/// the stage of the same name, or at the same index if it was renamed. Computes parameters anew
-/// except where they were painted. Species take the values of the same name, or else their start.
-/// The current stage is restarted if it has taken no step, except for painted values. Starts at
-/// most `count` stages. Returns the painted names for each started stage. Crawling cells continue
-/// with their own values of parameters, too, unless their start would give others than in `before`,
-/// the source of the kept state (null: none). Fails if a stage cannot be started, if cells have no
-/// value to continue with, and when `cancel` becomes true while a stage is started.
+/// Starts those stages of `simulation` that have a counterpart in `state`, and gives them its
+/// values. No stage may have been started. The counterpart is the stage of the same name, or the
+/// stage at the same index if it was renamed.
+/// Parameters are computed anew unless they were painted. Species take the values of the species of
+/// the same name, or else their starting values. If the current stage has taken no step, it is
+/// restarted and only painted values are taken over. At most `count` stages are started.
+/// Crawling cells also keep their values of parameters, unless the start would give other values
+/// than in `before`, the simulation from which `state` comes (may be null).
+/// Returns the painted names of each started stage. Fails if a stage cannot be started, if cells
+/// lack a value, or if `cancel` becomes true while a stage is started.
 Result<std::vector<PaintedNames>> go_on(Simulation& simulation, const Simulation* before,
                                         const KeptState& state, Continuation how,
                                         const std::atomic<bool>& cancel,
                                         std::size_t count = SIZE_MAX);
 
-/// The item of a system with this name.
+/// The item with this name. Empty if the system has none.
 std::optional<ItemId> find_item(const System& system, std::string_view name);
 
-/// Whether a run of `after` can continue from the values of a run of `before`. Their cells must be
-/// the same: the grid, the mask, the model, and the precision and seed of the run.
+/// Whether a run of `after` can continue from the values of a run of `before`. Both must have the
+/// same cells, that is, the same grid, mask, model, precision and seed.
 bool have_same_cells(const Program& before, const Program& after);
 
 }  // namespace cascade

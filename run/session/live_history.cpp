@@ -1,5 +1,5 @@
-// The past and the future of a running cascade: going to a stage, undo and redo. Values of many
-// changes ago are grown again by the log.
+// Goes to a stage, and implements undo and redo. Values from many changes ago are computed again by
+// repeating the log.
 #include "run/session/live_run.h"
 
 #include <fmt/format.h>
@@ -29,9 +29,10 @@ Accepted<void> LiveRun::go_to(std::uint32_t stage, RunControl& control) {
     auto adopted = adopt(std::move(script), *before.values, Continuation::changed, control, stage);
     if (!adopted) return adopted;
     if (stage > 0) {
-        // It is not cancelled, because going back would be cancelled, too.
+        // Starting the stage cannot be cancelled. The return to the previous moment, which a cancel
+        // requires, would be cancelled, too.
         if (auto started = start_stage(stage, never_cancelled); !started) {
-            // The values of the stage before are as they were.
+            // The values of the previous stage have not changed.
             const auto back = return_to(before, control);
             return back ? started : back;
         }
@@ -77,7 +78,7 @@ Accepted<void> LiveRun::redo(RunControl& control) {
     return step_through(future_, past_, control);
 }
 
-/// Takes the last moment of `from`, and keeps the present one in `to`.
+/// Goes to the last moment of `from`, and stores the present moment in `to`.
 Accepted<void> LiveRun::step_through(std::vector<Moment>& from, std::vector<Moment>& to,
                                      RunControl& control) {
     Moment now = present();
@@ -101,10 +102,12 @@ void LiveRun::forget_old_values() {
             Moment& moment = (*moments)[k];
             if (moment.values) bytes += moment.values->bytes();
             if (bytes > undo_memory_) moment.values.reset();
-            // Texts and logs cannot be grown again: without them the moment is gone.
+            // Texts and logs cannot be computed again. So if they need too much memory, the whole
+            // moment is deleted, and so are values that the log cannot repeat.
+            const bool is_lost = is_resumed_ && !moment.values;
             other += moment.text.size() + moment.log.text.size() +
                      moment.log.changes.size() * sizeof moment.log.changes[0];
-            if (other <= undo_texts_) continue;
+            if (other <= undo_texts_ && !is_lost) continue;
             moments->erase(moments->begin(), moments->begin() + static_cast<std::ptrdiff_t>(k + 1));
             break;
         }

@@ -1,41 +1,32 @@
-// Every change yields a script and kept values, from which a new simulation continues. Kernels and
-// the cells of a model pass from one simulation to the next, so that only the differences are made.
+// Every change makes a new simulation, which continues from stored values with the changed script.
+// Kernels and the cells of a model pass from one simulation to the next, so that only the
+// differences are computed.
 #include "run/session/live_run.h"
 
 #include "lang/check/check.h"
 #include "lang/syntax/parse.h"
-#include "run/domain/domain_mask.h"
 #include "run/session/changed_script.h"
-#include "run/simulation/other_cells.h"
-#include "run/simulation/stage_record.h"
-#include "run/simulation/tissue_stage.h"
-#include "solvers/finite.h"
-#include "tissue/tissue.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <utility>
 
 namespace cascade {
 namespace {
 
-/// Places of a tissue's planes that no cell is in do not count.
-bool has_not_finite(const Field& values, const Tissue& tissue) {
-    for (std::size_t cell = 0; cell < tissue.count(); ++cell) {
-        if (!std::isfinite(value_in(values, tissue, cell))) return true;
+/// The bytes of a change that may be large: a text, or values of all cells.
+std::size_t bytes_of(const Change& change) {
+    if (const auto* text = std::get_if<SetText>(&change)) return text->text.size();
+    if (const auto* set = std::get_if<SetValues>(&change)) {
+        return set->values.size() * sizeof set->values[0];
     }
-    return false;
+    return 0;
 }
 
-std::size_t texts_of(const SessionLog& log) {
+std::size_t bytes_of(const SessionLog& log) {
     std::size_t bytes = log.text.size();
-    for (const auto& logged : log.changes) {
-        const auto* const text = std::get_if<SetText>(&logged->change);
-        if (text != nullptr) bytes += text->text.size();
-    }
+    for (const auto& logged : log.changes) bytes += bytes_of(logged->change);
     return bytes;
 }
 
@@ -52,8 +43,8 @@ Accepted<std::unique_ptr<Simulation>> LiveRun::simulate(Script& script, RunContr
     return std::move(*made);
 }
 
-/// Continues with another script from the values of at most `stages` stages, or from its start if
-/// there are none.
+/// Continues with another script from the values of at most `stages` stages. If there are no
+/// values, starts at the beginning.
 Accepted<void> LiveRun::adopt(Script changed, const KeptState& values, Continuation how,
                               RunControl& control, std::size_t stages) {
     if (!changed.program) return refuse(std::move(changed));
@@ -73,13 +64,13 @@ Accepted<void> LiveRun::adopt(Script changed, const KeptState& values, Continuat
     stage_ = painted->empty() ? 0 : static_cast<std::uint32_t>(painted->size() - 1);
     painted_ = std::move(*painted);
     painted_.resize(script->program->stages.size());
-    // The old simulation refers to the old script, so it must be destroyed first.
+    // The old simulation refers to the old script, so it must be destroyed before the script.
     simulation_ = std::move(*simulation);
     script_ = std::move(script);
     return {};
 }
 
-/// Without a script yet.
+/// Makes a run that has no script yet.
 Accepted<std::unique_ptr<LiveRun>> LiveRun::made(const Script& script,
                                                  const SimulationOptions& options) {
     std::unique_ptr<LiveRun> run(new LiveRun);
@@ -101,7 +92,7 @@ Accepted<std::unique_ptr<LiveRun>> LiveRun::begin(Script script, const Simulatio
     if (!run) return run;
     auto started = (*run)->adopt(std::move(script), {}, Continuation::changed, control);
     if (!started) return tl::unexpected(std::move(started.error()));
-    // From now on the cells are the present simulation's, as long as they stay the same.
+    // As long as the model stays the same, its cells now come from the present simulation.
     (*run)->options_.known_model = nullptr;
     return run;
 }
@@ -237,6 +228,7 @@ Accepted<void> LiveRun::make(const Change& change, const KeptState& values, RunC
     if (const auto* text = std::get_if<SetText>(&change)) return make(*text, values, control);
     if (const auto* number = std::get_if<SetNumber>(&change)) return make(*number, values, control);
     if (const auto* paint = std::get_if<Paint>(&change)) return make(*paint);
+    if (const auto* set = std::get_if<SetValues>(&change)) return make(*set);
     return make(std::get<NextStage>(change), control);
 }
 
@@ -250,52 +242,6 @@ Accepted<void> LiveRun::make(const SetText& change, const KeptState& values, Run
 Accepted<void> LiveRun::make(const SetNumber& change, const KeptState& values,
                              RunControl& control) {
     return adopt(with_number(*script_, change), values, Continuation::changed, control);
-}
-
-Accepted<void> LiveRun::make(const Paint& change) {
-    const Program& program = *script_->program;
-    const System& system = program.system_of(stage_);
-    const std::optional<ItemId> item = find_item(system, change.item);
-    const Stage& stage = program.stages[stage_];
-    const bool removes = system.cells && change.item == "remove";
-    const bool is_hidden = item && system.cells && system.cells->has_component(*item);
-    if (!removes && (!item || *item == system.speed_item() || is_hidden)) {
-        return refuse(fmt::format("stage '{}' has nothing called '{}' that can be painted",
-                                  stage.name, change.item),
-                      system.cells ? "species, parameters, 'r', 'age' and 'frozen' can be; "
-                                     "'remove' takes cells away"
-                                   : "species, parameters and 'frozen' can be");
-    }
-    if (!removes && !system.is_species(*item) && stage.uniform[*item]) {
-        return refuse(fmt::format("'{}' is one number for all cells", change.item),
-                      fmt::format("'{0}: {0} + 0*x' in the stage gives each cell its own",
-                                  change.item));
-    }
-    Diagnostics errors;
-    const std::optional<Formula> formula = number("<paint>", change.expression, errors);
-    if (!formula) {
-        Refusal refused;
-        refused.diagnostics = std::move(errors);
-        refused.sources = script_->sources;
-        return tl::unexpected(std::move(refused));
-    }
-    Field values = std::move(simulation_->evaluate(*formula, stage_)[0]);
-    const auto& mask = simulation_->domain().mask;
-    if (mask && !system.cells) values = with_outside(values, *mask, 0);
-    const Tissue* const tissue = state().tissue.get();
-    if (tissue != nullptr ? has_not_finite(values, *tissue)
-                          : first_not_finite(values).has_value()) {
-        return refuse(fmt::format("'{}' would not be finite in every cell", change.item));
-    }
-    std::size_t left = 1;
-    if (!removes) values = in_cells_of(*simulation_, stage_, *item, std::move(values));
-    simulation_->change_stage(stage_, [&](StageState& changed) {
-        if (removes) left = remove_cells(*changed.tissue, values);
-        else set_item(changed, system, *item, std::move(values));
-    });
-    if (left == 0) return refuse("this takes all cells", "at least one must stay");
-    painted_[stage_].insert(change.item);
-    return {};
 }
 
 std::optional<Formula> LiveRun::number(const std::string& name, const std::string& expression,
@@ -323,15 +269,15 @@ Accepted<void> LiveRun::make(const NextStage&, RunControl& control) {
 }
 
 void LiveRun::add_to_log(const Change& change, RunPlace at) {
-    // Of several values of one number at one step only the last counts, since a slider gives many.
-    // Not after strokes: a uniform number drops painted values for good. Not in a stage of crawling
-    // cells either: a number that changes and changes back replaces their own values.
+    // A slider sets the same number many times. Of several values at the same step only the last
+    // counts, and only that is logged. There are two exceptions. After strokes all are logged,
+    // because a uniform number removes painted values for good. In a stage of crawling cells all
+    // are logged, because a number that changes and changes back replaces the cells' own values.
     const bool has_strokes =
-        std::any_of(log_.changes.begin(), log_.changes.end(), [](const auto& logged) {
-            return std::holds_alternative<Paint>(logged->change);
-        });
+        std::any_of(log_.changes.begin(), log_.changes.end(),
+                    [](const auto& logged) { return is_stroke(logged->change); });
     const auto* number = std::get_if<SetNumber>(&change);
-    if (number != nullptr && !has_strokes && !state().tissue && !log_.changes.empty()) {
+    if (number != nullptr && !has_strokes && state().tissue() == nullptr && !log_.changes.empty()) {
         const LoggedChange& last = *log_.changes.back();
         const auto* before = std::get_if<SetNumber>(&last.change);
         if (last.at == at && before != nullptr && before->name == number->name) {
@@ -346,11 +292,11 @@ Accepted<void> LiveRun::apply(const Change& change, RunControl& control, bool jo
         return refuse("the log of this session is full of changes",
                       "save the script or the values, and begin a session with them");
     }
-    if (const auto* text = std::get_if<SetText>(&change)) {
-        if (texts_of(log_) + text->text.size() > most_texts) {
-            return refuse("the log of this session is full of texts",
-                          "save the script, and begin a session with it");
-        }
+    const std::size_t bytes = bytes_of(change);
+    const bool is_too_large = bytes > 0 && bytes_of(log_) + bytes > most_texts;
+    if (is_too_large && std::holds_alternative<SetText>(change)) {
+        return refuse("the log of this session is full of texts",
+                      "save the script, and begin a session with it");
     }
     const bool is_remembered = !joins_last || past_.empty();
     std::optional<Moment> before;
@@ -358,7 +304,7 @@ Accepted<void> LiveRun::apply(const Change& change, RunControl& control, bool jo
     if (is_remembered || is_of_script(change)) before = present();
     const RunPlace at = place();
     if (std::holds_alternative<NextStage>(change) && control.checks_later && !is_over()) {
-        // Checks that would happen at the end of the stage.
+        // Makes the checks that are due at the end of the stage.
         control.checks_later = false;
         const auto good = check(control);
         control.checks_later = true;
@@ -368,8 +314,11 @@ Accepted<void> LiveRun::apply(const Change& change, RunControl& control, bool jo
         return made;
     }
     if (place() == RunPlace() && at != RunPlace()) {
-        // The run began anew, so everything before no longer matters.
+        // The run has begun anew, so the log up to here is no longer needed.
         log_ = {script_->name, script_->text, script_->overrides, {}, {}};
+    } else if (is_too_large) {
+        log_ = {script_->name, script_->text, script_->overrides, {}, {}};
+        is_resumed_ = true;
     } else {
         add_to_log(change, at);
     }

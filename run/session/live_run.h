@@ -1,5 +1,5 @@
-// A cascade that runs and changes while it runs: the class behind the prompt, the page and the
-// public library.
+// A cascade that can be changed while it runs. The prompt, the page and the public library
+// are built on this class.
 #pragma once
 
 #include "core/run_control.h"
@@ -20,102 +20,112 @@
 
 namespace cascade {
 
-/// What a caller wants to know while steps are taken. Functions may be empty.
+/// Functions to be called while steps are taken. They may be empty.
 struct Watching {
-    std::function<void()> observe;  ///< At multiples of `every`, as Simulation::advance_stage().
+    /// Called at multiples of `every`. See Simulation::advance_stage().
+    std::function<void()> observe;
     std::int64_t every = 0;
     std::function<void(std::uint32_t stage)> stage_ended;
-    /// Begin the next stage if the last step of a call has ended one.
+    /// Whether the next stage begins if the last step of a call has ended a stage.
     bool begins_next = false;
 };
 
-/// Owns a script and its simulation. Logs every change with its step, so that the log, played
-/// again, gives the same bits. Changes can be undone. Not thread-safe, but a RunControl may cancel
-/// long work from any thread.
+/// Owns a script and its simulation. Logs every change with the step at which it was made.
+/// Repeating the log gives the same result, bit for bit. Changes can be undone. Only one thread may
+/// use this object at a time, but any thread may cancel long work through the RunControl.
 class LiveRun {
 public:
-    /// Starts the first stage of a checked script. Refused if there is none.
+    /// Starts the first stage of a checked script. Refused if the script has no stage.
     static Accepted<std::unique_ptr<LiveRun>> begin(Script script, const SimulationOptions& options,
                                                     RunControl& control);
-    /// Continues from values that `restore` gives a simulation of the script, such as a saved run.
+    /// Starts from the values that `restore` sets in a simulation of the script, for example
+    /// those of a saved run.
     static Accepted<std::unique_ptr<LiveRun>> resume(
         Script script, const SimulationOptions& options, RunControl& control,
         const std::function<Result<void>(const Script&, Simulation&)>& restore);
-    /// Plays a session again up to its end. Searches `folder` for the files of its script.
+    /// Repeats a session from beginning to end. Files that its script names are searched in
+    /// `folder`.
     static Accepted<std::unique_ptr<LiveRun>> play(const SessionLog& log,
                                                    const std::filesystem::path& folder,
                                                    const SimulationOptions& options,
                                                    RunControl& control);
 
     const Script& script() const { return *script_; }
-    /// For painters, which add their expressions to the sources of the script.
+    /// The script of the run. Painters add their expressions to its sources.
     Script& script() { return *script_; }
     const Simulation& simulation() const { return *simulation_; }
     RunPlace place() const { return {stage_, state().steps}; }
-    /// Whether every stage has ended.
+    /// Whether all stages have ended.
     bool is_over() const;
-    /// Whether it began with the values of a saved run. Then its log alone does not grow it again.
+    /// Whether the log alone cannot reproduce this run, because the run began with the values of a
+    /// saved run, or because the log would have needed more than `most_texts` bytes for values.
     bool is_resumed() const { return is_resumed_; }
-    /// All values, from which go_on() continues.
+    /// All values that go_on() needs to continue from this moment.
     KeptState values() const { return keep(*simulation_, painted_); }
 
-    /// Takes up to `count` steps, from stage to stage. `stopped`: all of them were taken.
-    /// `finished`: the last stage has ended. Fails if values are not finite, and returns to the
-    /// last step at which they were.
+    /// Takes up to `count` steps, also across the ends of stages. Returns `stopped` if all of them
+    /// were taken, and `finished` if the last stage has ended. If values are not finite, fails and
+    /// returns to the last step at which they were finite.
     Result<StageEnd> advance(std::int64_t count, RunControl& control,
                              const Watching& watching = {});
 
-    /// Checks that all values of the present step are finite. Otherwise fails as advance() does.
-    /// Matters after calls with RunControl::checks_later.
+    /// Checks whether all values of the present step are finite. If not, fails like advance(). Must
+    /// be called after calls of advance() with RunControl::checks_later.
     Result<void> check(RunControl& control);
 
     /// Makes a change at the present step. A refused change has no effect. With `joins_last`,
-    /// undo() reverts it together with the change before, as the parts of one stroke or of one move
-    /// of a slider. A change of the domain's cells restarts the run.
+    /// undo() reverts this change together with the previous one, because both are parts of one
+    /// stroke or of one movement of a slider. Changing the domain's cells restarts the run.
     Accepted<void> apply(const Change& change, RunControl& control, bool joins_last = false);
 
-    /// The checked expression of a number over the state of the current stage. Null, with errors,
-    /// if it is wrong. `name` represents its text in messages.
+    /// Checks an expression whose value is a number, in the state of the current stage. If it is
+    /// invalid, the result is empty and messages are added to `errors`. They call the expression
+    /// `name`.
     std::optional<Formula> number(const std::string& name, const std::string& expression,
                                   Diagnostics& errors);
 
-    /// Goes to the start of a stage. Going back leaves texts and numbers unchanged and reverts
-    /// strokes made since. Going on ends the stages before it in their present state.
+    /// Goes to the start of a stage. Going back undoes later strokes, but not changes of the text
+    /// and of numbers. Going forward ends all stages before it in their present state.
     Accepted<void> go_to(std::uint32_t stage, RunControl& control);
 
-    /// Goes back to the moment before the last change, or forward again. Refused if there is none.
-    /// Values from many changes ago are grown again.
+    /// Goes back to the moment before the last change, or forward again. Refused if there is no
+    /// such moment. If the values at that moment are no longer stored, they are computed again.
     Accepted<void> undo(RunControl& control);
     Accepted<void> redo(RunControl& control);
     bool can_undo() const { return !past_.empty(); }
     bool can_redo() const { return !future_.empty(); }
 
-    /// All changes up to the present moment.
+    /// The script at the beginning and all changes up to the present moment.
     SessionLog log() const;
 
-    /// Called after every change, and with `is_step` after every advance(): with the log, whose end
-    /// is outdated, and the present moment.
+    /// Called after every change, and after every advance() with `is_step` set. Receives the log,
+    /// whose end is outdated, and the present moment.
     using Listener = std::function<void(const SessionLog& log, RunPlace now, bool is_step)>;
     void tell(Listener listener) { listener_ = std::move(listener); }
 
-    /// The most bytes of values kept for undo(), and of texts with logs. Older values are grown
-    /// again. Moments with older texts are forgotten.
+    /// Sets the most bytes of values that are stored for undo(), and the most bytes of texts and
+    /// logs. If values need more, the oldest are deleted and computed again when needed. If texts
+    /// need more, undo() can no longer return to the oldest moments.
     void set_undo_memory(std::size_t values, std::size_t texts = most_texts) {
         undo_memory_ = values;
         undo_texts_ = texts;
     }
 
-    /// The most bytes of texts in the log, and usually in the moments kept for undo(). A change of
-    /// the text that needs more is refused.
+    /// The most seconds for making the cells of the model that another text names. 0: no limit.
+    void limit_models(double seconds) { options_.model_seconds = seconds; }
+
+    /// The most bytes of texts and of values in the log, and by default of texts in the moments
+    /// stored for undo(). A change of the text is refused if it needs more. Values that need more
+    /// are set, but from then on is_resumed() is true.
     static constexpr std::size_t most_texts = std::size_t{256} << 20;
 
 private:
-    /// A moment to which undo() or redo() leads.
+    /// A moment to which undo() or redo() returns.
     struct Moment {
         SessionLog log;
         std::string text;
         Overrides overrides;
-        std::optional<KeptState> values;  ///< None: they are grown again.
+        std::optional<KeptState> values;  ///< If empty, the values must be computed again.
     };
 
     LiveRun() = default;
@@ -129,6 +139,15 @@ private:
     Accepted<void> make(const SetText& change, const KeptState& values, RunControl& control);
     Accepted<void> make(const SetNumber& change, const KeptState& values, RunControl& control);
     Accepted<void> make(const Paint& change);
+    Accepted<void> make(const SetValues& change);
+    Accepted<ItemId> painted_item(const std::string& name, const char* paintable) const;
+    Accepted<Field> painted_values(const Paint& change);
+    Accepted<Field> painted_values(const SetValues& change);
+    using StrokeValues = std::function<Accepted<Field>()>;
+    Accepted<void> paint(const std::string& name, const StrokeValues& values);
+    Accepted<void> paint_fields(const std::string& name, const StrokeValues& values);
+    Accepted<void> paint_cells(const std::string& name, const StrokeValues& values);
+    void give(const std::string& name, ItemId item, Field values);
     Accepted<void> make(const NextStage& change, RunControl& control);
     Result<StageEnd> take_steps(std::int64_t count, RunControl& control, const Watching& watching);
     void tell_of(bool is_step) const;
@@ -142,12 +161,12 @@ private:
     void forget_old_values();
     void add_to_log(const Change& change, RunPlace at);
 
-    SimulationOptions options_;  ///< Including the stepper of all simulations.
+    SimulationOptions options_;  ///< Includes the stepper that all simulations share.
     std::unique_ptr<Script> script_;
     std::unique_ptr<Simulation> simulation_;  ///< Refers to *script_.
     std::uint32_t stage_ = 0;
     bool is_resumed_ = false;
-    std::vector<PaintedNames> painted_;  ///< By stage.
+    std::vector<PaintedNames> painted_;  ///< One for each stage.
     SessionLog log_;                     ///< Its end may be outdated.
     Listener listener_;
     std::vector<Moment> past_, future_;

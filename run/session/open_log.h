@@ -1,5 +1,5 @@
-// The log of an ongoing session, as lines that are only appended, so that a file of them holds the
-// session however the program ends.
+// Writes the log of a session that has not ended. Lines are only appended to its file, so that the
+// file contains the session even if the program is killed.
 #pragma once
 
 #include "run/session/session_log.h"
@@ -11,24 +11,25 @@
 
 namespace cascade {
 
-/// Knows the lines written so far. Undone changes stay in them: a line tells how many of the
-/// changes above are kept.
+/// Stores which lines have been written so far. Lines of undone changes remain in the file, and a
+/// later line says how many of the changes before it are valid.
 class OpenLog {
 public:
     struct Lines {
-        bool replaces_all = false;  ///< The text is the whole log, not an addition.
-        std::string text;           ///< Empty if nothing has happened.
+        bool replaces_all = false;  ///< Whether `text` is the whole log, rather than an addition.
+        std::string text;           ///< Empty if nothing has changed.
     };
 
-    /// The lines since the last call: the log is now `log`, and the run is at `now`.
+    /// The lines to write since the last call. `log` is the present log, and `now` the present
+    /// moment.
     Lines lines(const SessionLog& log, RunPlace now);
-    /// Makes the next lines() the whole log.
+    /// Makes the next call of lines() return the whole log.
     void begin_again() { has_begun_ = false; }
 
 private:
     bool has_begun_ = false;
     SessionLog written_;
-    std::optional<RunPlace> at_;  ///< The last moment written.
+    std::optional<RunPlace> at_;  ///< The last moment that was written.
 };
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Messages about a text come before a failure.
+// If a request is refused, the messages about its text are printed before the error.
 #include "run/session/refusal.h"
 
 #include <fmt/format.h>
@@ -39,7 +39,7 @@ tl::unexpected<Refusal> refuse(Script script, std::optional<Failure> failure) {
     Refusal refused;
     refused.diagnostics = std::move(script.diagnostics);
     refused.sources = std::move(script.sources);
-    // The messages say all that the failure would.
+    // The messages already say everything that the failure would.
     if (!refused.diagnostics.has_errors()) refused.failure = std::move(failure);
     return tl::unexpected(std::move(refused));
 }

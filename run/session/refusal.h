@@ -1,4 +1,4 @@
-// Why a running cascade refuses what it is asked for.
+// The reasons for which a running cascade refuses a request.
 #pragma once
 
 #include "core/diagnostics.h"
@@ -10,13 +10,13 @@
 
 namespace cascade {
 
-/// Why a change was refused: messages about a text, or a failure, or both.
+/// Why a change was refused: messages about a text, a failure, or both.
 struct Refusal {
     Diagnostics diagnostics;
-    Sources sources;  ///< Of the diagnostics.
+    Sources sources;  ///< The sources of the diagnostics.
     std::optional<Failure> failure;
 
-    /// All of it as text, as the command line draws it.
+    /// All messages as text, as the command line prints them.
     std::string messages(bool colour) const;
     /// The failure, or else the first error without its place.
     Failure in_brief() const;
@@ -27,7 +27,8 @@ using Accepted = tl::expected<T, Refusal>;
 
 tl::unexpected<Refusal> refuse(Failure failure);
 tl::unexpected<Refusal> refuse(std::string message, std::string hint = "");
-/// The errors of a script that is not used, without its warnings; the failure if it has none.
+/// Refuses a script with its errors, but without its warnings. Without errors, refuses it with
+/// `failure`.
 tl::unexpected<Refusal> refuse(Script script, std::optional<Failure> failure = {});
 
 }  // namespace cascade

@@ -1,4 +1,5 @@
-// The thread of a session: it runs queued commands, takes turns, and keeps the newest snapshot.
+// The thread of a session. It executes queued commands, takes turns, and stores the newest
+// snapshot.
 #include "run/session/session.h"
 
 #include <condition_variable>
@@ -20,9 +21,9 @@ struct Session::Implementation {
         thread = std::thread([this] { work(); });
     }
 
-    Turns turns;  ///< For the session's thread, but any thread may cancel.
+    Turns turns;  ///< Used by the session's thread, but any thread may cancel.
 
-    // Shared with other threads.
+    // The members below are shared with other threads.
     std::mutex mutex;
     std::condition_variable has_task, has_snapshot;
     std::deque<Task> tasks;
@@ -53,7 +54,7 @@ void Session::Implementation::work() {
         if (!tasks.empty()) {
             Task task = std::move(tasks.front());
             tasks.pop_front();
-            // A cancellation has ended earlier work.
+            // A cancellation has ended only earlier work.
             turns.control().cancel = false;
             lock.unlock();
             obey(std::move(task));
@@ -76,7 +77,7 @@ void Session::Implementation::obey(Task task) {
         return watcher;
     }();
     bool has_told = false;
-    // Only now: steps are as fast as without it.
+    // Reports are set up only now, because they would make steps slower.
     if (tell) {
         turns.control().report = [&](const Progress& progress) {
             if (progress.doing.empty()) return;

@@ -1,4 +1,4 @@
-// A live run in its own thread: commands in, the newest snapshot out.
+// Runs a LiveRun in its own thread. Commands go in, and the newest snapshot comes out.
 #pragma once
 
 #include "run/session/turns.h"
@@ -10,37 +10,41 @@
 
 namespace cascade {
 
-/// Runs Turns. Every function may be called from any thread, and none waits for steps.
+/// Runs Turns in a thread. Every function may be called from any thread. None waits for steps.
 class Session {
 public:
-    /// Starts paused. Ignores `options.control`. `control` is for making the cells of a model.
+    /// Starts a paused session. Ignores `options.control`. `control` serves only to make
+    /// the cells of a model.
     static Accepted<std::unique_ptr<Session>> begin(Script script, const SimulationOptions& options,
                                                     RunControl& control);
-    /// Takes a run that has begun, paused.
+    /// Takes over a run that has begun, and pauses it.
     explicit Session(std::unique_ptr<LiveRun> run);
     /// Stops at the next complete step.
     ~Session();
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
 
-    /// Queues a command. `done` is called in the session's thread with its result. It may be empty.
+    /// Queues a command. `done`, which may be empty, is called with the result in the session's
+    /// thread.
     void post(SessionCommand command, std::function<void(const Accepted<void>&)> done = {});
 
-    /// Calls a function in the session's thread between two steps: to read values, to save, to get
-    /// the log. It must not change the run.
+    /// Calls a function in the session's thread between two steps, for example to read values, to
+    /// save, or to get the log. It must not change the run.
     void ask(std::function<void(LiveRun&)> question);
 
-    /// Gets, in the session's thread, what a command that takes long is doing, such as spreading
-    /// the cells of a model, and a Progress of nothing after it.
+    /// Sets a function that is called in the session's thread during commands that take
+    /// long, such as spreading the cells of a model. Each of these commands ends with a call
+    /// with an empty Progress.
     void watch(std::function<void(const Progress&)> watcher);
 
-    /// Interrupts long work, such as values that are grown again, and pauses.
+    /// Interrupts long work, such as computing values again, and pauses.
     void cancel();
 
-    /// The newest snapshot. There is always one. A session makes snapshots only as fast as they are
-    /// requested, at most about 60 a second and never for more than a small part of its time.
+    /// The newest snapshot, of which there is always one. Snapshots are made only when they
+    /// are requested, at most about 60 times a second and never for more than a small
+    /// fraction of the time.
     std::shared_ptr<const Snapshot> newest();
-    /// Waits for one with a larger number. Null if there is none within the time.
+    /// Waits for a snapshot with a larger number. Null if there is none within the time.
     std::shared_ptr<const Snapshot> newer_than(std::uint64_t number,
                                                std::chrono::milliseconds patience);
 

@@ -1,12 +1,15 @@
-// One line per change. A script of several lines follows a line with their number.
+// Each change is one line. A script with several lines follows a line that gives their number.
 #include "run/session/session_log.h"
 
+#include "core/base64.h"
 #include "run/script/embedded_script.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <charconv>
+#include <cstring>
 #include <optional>
 #include <utility>
 
@@ -15,7 +18,7 @@ namespace {
 
 constexpr std::string_view first_line = "cascade session 1";
 
-/// Line breaks of an expression become blanks.
+/// Replaces the line breaks of an expression with blanks.
 std::string in_one_line(std::string text) {
     std::replace(text.begin(), text.end(), '\n', ' ');
     std::replace(text.begin(), text.end(), '\r', ' ');
@@ -25,6 +28,46 @@ std::string in_one_line(std::string text) {
 std::string counted_lines(const std::string& text) {
     const auto breaks = std::count(text.begin(), text.end(), '\n');
     return fmt::format("{}\n{}\n", breaks + 1, text);
+}
+
+/// The bytes of numbers, the least significant first, in base64.
+template <typename Number>
+std::string in_base64(const std::vector<double>& values) {
+    static_assert(std::endian::native == std::endian::little);
+    std::string bytes(values.size() * sizeof(Number), '\0');
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        const auto number = static_cast<Number>(values[k]);
+        std::memcpy(bytes.data() + k * sizeof number, &number, sizeof number);
+    }
+    return base64(bytes);
+}
+template <typename Number>
+std::optional<std::vector<double>> out_of_base64(std::string_view text) {
+    const auto bytes = from_base64(text);
+    if (!bytes || bytes->size() % sizeof(Number) != 0) return std::nullopt;
+    std::vector<double> values(bytes->size() / sizeof(Number));
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        Number number;
+        std::memcpy(&number, bytes->data() + k * sizeof number, sizeof number);
+        values[k] = number;
+    }
+    return values;
+}
+
+constexpr std::string_view binary32 = "f32 ", binary64 = "f64 ";
+
+/// Prints numbers in binary32 if this loses nothing.
+std::string print_values(const std::vector<double>& values) {
+    const bool is_single = std::all_of(values.begin(), values.end(), [](double value) {
+        return static_cast<double>(static_cast<float>(value)) == value || value != value;
+    });
+    return is_single ? std::string(binary32).append(in_base64<float>(values))
+                     : std::string(binary64).append(in_base64<double>(values));
+}
+std::optional<std::vector<double>> read_values(std::string_view text) {
+    if (text.starts_with(binary32)) return out_of_base64<float>(text.substr(binary32.size()));
+    if (text.starts_with(binary64)) return out_of_base64<double>(text.substr(binary64.size()));
+    return std::nullopt;
 }
 
 std::string print(const Change& change) {
@@ -37,6 +80,9 @@ std::string print(const Change& change) {
     if (const auto* paint = std::get_if<Paint>(&change)) {
         return fmt::format("paint {}={}\n", paint->item, in_one_line(paint->expression));
     }
+    if (const auto* set = std::get_if<SetValues>(&change)) {
+        return fmt::format("values {}={}\n", set->item, print_values(set->values));
+    }
     return "next\n";
 }
 
@@ -47,7 +93,7 @@ public:
 
     bool at_end() const { return rest_.empty(); }
 
-    /// Drops an unterminated last line.
+    /// Drops the last line if it has no line break.
     void leave_out_cut_line() { rest_ = rest_.substr(0, rest_.rfind('\n') + 1); }
 
     std::string_view line() {
@@ -58,7 +104,7 @@ public:
         return line;
     }
 
-    /// As many lines as `count` says, without the last line break.
+    /// Reads `count` lines, and returns them without the last line break.
     std::optional<std::string> lines(std::string_view count) {
         const auto wanted = whole(count);
         if (!wanted || *wanted < 1) return std::nullopt;
@@ -78,7 +124,7 @@ public:
         return number < 0 ? std::nullopt : std::optional(number);
     }
 
-    /// "1 250": the stage, from 1, and the number of steps.
+    /// Reads a moment, "1 250": the number of the stage, from 1, and the number of steps.
     static std::optional<RunPlace> place(std::string_view words) {
         const std::size_t blank = words.find(' ');
         if (blank == std::string_view::npos) return std::nullopt;
@@ -98,21 +144,21 @@ private:
     int number_ = 0;
 };
 
-/// The word before the first blank, and the text after it.
+/// Splits a line into the word before the first blank and the text after it.
 std::pair<std::string_view, std::string_view> split(std::string_view line) {
     const std::size_t blank = line.find(' ');
     if (blank == std::string_view::npos) return {line, {}};
     return {line.substr(0, blank), line.substr(blank + 1)};
 }
 
-/// "NAME=EXPRESSION" in two parts.
+/// Splits "NAME=EXPRESSION" at the first "=".
 std::optional<std::pair<std::string, std::string>> assignment(std::string_view words) {
     const std::size_t equals = words.find('=');
     if (equals == std::string_view::npos || equals == 0) return std::nullopt;
     return std::pair(std::string(words.substr(0, equals)), std::string(words.substr(equals + 1)));
 }
 
-/// The change in a line. Empty if the line is none.
+/// Reads the change in a line. Empty if the line contains none.
 std::optional<Change> read_change(std::string_view word, std::string_view rest, LogReader& reader) {
     if (word == "next" && rest.empty()) return NextStage{};
     if (word == "text") {
@@ -123,6 +169,10 @@ std::optional<Change> read_change(std::string_view word, std::string_view rest, 
     const auto parts = assignment(rest);
     if (parts && word == "set") return SetNumber{parts->first, parts->second};
     if (parts && word == "paint") return Paint{parts->first, parts->second};
+    if (parts && word == "values") {
+        auto values = read_values(parts->second);
+        if (values) return SetValues{parts->first, *std::move(values)};
+    }
     return std::nullopt;
 }
 
@@ -193,7 +243,7 @@ Result<SessionLog> parse_session_log(std::string_view text) {
         if (word == "keep" && is_open) {
             const auto kept = LogReader::whole(rest);
             if (!kept || static_cast<std::size_t>(*kept) > log.changes.size())
-                return reader.wrong("there are not so many changes above");
+                return reader.wrong("it undoes more changes than there are above it");
             log.changes.resize(static_cast<std::size_t>(*kept));
             continue;
         }
@@ -208,7 +258,7 @@ Result<SessionLog> parse_session_log(std::string_view text) {
         }
         auto change = read_change(word, rest, reader);
         if (!change && is_open && word == "text" && reader.at_end()) break;
-        if (!change) return reader.wrong("it is no change of a session");
+        if (!change) return reader.wrong("it is not a change of a session");
         if (log.changes.size() == most_logged_changes)
             return reader.wrong("there are too many changes");
         log.changes.push_back(

@@ -1,4 +1,4 @@
-// The log of a session: a script, and all changes made while it ran. Played again, it grows the
+// The log of a session: its first script, and all changes made while it ran. Playing it gives the
 // same pattern, bit for bit. spec/session.md defines its text.
 #pragma once
 
@@ -17,19 +17,20 @@
 namespace cascade {
 
 struct SessionLog {
-    std::string name = "session";  ///< The script's name, for messages.
+    std::string name = "session";  ///< The name of the script, for messages.
     std::string text;              ///< The script at the beginning of the session.
     Overrides overrides;           ///< The script's options.
     std::vector<std::shared_ptr<const LoggedChange>> changes;  ///< In the order of their moments.
-    RunPlace end;                                              ///< The moment reached.
+    /// The moment at which the session ends.
+    RunPlace end;
 };
 
-/// The log as text for parse_session_log().
+/// Prints the log as text, for parse_session_log().
 std::string print_session_log(const SessionLog& log);
 
-/// The parts of that text, which a growing log (open_log.h) prints one by one: the lines above the
-/// changes; the changes from number `first` on; a line with a moment. `at` is the last moment that
-/// was printed, and is brought up to date.
+/// These print the parts of that text, from which open_log.h builds a growing log: the lines before
+/// the changes, the changes from number `first` on, and a line with a moment. `at` is the last
+/// moment that was printed, and is updated.
 std::string print_session_beginning(const SessionLog& log);
 std::string print_logged_changes(const SessionLog& log, std::size_t first,
                                  std::optional<RunPlace>& at);
@@ -40,11 +41,12 @@ inline constexpr std::size_t most_logged_changes = 250'000;
 /// The largest log that is read, in bytes.
 inline constexpr std::uint64_t largest_session_log = std::uint64_t{512} << 20;
 
-/// Fails, naming the line, on a text that neither print_session_log() nor OpenLog writes. An open
-/// log ends at its last moment. Truncated lines are dropped.
+/// Reads a text of print_session_log() or OpenLog. Fails with the number of the line on any
+/// other text. A log of OpenLog ends at the last moment that was written. An incomplete
+/// last line is dropped.
 Result<SessionLog> parse_session_log(std::string_view text);
 
-/// Whether a text begins like a log. Its first `longest_log_beginning` bytes are enough.
+/// Whether a text begins like a log. Its first `longest_log_beginning` bytes are enough to tell.
 bool is_session_log(std::string_view text);
 inline constexpr std::size_t longest_log_beginning = 64;
 

@@ -1,4 +1,4 @@
-// The session is one more text chunk beside those of a script.
+// The session is stored in a text chunk beside the chunks that hold the script.
 #include "run/session/session_picture.h"
 
 #include "core/enough_memory.h"
@@ -11,24 +11,13 @@
 #include <utility>
 
 namespace cascade {
-namespace {
-
-template <typename T>
-Accepted<T> refused(Failure failure) {
-    Refusal refusal;
-    refusal.failure = std::move(failure);
-    return tl::unexpected(std::move(refusal));
-}
-
-}  // namespace
-
 Accepted<Painter> make_painter(LiveRun& run, const PictureRequest& request) {
     Script& script = run.script();
     Diagnostics warnings = std::exchange(script.diagnostics, {});
     auto made = Painter::create(script, request);
     Diagnostics errors = std::exchange(script.diagnostics, std::move(warnings));
     if (made) return std::move(*made);
-    if (!errors.has_errors()) return refused<Painter>(made.error());
+    if (!errors.has_errors()) return refuse(made.error());
     Refusal refusal;
     refusal.diagnostics = std::move(errors);
     refusal.sources = script.sources;
@@ -45,12 +34,12 @@ Accepted<std::string> session_picture(LiveRun& run, const PictureRequest& reques
     auto painter = make_painter(run, request);
     if (!painter) return tl::unexpected(std::move(painter.error()));
     if (const auto fits = check_picture_size(run.script(), request); !fits) {
-        return refused<std::string>(fits.error());
+        return refuse(fits.error());
     }
     if (!painter->is_flat() && !RayCaster::is_available()) {
-        return refused<std::string>({"a page without the program draws no pictures of surfaces",
-                                     "'cascade view' does, and so does 'cascade run' with the "
-                                     "session or its script"});
+        return refuse("a page without the program draws no pictures of surfaces",
+                      "'cascade view' draws them, and 'cascade run' draws them from the "
+                      "session or its script");
     }
     const PngTexts texts = run.is_resumed() ? embed_script(run.script(), request)
                                             : embed_session(run.script(), request, run.log());
@@ -58,7 +47,7 @@ Accepted<std::string> session_picture(LiveRun& run, const PictureRequest& reques
         return encode_png(painter->image(painter->canvas(run.simulation())), request.png_depth(),
                           texts);
     });
-    if (!file) return refused<std::string>(file.error());
+    if (!file) return refuse(file.error());
     return std::move(*file);
 }
 

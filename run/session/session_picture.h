@@ -1,4 +1,4 @@
-// Pictures of a live run, which carry its session, and the session in such a picture.
+// Pictures of a live run that contain its session, and reading the session from such a picture.
 #pragma once
 
 #include "core/result.h"
@@ -12,21 +12,21 @@
 
 namespace cascade {
 
-/// A painter of a run. Refused with the errors of `request`. The warnings of the script stay
-/// unchanged.
+/// Makes a painter for a run. Refused with the errors of `request`. Does not add to the
+/// warnings of the script.
 Accepted<Painter> make_painter(LiveRun& run, const PictureRequest& request);
 
-/// The texts of embed_script(), and the session.
+/// The texts that embed_script() gives, and the session.
 PngTexts embed_session(const Script& script, const PictureRequest& request, const SessionLog& log);
 
-/// The picture of the present step as a PNG file in memory. It carries the present script and the
-/// session, from which the same picture can be drawn again. The log of a run that began with a
-/// saved run does not reproduce it, so its pictures carry only the script. Refused with the errors
-/// of `request`, or if the picture cannot be written.
+/// Draws the present step as a PNG file in memory. The file contains the present script and the
+/// session, from which the same picture can be drawn again. If the run began with a saved run, its
+/// log does not reproduce it, so the file contains only the script. Refused with the errors of
+/// `request`, or if the picture cannot be written.
 Accepted<std::string> session_picture(LiveRun& run, const PictureRequest& request);
 
-/// The session in a picture or a session file. Empty for other files. Fails, naming the file, if
-/// the session is invalid.
+/// Reads the session from a picture or a session file. Empty for other files. If the session is
+/// invalid, fails and names the file.
 Result<std::optional<SessionLog>> session_of(const LoadedFile& file);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// The work of a session in a turn, and the length of a turn.
+// Executes commands, and chooses the number of steps of a turn.
 #include "run/session/turns.h"
 
 #include "core/failure_line.h"
@@ -15,7 +15,7 @@
 namespace cascade {
 namespace {
 
-/// The cells themselves: for a volume a slice, even if its picture is a body.
+/// A picture of the cells themselves. A volume is shown as a slice even if its picture is a body.
 PictureRequest cells_of(std::string expression) {
     PictureRequest request = picture_of(std::move(expression));
     request.flat = true;
@@ -24,29 +24,45 @@ PictureRequest cells_of(std::string expression) {
 
 using Seconds = std::chrono::duration<double>;
 
-/// The approximate time of steps before the queue is checked.
+/// The approximate time of a turn.
 constexpr double turn_seconds = 0.015;
-/// A turn takes at least this many steps, unless that takes longer than longest_turn_seconds,
-/// because with fewer, taking several steps per pass through memory gains too little.
+/// A turn takes at least this many steps, unless they take longer than longest_turn_seconds. With
+/// fewer steps, taking several steps in one pass through memory would gain too little.
 constexpr std::int64_t least_steps = 32;
 constexpr double longest_turn_seconds = 0.2;
-/// Steps without any work take no time.
+/// Limits turns in which steps take no measurable time.
 constexpr double most_steps_of_turn = 1e9;
-/// The least time between snapshots, and their largest part of the time.
+/// The shortest time between snapshots, and the largest fraction of the time that they may take.
 constexpr double snapshot_seconds = 1.0 / 60;
 constexpr double part_of_snapshots = 0.02;
 constexpr std::size_t most_remarks = 20;
+
+/// Whether a command changes the pattern or goes to another moment.
+bool changes_pattern(const SessionCommand& command) {
+    return std::holds_alternative<MakeChange>(command) ||
+           std::holds_alternative<GoToStage>(command) || std::holds_alternative<Undo>(command) ||
+           std::holds_alternative<Redo>(command);
+}
 
 }  // namespace
 
 Turns::Turns(std::unique_ptr<LiveRun> run) : run_(std::move(run)) {
     control_.checks_later = true;
-    control_.warn = [this](const std::string& words) { remark(words); };
+    control_.warn = [this](const std::string& words) { remark(run_->place().stage, words); };
 }
 
 Accepted<void> Turns::obey(const SessionCommand& command) {
     const Script* const script = &run_->script();
+    std::vector<StageRemark> before = std::exchange(remarks_, {});
     Accepted<void> result = carry_out(command);
+    if (result && changes_pattern(command)) {
+        // The present stage and the stages after it will end again, perhaps in another way.
+        std::erase_if(before, [stage = run_->place().stage](const StageRemark& remark) {
+            return remark.stage >= stage;
+        });
+    }
+    const std::vector<StageRemark> added = std::exchange(remarks_, std::move(before));
+    for (const StageRemark& one : added) remark(one.stage, one.words);
     if (&run_->script() != script) ++script_number_;
     if (result) failure_.clear();
     has_changed_ = true;
@@ -59,7 +75,7 @@ Accepted<void> Turns::carry_out(const SessionCommand& command) {
     }
     if (const auto* go = std::get_if<GoToStage>(&command)) return run_->go_to(go->stage, control_);
     if (std::holds_alternative<Undo>(command)) {
-        // The user should see an undone state before it changes again.
+        // Pauses, so that the user sees the undone state before it changes again.
         is_going_on_ = false;
         return run_->undo(control_);
     }
@@ -99,7 +115,9 @@ void Turns::take() {
     const RunPlace before = run_->place();
     Watching watching;
     watching.stage_ended = [this](std::uint32_t stage) {
-        if (const auto words = remark_on(run_->simulation(), stage); !words.empty()) remark(words);
+        if (const auto words = remark_on(run_->simulation(), stage); !words.empty()) {
+            remark(stage, words);
+        }
     };
     const std::int64_t asked = steps_of_turn();
     const auto end = run_->advance(asked, control_, watching);
@@ -116,9 +134,9 @@ void Turns::take() {
     is_going_on_ = end && *end == StageEnd::stopped && steps_left_ != 0;
 }
 
-void Turns::remark(const std::string& words) {
+void Turns::remark(std::uint32_t stage, const std::string& words) {
     if (remarks_.size() == most_remarks) remarks_.erase(remarks_.begin());
-    remarks_.push_back(words);
+    remarks_.push_back({stage, words});
 }
 
 bool Turns::is_snapshot_due() const {
@@ -129,7 +147,7 @@ bool Turns::is_snapshot_due() const {
 Canvas Turns::canvas() {
     if (painted_script_ != &run_->script()) {
         auto made = make_painter(*run_, cells_of(shown_));
-        // The expression may have lost its meaning with the old script.
+        // After a change of the script the expression may be invalid.
         painter_ = made ? std::move(*made) : std::move(*make_painter(*run_, cells_of("")));
         painted_script_ = &run_->script();
     }
@@ -137,7 +155,8 @@ Canvas Turns::canvas() {
     return painter_->canvas(run_->simulation());
 }
 
-/// An unchanged surface keeps its number, through changes of numbers and texts.
+/// Gives a new surface a new number. An unchanged surface keeps its number when numbers or texts
+/// change.
 void Turns::look_at_surface(std::shared_ptr<const SurfaceMesh> body) {
     const bool is_same_body = (surface_ ? surface_->body : nullptr) == body;
     if (std::exchange(looked_at_, script_number_) == script_number_ && is_same_body) return;
@@ -171,7 +190,7 @@ std::shared_ptr<const Snapshot> Turns::snapshot() {
     made->can_undo = run_->can_undo();
     made->can_redo = run_->can_redo();
     made->failure = failure_;
-    made->remarks = remarks_;
+    for (const StageRemark& remark : remarks_) made->remarks.push_back(remark.words);
     const Simulation& simulation = run_->simulation();
     Canvas seen = canvas();
     made->fields = std::move(seen.fields);
@@ -182,7 +201,7 @@ std::shared_ptr<const Snapshot> Turns::snapshot() {
                                : nullptr);
     made->surface = surface_;
     if (seen.cells) {
-        // A function's surface is for fields: cells crawl on the plane of its parameters.
+        // The surface of a function is only for fields. Cells crawl on the plane of its parameters.
         if (surface_ && surface_->function) made->surface = nullptr;
         made->cells =
             std::make_shared<const ShownCells>(shown_cells(*seen.cells, made->surface.get()));
@@ -190,7 +209,9 @@ std::shared_ptr<const Snapshot> Turns::snapshot() {
     made->surface_number = made->surface ? surface_number_ : 0;
     has_changed_ = false;
     shown_at_ = Clock::now();
-    snapshot_cost_ = seconds_since(begun);
+    // A single snapshot is also slow if its thread had to wait for a processor.
+    const double cost = seconds_since(begun);
+    snapshot_cost_ = snapshot_cost_ > 0 ? std::min(cost, 2 * snapshot_cost_) : cost;
     return made;
 }
 

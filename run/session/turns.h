@@ -1,5 +1,6 @@
-// A live run in turns: commands in, a few steps at a time, snapshots out. A session takes its turns
-// in a thread. Without threads, as in a browser's worker, the caller takes them.
+// Makes a live run execute commands, take a few steps at a time, and make snapshots. A Session
+// calls these functions in a separate thread. Without threads, as in a browser's worker, the
+// caller does.
 #pragma once
 
 #include "core/run_control.h"
@@ -20,17 +21,18 @@
 namespace cascade {
 
 // clang-format off
-/// LiveRun::apply(): with `joins_last`, undone together with the change before.
+/// Calls LiveRun::apply(). If `joins_last` is true, the change is undone together with the previous
+/// one.
 struct MakeChange { Change change; bool joins_last = false; };
 struct GoToStage { std::uint32_t stage = 0; };
 struct Undo {};
 struct Redo {};
-struct GoOn {};                                  ///< Takes steps until told otherwise.
+struct GoOn {};                                  ///< Takes steps until another command stops them.
 struct Pause {};
-struct TakeSteps { std::int64_t count = 1; };    ///< Pauses after the steps.
-/// Sets the expression in snapshots. Empty: the script's own picture.
+struct TakeSteps { std::int64_t count = 1; };    ///< Pauses after this number of steps.
+/// Sets the expression shown in snapshots. If empty, snapshots show the script's own picture.
 struct Show { std::string expression; };
-/// Sets the slice of a volume in snapshots.
+/// Sets the slice shown in snapshots of a volume.
 struct ShowSlice { Slice slice; };
 // clang-format on
 
@@ -41,42 +43,45 @@ using SessionCommand =
 struct StageProgress {
     std::string name;
     std::int64_t steps = 0;
-    std::int64_t iterations = 0;  ///< The most steps of the stage.
+    std::int64_t iterations = 0;  ///< The largest number of steps of the stage.
     double t = 0;
-    double duration = 0;  ///< 0 if the stage ends by its iterations.
+    double duration = 0;  ///< 0 if the number of iterations ends the stage.
     bool has_begun = false;
     bool has_ended = false;
-    /// For a stage of crawling cells, when it has begun.
+    /// The numbers of cells, for a stage of crawling cells that has begun.
     std::optional<CellCounts> cells = {};
 };
 
-/// A moment of a session. Its reader may keep it.
+/// The state of a session at one moment, for display. Its reader may store it.
 struct Snapshot {
-    std::uint64_t number = 0;  ///< Snapshots count from 1.
-    std::uint64_t script = 0;  ///< Differs if and only if the script does.
+    std::uint64_t number = 0;  ///< The number of this snapshot, counted from 1.
+    std::uint64_t script = 0;  ///< Changes if and only if the script changes.
     bool is_going_on = false;  ///< Whether steps are being taken.
     RunPlace place;
     std::vector<StageProgress> stages;
-    double steps_per_second = 0;  ///< Recent. 0 while unknown.
+    double steps_per_second = 0;  ///< Measured recently. 0 while unknown.
     bool can_undo = false, can_redo = false;
-    std::string failure;               ///< Why the run stopped by itself. Empty if it has not.
-    std::vector<std::string> remarks;  ///< About ended stages, and warnings, newest last.
-    /// The values shown, in binary32: one field, or red, green and blue. A slice for a volume.
-    /// Outside of a mask they are NaN. The cells of a model are in their rows (ModelCells::order).
-    /// Crawling cells are in one row, in ascending order of their numbers.
+    std::string failure;  ///< Why the run stopped by itself. Empty if it did not.
+    /// Remarks on ended stages, and warnings. The newest come last.
+    std::vector<std::string> remarks;
+    /// The values to show, in binary32: one field for a number, or red, green and blue. For a
+    /// volume they are a slice. Values outside the mask are NaN. Cells of a model are in the order
+    /// in which memory stores them (SpreadCells::order). Crawling cells form one row, in ascending
+    /// order of their numbers.
     std::vector<Field> fields;
-    std::shared_ptr<const ShownCells> cells;       ///< Null where fields are shown.
-    Grid grid;                                     ///< The domain's.
-    Slice slice;                                   ///< The slice shown of a volume.
+    std::shared_ptr<const ShownCells> cells;       ///< Null if fields are shown.
+    Grid grid;                                     ///< The grid of the domain.
+    Slice slice;                                   ///< The slice of a volume that is shown.
     std::shared_ptr<const ModelCells> model;       ///< Null on grids.
     std::shared_ptr<const SurfaceSource> surface;  ///< Null if the domain is not a surface.
-    std::uint64_t surface_number = 0;              ///< Different for each surface. 0 for none.
+    /// A different number for each surface. 0 if there is none.
+    std::uint64_t surface_number = 0;
 };
 
-/// Not thread-safe, except that any thread may set `control().cancel`.
+/// Only one thread may use this object, except that any thread may set `control().cancel`.
 class Turns {
 public:
-    /// Starts paused.
+    /// The run is paused at first.
     explicit Turns(std::unique_ptr<LiveRun> run);
 
     LiveRun& run() { return *run_; }
@@ -86,32 +91,38 @@ public:
 
     /// Whether steps are to be taken.
     bool is_going_on() const { return is_going_on_; }
-    /// Takes steps for a few milliseconds: few enough that a command need not wait, and enough that
-    /// steps stay fast.
+    /// Takes steps for a few milliseconds. Commands need not wait longer than that, and shorter
+    /// turns would make steps slower.
     void take();
 
-    /// Whether anything has happened since the last snapshot.
+    /// Whether anything has changed since the last snapshot.
     bool has_changed() const { return has_changed_; }
-    /// Whether a snapshot would now cost only a small part of the time, and not come sooner than a
-    /// screen can show it.
+    /// Whether a snapshot should be made now. Snapshots must take only a small fraction of the
+    /// time, and must not be made more often than a screen can show them.
     bool is_snapshot_due() const;
     std::shared_ptr<const Snapshot> snapshot();
 
 private:
     using Clock = std::chrono::steady_clock;
 
+    /// A remark about a stage of the run.
+    struct StageRemark {
+        std::uint32_t stage;
+        std::string words;
+    };
+
     Accepted<void> carry_out(const SessionCommand& command);
     std::int64_t steps_of_turn() const;
-    void remark(const std::string& words);
+    void remark(std::uint32_t stage, const std::string& words);
     Canvas canvas();
     void look_at_surface(std::shared_ptr<const SurfaceMesh> body);
 
     std::unique_ptr<LiveRun> run_;
     RunControl control_;
     bool is_going_on_ = false;
-    std::optional<std::int64_t> steps_left_;  ///< For TakeSteps.
+    std::optional<std::int64_t> steps_left_;  ///< Set by TakeSteps.
     std::string failure_;
-    std::vector<std::string> remarks_;
+    std::vector<StageRemark> remarks_;
     double steps_per_second_ = 0;
     std::uint64_t script_number_ = 1;
     std::string shown_;  ///< The requested expression.
@@ -119,7 +130,7 @@ private:
     std::optional<Painter> painter_;
     std::shared_ptr<const SurfaceSource> surface_;
     std::uint64_t surface_number_ = 0;
-    std::uint64_t looked_at_ = 0;  ///< The script of this surface.
+    std::uint64_t looked_at_ = 0;  ///< The number of the script for which this surface was found.
     const Script* painted_script_ = nullptr;
     std::uint64_t snapshots_ = 0;
     Clock::time_point shown_at_;

@@ -1,4 +1,4 @@
-// The ways to run the kernels of steps.
+// The table of backends: the interpreter and the compilers that can run the kernels of steps.
 #pragma once
 
 #include "core/result.h"
@@ -13,30 +13,32 @@
 
 namespace cascade {
 
-/// What a backend is made with; one that has no use for an option ignores it.
+/// The options for making a backend. A backend ignores options that it cannot use.
 struct BackendOptions {
-    int lanes = 0;                     ///< Cells in a vector; 0 takes the host's number.
-    std::filesystem::path cache = {};  ///< Where compiled kernels are kept; empty: nowhere.
+    int lanes = 0;  ///< The number of cells in a vector. 0: as many as suit this machine.
+    /// The folder in which compiled kernels are stored. If empty, kernels are not stored.
+    std::filesystem::path cache = {};
 };
 
 /// A row of the table of backends.
 struct BackendKind {
-    std::string_view name;      ///< As --backend takes it.
-    std::string_view meaning;   ///< For its help.
-    bool is_native;             ///< Compiles kernels.
-    bool is_available;          ///< In this build. Where it is not, `make` fails and says why.
-    std::string (*describe)();  ///< With versions, for --version.
+    std::string_view name;     ///< The value of --backend that selects this row.
+    std::string_view meaning;  ///< A description for the help of --backend.
+    bool is_native;            ///< Whether the backend compiles kernels.
+    /// Whether the backend is part of this build. If not, `make` fails with the reason.
+    bool is_available;
+    std::string (*describe)();  ///< Returns the name and versions, for --version.
     Result<std::unique_ptr<Backend>> (*make)(const BackendOptions& options);
 };
 
-/// All of them, the fastest first. The last one is always available.
+/// All rows of the table, the fastest backend first. The last backend is available in every build.
 std::span<const BackendKind> backends();
-/// The backend of this name, which is in the table.
+/// The row with this name, which must be in the table.
 const BackendKind& backend_named(std::string_view name);
 bool is_available(std::string_view name);
-/// The names of those that are available, in the order of the table.
+/// The names of the available backends, in the order of the table.
 std::vector<std::string> available_backends();
-/// The first of them.
+/// The first available backend of the table.
 const BackendKind& fastest_backend();
 
 }  // namespace cascade

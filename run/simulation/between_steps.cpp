@@ -1,5 +1,5 @@
-// Keeps a copy of the species where the next step may pass a moment, and evaluates rates only if it
-// does.
+// Copies the species before a step in which a moment may be observed. Evaluates rates only for
+// steps in which a moment is observed.
 #include "run/simulation/between_steps.h"
 
 #include "core/check.h"
@@ -14,10 +14,11 @@ namespace cascade {
 
 namespace {
 
-/// The rounding error of sums of time, in steps.
+/// The largest rounding error of a sum of step lengths, as a fraction of one step.
 constexpr double rounding_of_moments = 1e-6;
 
-/// What a point of the curve takes of the values and of the step-long slopes at both ends.
+/// The weights of the values and slopes at both ends of a step in Hermite's cubic, at the fraction
+/// `s` of the step. Slopes are multiplied by the length of the step.
 struct HermiteWeights {
     double before, after, slope_before, slope_after;
 
@@ -28,7 +29,8 @@ struct HermiteWeights {
           slope_after(-s * s * (1 - s)) {}
 };
 
-/// Replaces `after` by `value(before, after, row, cell)` in every cell in which the two differ.
+/// Replaces `after` by `value(before, after, row, cell)` in every cell where `before` and `after`
+/// differ.
 template <typename Number, typename Value>
 void read_between(const Plane<Number>& before, Plane<Number>& after, const Value& value) {
     const PlaneLayout& layout = after.layout();
@@ -76,14 +78,14 @@ void BetweenSteps::pass(const NextMoment& next, const std::function<void()>& obs
     keep_before(moment);
 }
 
-/// Steps of chosen length may be of any.
+/// A solver that chooses its steps may take a step of any length, so it may pass any finite moment.
 void BetweenSteps::keep_before(double next_moment) {
     const bool may_follow = view_.stage().time.chooses_steps()
                                 ? std::isfinite(next_moment)
                                 : next_moment - state_.t < 1.01 * state_.time.clock.step;
     if (!may_follow) return;
     before_.emplace(Moment{state_.steps, state_.t, {}});
-    for (const Field& field : state_.species) before_->species.push_back(field.clone());
+    for (const Field& field : state_.species()) before_->species.push_back(field.clone());
 }
 
 std::vector<Field> BetweenSteps::rates_before() {
@@ -109,8 +111,8 @@ std::vector<Field> BetweenSteps::at(double t) {
     }
     const HermiteWeights weights(s);
     std::vector<Field> read;
-    for (std::size_t k = 0; k < state_.species.size(); ++k) {
-        read.push_back(state_.species[k].clone());
+    for (std::size_t k = 0; k < state_.species().size(); ++k) {
+        read.push_back(state_.species()[k].clone());
         read.back().visit([&](auto& plane) {
             using Number = std::remove_pointer_t<decltype(plane.origin())>;
             const auto& before = before_->species[k].plane<Number>();

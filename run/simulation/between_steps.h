@@ -1,4 +1,5 @@
-// The state of a stage between two complete steps, for observers. Steps do not depend on it.
+// Interpolates the state of a stage between two complete steps, for pictures and logs. Steps never
+// read the interpolated state.
 #pragma once
 
 #include "core/plane.h"
@@ -14,17 +15,19 @@
 
 namespace cascade {
 
-/// Between the ends of a step, each value lies on the cubic curve that has the values and the rates
-/// of both ends (Hermite's): its error is of fourth order in the length of the step. If rates draw
-/// random numbers, it lies on a straight line. A value that is the same at both ends stays so.
+/// Between the two ends of a step, each value follows Hermite's cubic curve through the values and
+/// rates at both ends. The error is of fourth order in the length of the step. If rates contain
+/// random numbers, values follow straight lines instead. A value that is the same at both ends is
+/// constant in between.
 class BetweenSteps {
 public:
-    /// Both must outlive it. The stage is at a complete step, from which moments count.
+    /// Moments are counted from the present state, which must be a complete step. Both arguments
+    /// must outlive this object.
     BetweenSteps(const StageView& view, StageState& state);
 
-    /// To be called at every complete step from whose next one a moment may be read, and at that
-    /// one. Calls `observe` for each moment since the step before, with the state of the stage as
-    /// it was then.
+    /// Must be called at both ends of every step in which a moment may have to be observed. Calls
+    /// `observe` for each moment since the previous step, while the stage temporarily has the state
+    /// of that moment.
     void pass(const NextMoment& next, const std::function<void()>& observe,
               const std::atomic<bool>& cancel);
 
@@ -41,10 +44,13 @@ private:
 
     const StageView& view_;
     StageState& state_;
-    bool has_slopes_;               ///< No random numbers in rates.
-    double last_;                   ///< The last moment that was observed, or the start.
-    std::optional<Moment> before_;  ///< The step before, where a moment may follow it.
-    std::vector<Field> slopes_before_, slopes_after_;  ///< For moments in the same step.
+    /// Whether the rates at the ends of steps can be used. Not if rates contain random numbers.
+    bool has_slopes_;
+    double last_;  ///< The moment observed last. At first the start of the stage.
+    /// The state at the previous step. Empty if no moment was expected after it.
+    std::optional<Moment> before_;
+    /// The rates at both ends of the present step. Empty until a moment needs them.
+    std::vector<Field> slopes_before_, slopes_after_;
 };
 
 }  // namespace cascade

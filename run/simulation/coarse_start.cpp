@@ -1,5 +1,5 @@
-// Each grid refines what the one before it left (core/resample). Steps on coarser grids are neither
-// kept nor observed.
+// Each grid refines the result of the next coarser grid (core/resample). Steps on coarser grids are
+// neither saved nor observed.
 #include "run/simulation/coarse_start.h"
 
 #include "core/resample.h"
@@ -19,14 +19,15 @@ namespace {
 
 constexpr std::int64_t most_steps = 1'000'000'000;
 
-/// A stage on a grid whose cells are `times` as wide. It takes times² as many steps, or as much
-/// time, as on the fine grid, because the time that a pattern needs grows with the square of its
-/// lengths.
+/// Starts a stage on a grid whose cells are `times` as wide. The stage takes times² as many steps
+/// (or as much time) as on the fine grid, because the time that a pattern needs grows with the
+/// square of its lengths.
 StagesInOtherCells at_start_of(const Environment& fine, std::span<const StageState> states,
                                std::uint32_t stage, std::int64_t times) {
     Program program = coarser_program(fine.script, *fine.program, times);
     Stage& own = program.stages[stage];
     own.time.coarse = 1;
+    own.time.every = 0;
     own.iterations = std::min(most_steps, fine.stage(stage).iterations * times * times);
     if (own.time.duration) *own.time.duration *= static_cast<double>(times * times);
     if (own.time.duration_in_steps) *own.time.duration_in_steps *= times * times;
@@ -37,9 +38,9 @@ StagesInOtherCells at_start_of(const Environment& fine, std::span<const StageSta
     return coarse;
 }
 
-/// Takes the species of a stage from the same stage on a grid twice as coarse. Frozen cells keep
-/// their starting values.
-void take_refined(StageState& fine, const Grid& fine_grid, StageState& coarse,
+/// Gives a stage the species of the same stage on a grid whose cells are twice as wide. Frozen
+/// cells keep their starting values.
+void take_refined(FieldState& fine, const Grid& fine_grid, FieldState& coarse,
                   const Grid& coarse_grid) {
     for (std::size_t s = 0; s < fine.species.size(); ++s) {
         const SideRules sides =
@@ -66,7 +67,7 @@ Result<StageEnd> run_on_coarser_grids(const Environment& environment, std::span<
             return tl::unexpected(std::move(why));
         }
         if (before) {
-            take_refined(coarse.states[stage], here.grid, before->states[stage],
+            take_refined(coarse.states[stage].fields(), here.grid, before->states[stage].fields(),
                          before->environment->grid);
         }
         auto end = StageRun(here, coarse.states, stage, never)
@@ -74,7 +75,8 @@ Result<StageEnd> run_on_coarser_grids(const Environment& environment, std::span<
         if (!end || *end == StageEnd::cancelled) return end;
         before = std::move(coarse);
     }
-    take_refined(states[stage], environment.grid, before->states[stage], before->environment->grid);
+    take_refined(states[stage].fields(), environment.grid, before->states[stage].fields(),
+                 before->environment->grid);
     return StageEnd::finished;
 }
 

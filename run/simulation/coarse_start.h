@@ -1,4 +1,4 @@
-// Stages that start on coarser grids.
+// Runs stages on coarser grids before they start on their own grid.
 #pragma once
 
 #include "core/result.h"
@@ -11,8 +11,8 @@
 
 namespace cascade {
 
-/// Runs a stage on its coarser grids, each starting from the result of the one before, and takes
-/// the species from the last.
+/// Runs a stage on each of its coarser grids, the coarsest first. The run on a grid starts from the
+/// result of the run on the grid before. The last result becomes the species of the stage.
 Result<StageEnd> run_on_coarser_grids(const Environment& environment, std::span<StageState> states,
                                       std::uint32_t stage, RunControl& control);
 

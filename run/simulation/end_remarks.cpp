@@ -1,98 +1,60 @@
-// Fronts that the grid holds in place are found by four cells in a row, along each axis, wherever
-// they pass the middle of the range.
+// Returns the first remark of a list that applies. Each kind of stage has a list.
 #include "run/simulation/end_remarks.h"
 
+#include "core/counted_cells.h"
+#include "core/with_commas.h"
+#include "ir/solver.h"
 #include "lang/program/nodes_of_rates.h"
+#include "run/simulation/diagnosis.h"
+#include "run/simulation/thin_fronts.h"
 #include "run/simulation/stage_view.h"
-#include "run/simulation/tissue_stage.h"
 #include "run/stage/bound_kernel.h"
-#include "run/stage/stage_remarks.h"
 #include "solvers/field_norms.h"
+#include "tissue/tissue.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace cascade {
 
 namespace {
 
-/// A front is thinner than a cell if values change by this part of their range between two cells,
-/// and by little to both sides of them.
-constexpr double least_jump_of_front = 0.8, most_beside = 0.05;
-/// Of all fronts this part must be thin.
-constexpr double mostly_thin = 0.9;
-/// A front that would move by less than this number of cells in the time of the stage stands still.
-constexpr double least_way = 0.5;
+/// A stage of which a remark may be made.
+struct Ended {
+    StageView view;
+    bool is_last;  ///< No later stage takes a step.
 
-struct Fronts {
-    double all = 0, thin = 0;
-    double speed = 0;  ///< Sum over thin ones, in cells per unit of time.
+    const Stage& stage() const { return view.stage(); }
+    const System& system() const { return view.system(); }
+    const StageState& state() const { return view.state(); }
+    const StageCourse& course() const { return state().course; }
+    template <typename... Values>
+    std::string about(fmt::format_string<Values...> words, Values&&... values) const {
+        return fmt::format("stage '{}' {}", stage().name,
+                           fmt::format(words, std::forward<Values>(values)...));
+    }
 };
 
-class FrontSearch {
-public:
-    FrontSearch(const Field& values, const Field* rates, const Spread& spread)
-        : values_(values),
-          rates_(rates),
-          range_(spread.largest - spread.smallest),
-          middle_((spread.largest + spread.smallest) / 2) {}
+bool took_steps(const Ended& ended) { return ended.state().done && ended.state().steps > 0; }
 
-    Fronts search() {
-        const PlaneLayout& layout = values_.layout();
-        const std::array<std::int64_t, 3> cells{layout.width, layout.height,
-                                                layout.row_count() / layout.height};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            Cell cell{};
-            for (cell[2] = 0; cell[2] < cells[2]; ++cell[2]) {
-                for (cell[1] = 0; cell[1] < cells[1]; ++cell[1]) {
-                    for (cell[0] = 0; cell[0] < cells[0]; ++cell[0]) {
-                        if (cell[axis] + 3 < cells[axis]) look_at(cell, axis);
-                    }
-                }
-            }
-        }
-        return fronts_;
-    }
-
-private:
-    using Cell = std::array<std::int64_t, 3>;
-
-    static double at(const Field& field, Cell cell, std::size_t axis, std::int64_t further) {
-        cell[axis] += further;
-        return field.number_at(cell[0], cell[1], cell[2]);
-    }
-
-    void look_at(const Cell& cell, std::size_t axis) {
-        const auto value = [&](std::int64_t n) { return at(values_, cell, axis, n); };
-        const double b = value(1), c = value(2);
-        if (!((b - middle_) * (c - middle_) < 0)) return;
-        ++fronts_.all;
-        const bool is_thin = std::abs(c - b) >= least_jump_of_front * range_ &&
-                             std::abs(value(0) - b) <= most_beside * range_ &&
-                             std::abs(value(3) - c) <= most_beside * range_;
-        if (!is_thin) return;
-        ++fronts_.thin;
-        if (rates_ == nullptr) return;
-        fronts_.speed +=
-            (std::abs(at(*rates_, cell, axis, 1)) + std::abs(at(*rates_, cell, axis, 2))) / range_;
-    }
-
-    const Field& values_;
-    const Field* rates_;
-    double range_, middle_;
-    Fronts fronts_;
-};
-
-bool are_thin(const Fronts& fronts) {
-    return fronts.all > 0 && fronts.thin >= mostly_thin * fronts.all;
+/// Does its course reach its end?
+bool was_watched(const Ended& ended) {
+    const StageState& state = ended.state();
+    return state.done && !state.course.empty() && state.course.last().step == state.steps;
 }
 
-bool is_of_neighbours(const Node& node) { return node.is<Call>() && differentiates(node.function); }
+bool was_watched_in_steps(const Ended& ended) { return took_steps(ended) && was_watched(ended); }
+
+/// The trend of the last stage. Earlier ones are often ended early on purpose.
+Trend trend_of(const Ended& ended) {
+    const bool is_meant = !ended.is_last || ended.state().condition_met;
+    return is_meant ? Trend::none : ended.course().trend();
+}
 
 /// Is every parameter the same in all cells?
 bool is_uniform_in_space(const Stage& stage, const System& system) {
@@ -101,14 +63,191 @@ bool is_uniform_in_space(const Stage& stage, const System& system) {
     });
 }
 
-/// Could what stands there have been put there by anything but the grid?
-bool may_be_pinned(const StageView& view) {
+/// The fraction of the cells in which a mask is 1.
+double part_of_ones(const Mask& mask, const Mask* inside) {
+    double ones = 0, cells = 0;
+    for_each_counted(mask.layout(), inside, [&](std::int64_t row, std::int64_t i) {
+        ++cells;
+        if (mask.row(row)[i] != 0) ++ones;
+    });
+    return cells > 0 ? ones / cells : 0;
+}
+
+double frozen_part(const Ended& ended) {
+    const ItemId frozen = ended.system().frozen_item();
+    if (ended.stage().uniform[frozen]) return ended.state().numbers[frozen] != 0 ? 1 : 0;
+    return part_of_ones(ended.state().frozen(), ended.view.environment().counted());
+}
+
+std::string describe_frozen(const Ended& ended) {
+    if (frozen_part(ended) != 1) return {};
+    return ended.about("is frozen in all cells: nothing in it changes");
+}
+
+std::string describe_frozen_nowhere(const Ended& ended) {
+    const bool varies = !ended.stage().uniform[ended.system().frozen_item()];
+    if (!varies || frozen_part(ended) != 0) return {};
+    return ended.about("has no frozen cell: its 'frozen' is true nowhere");
+}
+
+/// At most this number of species are named.
+constexpr std::size_t most_named = 4;
+/// A stage had a pattern, rather than noise that could grow into one, if its cells once differed by
+/// at least this fraction of a species' largest magnitude.
+constexpr double contrast_of_a_pattern = 0.05;
+
+/// The values of a uniform state as text: "u = 1, v = 0".
+std::string values_of(const System& system, const Moment& moment) {
+    std::string text;
+    for (std::size_t k = 0; k < moment.species.size() && k < most_named; ++k) {
+        text += fmt::format("{}{} = {:.4g}", k > 0 ? ", " : "", species_name(system, k),
+                            moment.species[k].mean);
+    }
+    return text + (moment.species.size() > most_named ? ", …" : "");
+}
+
+std::string describe_uniform(const Ended& ended) {
+    if (!ended.course().ended_uniform()) return {};
+    const System& system = ended.system();
+    const StageCourse& course = ended.course();
+    const std::string values = values_of(system, course.last());
+    const Moment& since = course.uniform_since();
+    const bool is_the_same = std::ranges::all_of(course.last().species, &Spread::is_one_number);
+    if (since.step == course.first().step && is_the_same &&
+        is_uniform_in_space(ended.stage(), system)) {
+        return ended.about(
+            "ended uniform ({}): all cells are the same; noise or a spot in a starting value would "
+            "make them differ",
+            values);
+    }
+    const std::string step = with_commas(since.step);
+    if (since.step == course.first().step) {
+        return ended.about("ended uniform ({}): {}nothing has grown", values,
+                           is_the_same
+                               ? ""
+                               : "its cells differ by less than a 100,000th of their values, and ");
+    }
+    if (course.greatest_contrast() >= contrast_of_a_pattern) {
+        return ended.about("died out: it has been uniform since step {} or before ({})", step,
+                           values);
+    }
+    return ended.about(
+        "ended uniform ({}): the differences it began with faded, and nothing has grown; "
+        "it has been uniform since step {} or before",
+        values, step);
+}
+
+std::string describe_until(const Ended& ended) {
+    const StageState& state = ended.state();
+    const StageTime& time = ended.stage().time;
+    if (!(time.until || time.steady) || state.condition_met) return {};
+    if (time.steps_between_looks() > state.steps) {
+        return ended.about(
+            "took {} steps and never evaluated 'until', which it does every {} steps ('check')",
+            with_commas(state.steps), with_commas(time.steps_between_looks()));
+    }
+    if (!time.steady) {
+        return ended.about("took {} steps and 'until' has not ended it", with_commas(state.steps));
+    }
+    return ended.about("took {} steps and has not settled as 'until: steady({:.4g})' asks",
+                       with_commas(state.steps), *time.steady);
+}
+
+/// Describes accumulated errors of steps of first order. Empty if these are small.
+std::string errors_in_words(const Stage& stage, const StageCourse& course) {
+    constexpr double least_errors = 0.01;
+    const Solver solver = stage.time.solver;
+    if (!stage.time.chooses_steps() || order_of(solver) > 1 || course.errors() < least_errors) {
+        return {};
+    }
+    return fmt::format(
+        "took steps of first order whose estimated errors add up to {:.0f} % of the differences "
+        "between its cells; solver: {} has smaller ones",
+        100 * course.errors(), is_semi_implicit(solver) ? "etdrk4" : "rkl2");
+}
+
+std::string describe_errors(const Ended& ended) {
+    const std::string words = errors_in_words(ended.stage(), ended.course());
+    return words.empty() ? "" : ended.about("{}", words);
+}
+
+/// Describes the species whose deviation rises fastest.
+std::string describe_growth(const Ended& ended) {
+    if (trend_of(ended) != Trend::growing) return {};
+    const StageCourse& course = ended.course();
+    std::size_t fastest = 0;
+    double growth = 0;
+    for (std::size_t k = 0; k < course.last().species.size(); ++k) {
+        if (!(course.growth(k) > growth)) continue;
+        fastest = k;
+        growth = course.growth(k);
+    }
+    const std::string errors = errors_in_words(ended.stage(), course);
+    return ended.about(
+        "was still growing when it ended: the deviation of {} rose by {:.0f} % in the "
+        "last tenth, to {:.2g}; more steps would change the picture{}",
+        species_name(ended.system(), fastest), 100 * growth,
+        course.last().species[fastest].deviation(), errors.empty() ? "" : "; it " + errors);
+}
+
+/// Do the cells differ, in every species, by no more than the tolerance of a step?
+std::string describe_tolerance(const Ended& ended) {
+    const StageTime& time = ended.stage().time;
+    const auto is_within = [&](const Spread& spread) {
+        return spread.deviation() < time.step_tolerance() * spread.magnitude();
+    };
+    if (!time.chooses_steps() || !std::ranges::all_of(ended.course().last().species, is_within))
+        return {};
+    return ended.about(
+        "ended almost uniform: its cells differ by less than {:.2g} of their values, which is the "
+        "tolerance of its steps",
+        time.step_tolerance());
+}
+
+std::string describe_fading(const Ended& ended) {
+    if (trend_of(ended) != Trend::fading) return {};
+    const System& system = ended.system();
+    const StageCourse& course = ended.course();
+    std::string rest;
+    for (std::size_t k = 0; k < course.last().species.size() && k < most_named; ++k) {
+        const Spread& spread = course.last().species[k];
+        rest += fmt::format("{}{} {:.2g} about {:.3g}", k > 0 ? ", " : "", species_name(system, k),
+                            spread.deviation(), spread.mean);
+    }
+    return ended.about("is dying out: the deviations left are small and falling ({})", rest);
+}
+
+/// Does a stage end with its starting values because its rates are 0 everywhere?
+std::string describe_standstill(const Ended& ended) {
+    const StageCourse& course = ended.course();
+    const auto is_same = [](const Spread& a, const Spread& b) {
+        return a.mean == b.mean && a.squares == b.squares && a.smallest == b.smallest &&
+               a.largest == b.largest;
+    };
+    const auto& first = course.first().species;
+    if (!std::equal(first.begin(), first.end(), course.last().species.begin(), is_same)) return {};
+    const Environment& here = ended.view.environment();
+    const auto is_0 = [&](const Field& rate) {
+        return root_mean_square(rate, here.counted()) == 0;
+    };
+    if (!std::ranges::all_of(ended.view.rates(), is_0)) return {};
+    return ended.about("ended as it began: its rates are 0 in all cells{}",
+                       here.grid.height == 1 && !here.model
+                           ? "; on a line derivatives along y are 0"
+                           : "");
+}
+
+bool is_of_neighbours(const Node& node) { return node.is<Call>() && differentiates(node.function); }
+
+/// Could the grid alone have made the fronts of this stage stand still? False if its result depends
+/// on positions, random numbers, earlier stages, frozen cells or a model.
+bool may_be_pinned(const Ended& ended) {
+    const StageView& view = ended.view;
     const StageState& state = view.state();
     const System& system = view.system();
     const Environment& here = view.environment();
-    if (here.model || here.counted() != nullptr || !state.frozen.empty()) return false;
-    if (!state.done || state.course.empty() || state.course.last().step != state.steps)
-        return false;
+    if (here.model || here.counted() != nullptr || !state.frozen().empty()) return false;
+    if (!was_watched(ended)) return false;
     if (!view.stage().uniform[system.speed_item()] || !system.invariants.empty()) return false;
     if (!is_uniform_in_space(view.stage(), system)) return false;
     const auto is_place = [](const Node& node) {
@@ -117,61 +256,83 @@ bool may_be_pinned(const StageView& view) {
     return !holds_in_rates(system, is_place) && holds_in_rates(system, is_of_neighbours);
 }
 
-/// A remark if almost all fronts of a species jump from one level to another within a cell, and do
-/// not move.
-std::optional<std::string> find_pinned_fronts(const StageView& view) {
-    if (!may_be_pinned(view)) return std::nullopt;
+/// A front stands still if it would move by fewer cells than this during the whole stage.
+constexpr double least_way = 0.5;
+
+/// A remark if almost all fronts of a species are thinner than a cell and do not move.
+std::string describe_pinned_fronts(const Ended& ended) {
+    const StageView& view = ended.view;
     const StageState& state = view.state();
-    for (std::size_t k = 0; k < state.species.size(); ++k) {
+    for (std::size_t k = 0; k < state.species().size(); ++k) {
         const Spread& spread = state.course.last().species[k];
-        if (spread.is_even()) continue;
-        if (!are_thin(FrontSearch(state.species[k], nullptr, spread).search())) continue;
+        if (spread.is_uniform()) continue;
+        if (!fronts_of(state.species()[k], nullptr, spread).are_thin()) continue;
         const std::vector<Field> rates = view.rates();
-        const Fronts fronts = FrontSearch(state.species[k], &rates[k], spread).search();
+        const Fronts fronts = fronts_of(state.species()[k], &rates[k], spread);
         if (!(fronts.speed / fronts.thin * state.t < least_way)) continue;
         return fmt::format(
             "stage '{}': the fronts of {} are thinner than a cell and stand still: the grid may "
             "hold them in place; a smaller 'spacing' would show whether they move",
             view.stage().name, species_name(view.system(), k));
     }
-    return std::nullopt;
+    return {};
 }
 
-/// Does a stage end with the values that it began with, because its rates are 0 everywhere?
-bool has_stood_still(const StageView& view) {
-    const StageState& state = view.state();
-    const StageCourse& course = state.course;
-    if (!state.done || course.empty() || course.last().step != state.steps) return false;
-    const auto is_same = [](const Spread& a, const Spread& b) {
-        return a.mean == b.mean && a.squares == b.squares && a.smallest == b.smallest &&
-               a.largest == b.largest;
-    };
-    const auto& first = course.first().species;
-    if (!std::equal(first.begin(), first.end(), course.last().species.begin(), is_same))
-        return false;
-    const std::vector<Field> rates = view.rates();
-    return std::all_of(rates.begin(), rates.end(), [&](const Field& rate) {
-        return root_mean_square(rate, view.environment().counted()) == 0;
-    });
+constexpr Diagnosis<Ended> remarks_on_fields[] = {
+    {took_steps, describe_frozen},
+    {was_watched_in_steps, describe_uniform},
+    {was_watched_in_steps, describe_until},
+    {was_watched_in_steps, describe_growth},
+    {was_watched_in_steps, describe_tolerance},
+    {was_watched_in_steps, describe_fading},
+    {was_watched_in_steps, describe_errors},
+    {was_watched_in_steps, describe_frozen_nowhere},
+    {was_watched, describe_standstill},
+    {may_be_pinned, describe_pinned_fronts},
+};
+
+// Stages of cells that crawl.
+
+bool is_frozen(const Ended& ended) {
+    const Tissue& tissue = *ended.state().tissue();
+    return ended.view.is_frozen() || (tissue.count() > 0 && tissue.is_frozen());
 }
+
+bool has_died_out(const Ended& ended) { return ended.state().tissue()->count() == 0; }
+
+bool has_missed_its_condition(const Ended& ended) {
+    const StageTime& time = ended.stage().time;
+    return (time.until || time.steady) && !ended.state().condition_met && !time.duration;
+}
+
+constexpr Diagnosis<Ended> remarks_on_cells[] = {
+    {is_frozen,
+     [](const Ended& ended) {
+         return ended.about("is frozen in all cells: nothing in it changes");
+     }},
+    {has_died_out,
+     [](const Ended& ended) {
+         return fmt::format("all cells of stage '{}' have died, the last at t = {:.4g}",
+                            ended.stage().name, ended.state().tissue()->time.last_event);
+     }},
+    {has_missed_its_condition,
+     [](const Ended& ended) {
+         return fmt::format("'until' of stage '{}' never came true, in {} steps up to t = {:.4g}",
+                            ended.stage().name, ended.state().steps, ended.state().t);
+     }},
+};
 
 }  // namespace
 
 std::string remark_on(const Simulation& simulation, std::uint32_t k) {
     const StageView view = simulation.own_view(k);
-    if (view.state().tissue) return remark_on_cells(view);
-    const Environment& here = view.environment();
-    const std::string remark = describe_end(view.stage(), view.system(), view.state(),
-                                            k == here.script.final_stage(), here.counted());
-    if (!remark.empty()) return remark;
-    if (!has_stood_still(view)) return find_pinned_fronts(view).value_or("");
-    return fmt::format(
-        "stage '{}' ended as it began: its rates are 0 in all cells{}", view.stage().name,
-        here.grid.height == 1 && !here.model ? "; on a line derivatives along y are 0" : "");
+    const Ended ended{view, k == view.environment().script.final_stage()};
+    return view.state().tissue() != nullptr ? first_of<Ended>(remarks_on_cells, ended)
+                                            : first_of<Ended>(remarks_on_fields, ended);
 }
 
 bool made_its_pattern(const Simulation& simulation, std::uint32_t k) {
-    // A species whose deviation has grown by this factor owes its pattern to the stage.
+    // A species owes its pattern to the stage if its deviation has grown by this factor.
     constexpr double times_at_start = 3;
     const Stage& stage = simulation.domain().stage(k);
     const System& system = simulation.domain().program->system_of(k);
@@ -184,7 +345,7 @@ bool made_its_pattern(const Simulation& simulation, std::uint32_t k) {
     if (course.empty()) return false;
     for (std::size_t s = 0; s < course.last().species.size(); ++s) {
         const Spread &first = course.first().species[s], &last = course.last().species[s];
-        const bool is_made = last.is_even(course.last().largest[s]) ||
+        const bool is_made = last.is_uniform(course.last().largest[s]) ||
                              last.deviation() >= times_at_start * first.deviation();
         if (!is_made) return false;
     }

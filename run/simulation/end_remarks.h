@@ -8,13 +8,13 @@
 
 namespace cascade {
 
-/// A remark on a stage that has ended, in one sentence. Empty if the result is what it seems, and
-/// for a stage that has not ended.
+/// A remark of one sentence on the result of a stage. Empty if the result needs no remark or if the
+/// stage has not ended.
 std::string remark_on(const Simulation& simulation, std::uint32_t stage);
 
-/// Did the stage itself make the pattern that is there? True if its neighbours act on each other,
-/// neither random numbers nor varying parameters act on them, and every species that is not even
-/// differs far more between cells than at the start of the stage.
+/// Whether the stage itself has made the pattern that it shows. This is so if neighbouring cells
+/// affect each other's rates, if neither random numbers nor varying parameters affect rates, and
+/// if, for every species that is not uniform, cells differ far more than at the start of the stage.
 bool made_its_pattern(const Simulation& simulation, std::uint32_t stage);
 
 }  // namespace cascade

@@ -4,6 +4,7 @@
 #include "lang/program/stage_kinds.h"
 #include "run/domain/field_values.h"
 #include "run/domain/metric_planes.h"
+#include "run/domain/deadline.h"
 #include "run/simulation/stage_sizes.h"
 #include "run/simulation/stage_view.h"
 #include "run/simulation/undefined_values.h"
@@ -18,7 +19,7 @@
 namespace cascade {
 namespace {
 
-/// Every disc(…), ring(…) and box(…) with constant arguments, each once, as separate formulas.
+/// All calls of disc, ring and box with constant arguments, each once, as separate formulas.
 std::vector<Formula> written_areas(const Program& program) {
     std::vector<Formula> areas;
     for (const Formula* formula : formulas_of(program)) {
@@ -48,14 +49,15 @@ std::vector<Formula> written_areas(const Program& program) {
     return areas;
 }
 
-/// The cells of the script's model.
+/// Makes the cells of the script's model, or takes the cells of another simulation on that model.
 Result<std::shared_ptr<const ModelCells>> make_cells(Script& script,
                                                      const SimulationOptions& options, int threads,
                                                      RunControl& control) {
     const TimeAccount::Scope spent(options.account, Spent::cells);
     if (options.known_model) return options.known_model;
     Team makers(threads);
-    bool is_refused = false;  // By a check, which says why.
+    // Set if `check_model` refused the model. Its message is then the only one.
+    bool is_refused = false;
     const auto check = [&](const SurfaceMesh& mesh) {
         Result<void> good = options.check_model ? options.check_model(mesh) : Result<void>();
         if (good) good = check_attributes(script, mesh);
@@ -68,7 +70,16 @@ Result<std::shared_ptr<const ModelCells>> make_cells(Script& script,
                              options.cell_cache,
                              check,
                              !has_stage_of_fields(*script.program)};
+    Deadline deadline(options.model_seconds, control.cancel);
     auto made = make_model_cells(*script.program, access, makers, control);
+    if (deadline.ends_work()) {
+        script.diagnostics.error(
+            script.program->domain.model->span,
+            fmt::format("the cells of the model are not made after {} s", options.model_seconds),
+            "ask for fewer 'cells', or for those of a model with fewer triangles: 'cascade mesh "
+            "MODEL --simplify 50000 -o simple.ply'");
+        return failure("the model takes too long");
+    }
     if (control.cancel) return failure("stopped while the cells of the model were made");
     if (is_refused) return tl::unexpected(made.error());
     if (!made) {
@@ -83,7 +94,8 @@ Result<std::shared_ptr<const ModelCells>> make_cells(Script& script,
     return std::move(*made);
 }
 
-/// Makes a model the domain, with the values that formulas of the program read from places on it.
+/// Makes a model the domain, and computes the values that formulas of the program read at positions
+/// on it.
 Result<void> take_model(Environment& here, std::shared_ptr<const ModelCells> cells,
                         const RunControl& control) {
     const TimeAccount::Scope spent(here.account, Spent::cells);
@@ -93,7 +105,7 @@ Result<void> take_model(Environment& here, std::shared_ptr<const ModelCells> cel
     if (control.cancel) return failure("stopped while distances on the model were found");
     if (here.program->stages.empty() || !control.warn) return {};
     const std::vector<StageState> states(1);
-    // A shape that was written for one model may easily miss another one.
+    // A shape written for one model may miss another model entirely.
     for (const Formula& area : written_areas(*here.program)) {
         const StageView view(here, states, 0);
         if (largest_value(view.evaluate(area)[0], nullptr) > 0) continue;
@@ -103,7 +115,7 @@ Result<void> take_model(Environment& here, std::shared_ptr<const ModelCells> cel
     return {};
 }
 
-/// Computes which cells belong to the domain, once before any stage.
+/// Computes the mask, once, before the first stage.
 Result<void> find_mask(Environment& here, Script& script, const RunControl& control) {
     const auto& mask = here.program->domain.mask;
     if (!mask || here.program->stages.empty()) return {};
@@ -124,6 +136,24 @@ Result<void> find_mask(Environment& here, Script& script, const RunControl& cont
     script.diagnostics.error(mask->span, "no cell is inside the mask",
                              "cells where it is not 0 belong to the domain");
     return failure("the domain has no cells");
+}
+
+/// Makes what evaluates formulas of the program: the values of a model (`cells` may be null), the
+/// ground of crawling cells, sizes, and the mask.
+Result<void> make_whole(Environment& here, Script& script, const SimulationOptions& options,
+                        std::shared_ptr<const ModelCells> cells, RunControl& control) {
+    if (cells) {
+        if (auto taken = take_model(here, cells, control); !taken) return taken;
+    }
+    if (has_stage_of_cells(*here.program)) {
+        constexpr std::int64_t usual_cells = 4096;
+        here.crawling.emplace(KernelMaker(rows_of_cells(usual_cells), here.tools, here.account),
+                              std::make_shared<TissueGround>(here.grid, cells.get()));
+    }
+    if (cells) size_cells(here, *cells, control);
+    if (auto found = find_sizes(here, script, options, control); !found) return found;
+    warn_of_uniform_pictures(here, control);
+    return find_mask(here, script, control);
 }
 
 }  // namespace
@@ -154,7 +184,7 @@ bool Environment::takes_long(std::uint32_t k) const {
 
 std::string Environment::place_in_words(std::int64_t column, std::int64_t row) const {
     if (!model) return fmt::format("column {}, row {}", column, row);
-    // The padding repeats the last cell.
+    // The padding of the grid repeats the last cell.
     const ModelCells& cells = *model->cells;
     const auto last = static_cast<std::int64_t>(cells.count()) - 1;
     return fmt::format("cell {}", cells.cell_at(std::min(row * grid.width + column, last)));
@@ -180,7 +210,7 @@ Result<std::unique_ptr<Environment>> make_environment(Script& script,
         memory = memory_of(program, plans, facts);
         return check_memory(grid, memory, options.memory_limit);
     };
-    // The number of faces or points of a model is known only when it has been read.
+    // The number of faces or vertices of a model is known only after reading it.
     const auto& model = program.domain.model;
     if (!model || model->cells == ModelCellKind::spread) {
         if (auto fits = fits_memory(nullptr); !fits) return tl::unexpected(fits.error());
@@ -191,7 +221,7 @@ Result<std::unique_ptr<Environment>> make_environment(Script& script,
         if (!made) return tl::unexpected(made.error());
         cells = std::move(*made);
         grid = cells->grid();
-        // Cells that crawl need none of the model's, which may never be made.
+        // Crawling cells do not need the cells of the model, which are then made only on demand.
         auto fits = fits_memory(has_stage_of_fields(program) ? &cells->spread() : nullptr);
         if (!fits) return tl::unexpected(fits.error());
     }
@@ -215,19 +245,8 @@ Result<std::unique_ptr<Environment>> make_environment(Script& script,
     here.memory = memory;
     here.files = std::move(*files);
     here.metric = std::move(*metric);
-    if (model) {
-        if (auto taken = take_model(here, cells, control); !taken)
-            return tl::unexpected(taken.error());
-    }
-    if (has_stage_of_cells(program)) {
-        constexpr std::int64_t usual_cells = 4096;
-        here.crawling.emplace(KernelMaker(rows_of_cells(usual_cells), here.tools, here.account),
-                              std::make_shared<TissueGround>(grid, cells.get()));
-    }
-    if (auto found = find_sizes(here, script, options, control); !found)
-        return tl::unexpected(found.error());
-    warn_of_even_pictures(here, control);
-    if (auto found = find_mask(here, script, control); !found) return tl::unexpected(found.error());
+    if (auto whole = make_whole(here, script, options, std::move(cells), control); !whole)
+        return tl::unexpected(whole.error());
     return made;
 }
 

@@ -1,5 +1,5 @@
-// What the stages of a simulation share and do not change: its domain, files, plans, kernels,
-// threads.
+// Everything that all stages of a simulation share and do not change: the domain, files, plans,
+// kernels and threads.
 #pragma once
 
 #include "core/parallel.h"
@@ -26,53 +26,57 @@
 
 namespace cascade {
 
-/// What stages of cells that crawl need besides.
+/// Additional tools for stages of crawling cells.
 struct CrawlingTools {
     KernelMaker kernels;
-    std::shared_ptr<const TissueGround> ground;  ///< Where no body is grown.
+    /// The surroundings of cells unless a stage grows a body for them.
+    std::shared_ptr<const TissueGround> ground;
 };
 
 class Environment : public SimulationDomain {
-    TimeAccount unread_;  ///< Takes the times that nobody asked for.
+    TimeAccount unread_;  ///< Receives times if the caller gives no account.
 
 public:
-    /// `plans` are those of the program. The fastest tilings are kept in `kernel_cache`, if that is
-    /// not empty. Script and account, which may be null, must outlive the environment.
+    /// `plans` are the plans of the program. If `kernel_cache` is not empty, the fastest tilings
+    /// are stored in that folder. Script and account must outlive the environment. The account may
+    /// be null.
     Environment(const Script& of, std::shared_ptr<const Program> runs, StagePlans its_plans,
                 const Grid& in, StepTools with, TimeAccount* times = nullptr,
                 const std::filesystem::path& kernel_cache = {});
 
     const Script& script;
-    std::string progress_note;  ///< After the stage's name in reports of progress.
+    std::string progress_note;  ///< Appended to the stage's name in reports of progress.
     InputFiles files;
-    std::vector<Field> metric;  ///< By MetricPlane; empty without a surface.
+    std::vector<Field> metric;  ///< Indexed by MetricPlane. Empty if the domain has no surface.
     StepTools tools;
     KernelMaker kernels;
-    std::optional<CrawlingTools> crawling;  ///< None if all stages are of fields.
-    // These remember and work; no result depends on what they did before.
+    std::optional<CrawlingTools> crawling;  ///< Empty if all stages are of fields.
+    // The following members are mutable because they are caches or tools. No result depends on how
+    // they were used before.
     mutable StagePlans plans;
     mutable KeptTilings tilings;
     mutable Team team;  ///< Computes starting values and pictures.
     TimeAccount& account;
 
-    /// Replaces the program by a similar one.
+    /// Replaces the program with another program for the same domain.
     void use(Program other);
-    /// Is the program the script's own, in its own cells and with its own lengths?
+    /// Whether this is the program of the script itself, with the same cells and unscaled lengths.
     bool runs_as_written() const { return program == script.program; }
-    /// Of a model, whose cells this makes if they are not yet; null on grids.
+    /// The facts about a model. Null on grids. If the model's cells do not exist yet, makes them.
     const ModelFacts* model_facts() const { return model ? &model->cells->spread() : nullptr; }
-    /// The cells that count, with a mask or on a model.
+    /// The cells that belong to the domain or model. Null if all cells of the grid do.
     const Mask* counted() const {
         return mask ? &mask->inside : model ? &model->cells->spread().inside : nullptr;
     }
-    /// Do the steps of a stage certainly take longer than compiling them?
+    /// Whether the steps of a stage certainly take longer than compiling their kernels.
     bool takes_long(std::uint32_t k) const;
-    /// The column and row of a cell, or the number of one of a model.
+    /// Describes a cell in words, for messages, by its column and row, or by its number on a model.
     std::string place_in_words(std::int64_t column, std::int64_t row) const;
 };
 
-/// Checks memory, reads files, makes the cells of a model and computes the mask. Faults of files
-/// are added to `script.diagnostics`, and the result fails. `script` must outlive the environment.
+/// Checks memory, reads files, makes the cells of a model and computes the mask. Errors in files
+/// are added to `script.diagnostics`, and the result is then a failure. `script` must outlive the
+/// environment.
 Result<std::unique_ptr<Environment>> make_environment(Script& script,
                                                       const SimulationOptions& options);
 

@@ -1,4 +1,5 @@
-// The program of the finer run differs from that of the script in the end of one stage.
+// The program of the finer run differs from the script's program only in the end and the step of
+// one stage.
 #include "run/simulation/finer_run.h"
 
 #include "run/simulation/other_cells.h"
@@ -14,16 +15,15 @@ namespace {
 
 constexpr std::int64_t most_settling_steps = 1'000'000'000;
 
-/// Does the solver leave it to the script that steps of a given length are stable? Euler's are
-/// split where they would not be (StageTimer::substeps).
+/// Would the solver become unstable in finer cells unless `speed` is reduced? Euler's steps are
+/// divided automatically if they are too long (StageTimer::substeps), provided `speed` is uniform.
 bool needs_shorter_steps(const Stage& stage, bool has_uniform_speed) {
     const Solver solver = stage.time.solver;
     if (stage.time.chooses_steps() || takes_long_steps(solver)) return false;
     return solver != Solver::euler || !has_uniform_speed;
 }
 
-/// The program in which the stage goes on from a moment for a part of the time that it has taken,
-/// or until it has settled.
+/// A program in which the stage continues for a fraction of the time that it has taken.
 Program settling_program(const Program& program, std::uint32_t k, const StageState& end) {
     Program result = program;
     Stage& stage = result.stages[k];
@@ -40,8 +40,9 @@ Program settling_program(const Program& program, std::uint32_t k, const StageSta
         formula.nodes.push_back(Node{static_cast<double>(detail * detail), whole.span});
         formula.nodes.push_back(product);
     }
-    stage.time.until.reset();  // It may have come true, and would end the stage at once.
+    stage.time.until.reset();  // It may be true already, and would end the stage at once.
     stage.time.open_end = false;
+    stage.time.every = 0;
     stage.time.duration.reset();
     stage.time.duration_in_steps.reset();
     if (is_timed) {
@@ -55,7 +56,7 @@ Program settling_program(const Program& program, std::uint32_t k, const StageSta
     return result;
 }
 
-/// Does a value hold a number that was drawn in its cell, directly or in what it reads?
+/// Finds items that contain a random number drawn in each cell, directly or through other items.
 class DrawnItems {
 public:
     DrawnItems(const Program& program, std::uint32_t stage) : system_(program.system_of(stage)) {
@@ -80,23 +81,23 @@ private:
     IdVector<ItemId, bool> drawn_;
 };
 
-/// Makes a stage that has been started in finer cells go on from a moment that was carried there.
+/// Gives a stage that was started in finer cells the state that was carried to them.
 void take_moment(const Program& program, std::uint32_t k, StageState carried, StageState& state) {
     const System& system = program.system_of(k);
     const DrawnItems drawn(program, k);
-    const ItemId frozen_item = system.frozen_item();
+    FieldState &from = carried.fields(), &into = state.fields();
     for (const ItemId item : system.items()) {
         const bool is_carried = drawn.contains(item) && item != system.speed_item();
-        if (!is_carried || carried.fields[item].empty()) continue;
-        if (item == frozen_item) state.frozen = std::move(carried.frozen);
-        state.fields[item] = std::move(carried.fields[item]);
+        if (!is_carried || from.parameters[item].empty()) continue;
+        if (item == system.frozen_item()) into.frozen = std::move(from.frozen);
+        into.parameters[item] = std::move(from.parameters[item]);
     }
     for (const ItemId item : system.species()) {
         const std::size_t s = state.species_of_item[item]->index();
-        Field& values = carried.species[s];
-        // Cells that never change have their starting values, with sharp outlines.
-        if (!drawn.contains(item)) keep_frozen(values, state.frozen, state.species[s]);
-        state.species[s] = std::move(values);
+        Field& values = from.species[s];
+        // Frozen cells keep their starting values, which were computed anew with sharp outlines.
+        if (!drawn.contains(item)) keep_frozen(values, into.frozen, into.species[s]);
+        into.species[s] = std::move(values);
     }
     state.go_to(carried.steps, carried.t);
 }

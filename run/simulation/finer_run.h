@@ -1,4 +1,4 @@
-// A run that goes on in finer cells of the same domain.
+// Continues a run in smaller cells of the same domain.
 #pragma once
 
 #include "core/result.h"
@@ -12,17 +12,18 @@
 
 namespace cascade {
 
-/// How long a stage settles in finer cells: this part of the time that it has taken.
+/// A stage runs in smaller cells for this fraction of the time that it took in the script's cells.
 inline constexpr double settling_part = 0.1;
 
-/// Carries values from the cells of `from` to those of `here`, an environment of the same program
-/// with divided cells (DomainSettings::detail). Both must outlive the result.
+/// Carries values from the cells of `from` to the cells of `here`, which has the same program with
+/// divided cells (DomainSettings::detail). Both must outlive the result.
 std::unique_ptr<CellCarrier> carrier_to_finer(const Environment& from, const Environment& here);
 
-/// Makes a stage go on whose state, like those of the stages before it, has been carried to `here`:
-/// its end is changed, and so is its step where the solver would else become unstable. Its start is
-/// computed anew, so that places, files and earlier stages keep their outlines; what was drawn by
-/// chance in each cell is carried. Fails as start_stage() does.
+/// Lets a stage continue in the smaller cells of `here`, to which the states of this stage and of
+/// the stages before it have been carried. Gives the stage a new end. Shortens its steps if its
+/// solver would otherwise become unstable. Computes starting values again, so that shapes, files
+/// and earlier stages have sharp outlines. Values that contain random numbers are not computed
+/// again but carried. Fails like start_stage().
 Result<void> settle_in_finer_cells(Environment& here, std::span<StageState> states,
                                    std::uint32_t stage);
 

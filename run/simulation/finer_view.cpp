@@ -1,4 +1,4 @@
-// All planes are divided; what is uniform stays.
+// Divides all planes. Uniform values need no change.
 #include "run/simulation/finer_view.h"
 
 #include "core/resample.h"
@@ -13,7 +13,7 @@ namespace cascade {
 
 namespace {
 
-/// Integrals over the domain are such sums, too.
+/// Whether a formula contains a sum or an integral over the domain.
 bool sums_over_domain(const System& system, const Formula& formula) {
     const auto is_sum = [](const Node& node) { return node.calls(Function::domain_sum); };
     const auto refers_to_others = [](const Node& node) {
@@ -49,7 +49,7 @@ std::unique_ptr<const FinerView> finer_view(const Simulation& simulation, std::i
     const bool is_plane =
         !domain.mask && !domain.model && !domain.program->domain.surface && domain.grid.depth == 1;
     const StageView view = simulation.view(0);
-    const auto is_of_cells = [](const StageState& state) { return state.tissue != nullptr; };
+    const auto is_of_cells = [](const StageState& state) { return state.tissue() != nullptr; };
     if (!is_plane || std::ranges::any_of(view.states(), is_of_cells)) return nullptr;
     return std::make_unique<const FinerView>(view, times);
 }

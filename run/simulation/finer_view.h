@@ -1,4 +1,4 @@
-// The present state of a simulation on a plane, seen on a finer grid.
+// Shows the present state of a simulation on a plane in smaller cells.
 #pragma once
 
 #include "lang/program/program.h"
@@ -14,16 +14,17 @@
 
 namespace cascade {
 
-/// Values between cells lie on the curves of core/between_cells.h. The grid is a plane without a
-/// mask and without a surface, and its stages are of fields.
+/// Values between cells follow the curves of core/between_cells.h. The domain must be a plane
+/// without a mask and without a surface, and all stages must be of fields.
 class FinerView {
 public:
-    /// Each cell becomes times × times cells, of a line `times`. The simulation of `run` must
-    /// outlive this. Throws std::bad_alloc.
+    /// Divides each cell into times × times cells, or into `times` cells on a line. The simulation
+    /// of `view` must outlive this object. Throws std::bad_alloc.
     FinerView(const StageView& view, std::int64_t times);
 
-    /// Evaluates a formula for pictures, as Simulation::evaluate() does. One with a sum over the
-    /// domain, which depends on the number of cells, is evaluated in the cells of the run.
+    /// Evaluates a formula for pictures like Simulation::evaluate(). If the formula contains a sum
+    /// over the domain, it is evaluated in the cells of the run, because the sum depends on the
+    /// number of cells.
     std::vector<Field> evaluate(const Formula& formula, std::uint32_t stage) const;
 
 private:
@@ -33,9 +34,8 @@ private:
     StagesInOtherCells finer_;
 };
 
-/// The present state of a simulation with each cell of a plane divided into times × times; null
-/// where the domain has a mask, a surface or slices, or a stage is of cells that crawl. Throws
-/// std::bad_alloc.
+/// Shows each cell of a plane as times × times cells. Null if the domain has a mask, a surface or
+/// slices, or if a stage has crawling cells. Throws std::bad_alloc.
 std::unique_ptr<const FinerView> finer_view(const Simulation& simulation, std::int64_t times);
 
 }  // namespace cascade

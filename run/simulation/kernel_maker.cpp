@@ -1,4 +1,4 @@
-// Chooses between the interpreter and the stepper's native code.
+// Chooses between the interpreter and compiled code.
 #include "run/simulation/kernel_maker.h"
 
 #include "core/check.h"

@@ -1,5 +1,5 @@
-// Makes the kernels of a simulation runnable: compiled, interpreted, or interpreted until they are
-// compiled.
+// Makes the kernels of a simulation runnable. Each is compiled, interpreted, or interpreted until
+// its compiled code is ready.
 #pragma once
 
 #include "core/grid.h"
@@ -17,18 +17,19 @@
 
 namespace cascade {
 
-/// How steps are computed. No result depends on it.
+/// The tools that compute steps. No result depends on their choice.
 struct StepTools {
     std::shared_ptr<TieredBackend> stepper;
-    bool starts_interpreted = false;  ///< Are steps interpreted until their code is ready?
+    bool starts_interpreted = false;  ///< Whether steps are interpreted until their code is ready.
     int threads = 1;
-    std::optional<Tiling> tiling = {};  ///< None: chosen by size and by time.
+    /// The tiling of planes. If empty, it is chosen by the size of the grid and by measurement.
+    std::optional<Tiling> tiling = {};
     MakeExecutor executor = make_thread_executor;
 };
 
 class KernelMaker {
 public:
-    /// For the cells of `grid`. The account must outlive this.
+    /// Makes kernels for the cells of `grid`. The account must outlive this object.
     KernelMaker(const Grid& grid, const StepTools& tools, TimeAccount& account)
         : grid_(grid),
           stepper_(tools.stepper),
@@ -40,23 +41,25 @@ public:
 
     Compile interpreted() const { return interpreted_on(grid_); }
     Compile interpreted_on(const Grid& grid) const;
-    /// For kernels that run every few steps: interpreted until that has taken as long as compiling.
+    /// For kernels that run every few steps. They are compiled once interpreting them has taken as
+    /// long as compiling would.
     Compile often() const;
-    /// For kernels that run once: interpreted, unless that would take longer than compiling.
+    /// For kernels that run once. They are interpreted unless that would take longer than
+    /// compiling.
     Compile once() const;
-    /// For kernels of steps: compiled, before the first step or while the first ones are
-    /// interpreted. Adds them to `kernels`; `refused` receives those that cannot be compiled.
+    /// For kernels of steps. They are compiled before the first step, or while the first steps are
+    /// interpreted. Adds them to `kernels`, and calls `refused` for each that cannot be compiled.
     Compile steps(TieredBackend::When when, StepKernels& kernels,
                   std::function<void(const Failure&)> refused) const;
     /// Announces kernels that will be needed later.
     void expect(const CellKernel& kernel) const { stepper_->expect(kernel, grid_.stencil()); }
 
-    /// Evaluating a small grid takes less time than waking a second thread.
+    /// Whether the grid is so small that evaluating takes less time than waking a second thread.
     bool is_small() const { return grid_.cell_count() < 65536; }
 
 private:
-    /// Are steps interpreted until their code is ready? With many cells that would take longer than
-    /// waiting.
+    /// Whether steps are interpreted until their code is ready. On large grids they are not,
+    /// because a single interpreted step takes longer than compiling.
     bool runs_meanwhile() const {
         return starts_interpreted_ && grid_.cell_count() < cells_worth_compiling;
     }

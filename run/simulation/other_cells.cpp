@@ -1,4 +1,4 @@
-// Environments are made anew for their grid; values are carried (run/domain/cell_carrier.h).
+// Makes a new environment for each grid. Values are carried by run/domain/cell_carrier.h.
 #include "run/simulation/other_cells.h"
 
 #include "core/counted_cells.h"
@@ -59,16 +59,19 @@ StageState carried_state(const StageState& state, const CellCarrier& carrier, do
         for (const Field& plane : planes)
             into.push_back(plane.empty() ? Field() : carrier.carried(plane));
     };
-    carry_all(state.fields, result.fields);
-    carry_all(state.species, result.species);
-    if (!state.frozen.empty()) {
-        result.frozen = carrier.carried(state.frozen);
-        // The last items of a stage of fields are `frozen` and `speed`.
-        Field& flags = result.fields[ItemId(result.fields.size() - 2)];
-        flags = to_field(result.frozen, flags.precision());
+    const auto* const from = std::get_if<FieldState>(&state.values);
+    if (from == nullptr) return result;
+    FieldState& into = result.fields();
+    carry_all(from->parameters, into.parameters);
+    carry_all(from->species, into.species);
+    if (!from->frozen.empty()) {
+        into.frozen = carrier.carried(from->frozen);
+        // `frozen` and `speed` are the last two items of a stage of fields.
+        Field& flags = into.parameters[ItemId(into.parameters.size() - 2)];
+        flags = to_field(into.frozen, flags.precision());
     }
-    result.sides = state.sides;
-    for (SideRules& rules : result.sides) {
+    into.sides = from->sides;
+    for (SideRules& rules : into.sides) {
         rules.spacing = spacing;
         for (std::size_t side = 0; side < side_count; ++side) {
             auto& values = rules.at[side].values;
@@ -92,7 +95,8 @@ Field in_cells_of(const Simulation& simulation, std::uint32_t stage, ItemId item
     const auto carrier = carrier_to_wider(domain, own);
     if (item == simulation.domain().program->system_of(stage).frozen_item())
         return to_field(carrier->carried(to_mask(values)), values.precision());
-    // Where nothing changes the difference is 0, and cells keep their values exactly.
+    // Where the new values equal the shown ones, the difference is 0 and cells keep their values
+    // exactly.
     Field result(simulation.state(stage).field(item));
     const Field& shown = simulation.field(stage, item);
     values.visit([&]<typename Number>(Plane<Number>& plane) {

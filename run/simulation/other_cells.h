@@ -1,4 +1,4 @@
-// Stages in wider or finer cells of the same domain.
+// Runs stages in cells of the same domain that are larger or smaller than the script's cells.
 #pragma once
 
 #include "run/domain/cell_carrier.h"
@@ -12,42 +12,45 @@
 
 namespace cascade {
 
-/// The stages of a run in other cells. Stages that nothing reads have not started.
+/// The stages of a run in larger or smaller cells. A stage that no other stage reads is not
+/// started.
 struct StagesInOtherCells {
     std::unique_ptr<Environment> environment;
     std::vector<StageState> states;
 };
 
-/// The program of `fine`, which is that of the script on a grid, for cells `times` as wide: checked
-/// again, so that all that the checker derives from lengths is right, with the factors that sizes
-/// have in `fine`.
+/// The program of a script on a grid whose cells are `times` as wide as in `fine`. The script
+/// is checked again, so that everything that depends on lengths is correct. Lengths of stages with
+/// a size are scaled as in `fine`.
 Program coarser_program(const Script& script, const Program& fine, std::int64_t times);
 /// The program in the cells in which a stage runs.
 Program program_of_stage(const Script& script, const Program& program, std::uint32_t stage);
 
-/// An environment for `program`: the program of `known` in the cells to which `carrier` carries.
-/// Neither domain has a model, a surface or a mask. `account` may be null.
+/// An environment for `program`, which is the program of `known` in the cells to which `carrier`
+/// carries. The domain must have no model, surface or mask. `account` may be null.
 std::unique_ptr<Environment> environment_in_cells(const Environment& known, Program program,
                                                   const CellCarrier& carrier, TimeAccount* account);
-/// The same with wider cells.
+/// An environment for `program`, which is the program of `fine` in larger cells. `account` may be
+/// null.
 std::unique_ptr<Environment> on_coarser_grid(const Environment& fine, Program program,
                                              TimeAccount* account);
 
-/// The part of a state that other stages and pictures read, in the cells to which `carrier`
-/// carries. They are `spacing` wide. The part is its moment, numbers, planes, frozen cells and
-/// sides.
+/// Carries the part of a state that other stages and pictures read: moment, numbers, planes, frozen
+/// cells and sides. `spacing` is the width of the cells to which `carrier` carries.
 StageState carried_state(const StageState& state, const CellCarrier& carrier, double spacing);
-/// The same on a grid whose cells are a whole number of times as wide or as short.
+/// Carries the same part of a state to a grid. Its cells are larger or smaller by an integer
+/// factor.
 StageState on_grid(const StageState& state, const Grid& from, const Grid& to);
 
-/// New values of an item, given in the cells of the domain, in those of the stage. Where they are
-/// those of Simulation::field(), the stage keeps its own.
+/// Converts new values of an item from the cells of the domain to the cells of the stage. Where a
+/// new value equals the present one (Simulation::field()), the stage's own value stays exactly as
+/// it is.
 Field in_cells_of(const Simulation& simulation, std::uint32_t stage, ItemId item, Field values);
 
-/// Gives frozen cells the values that they had at the start of their stage. `frozen` may be empty.
+/// Resets frozen cells to their values in `start`. `frozen` may be empty.
 void keep_frozen(Field& values, const Mask& frozen, const Field& start);
 
-/// After messages that name cells of a coarser grid; empty on that of the domain.
+/// A note for messages that name cells of a coarser grid. Empty on the domain's own grid.
 std::string note_of_cells(const Program& program);
 
 }  // namespace cascade

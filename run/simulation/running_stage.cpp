@@ -1,4 +1,5 @@
-// The kinds of runs, and what all stages report alike.
+// Makes the runs of stages of fields and of stages of cells, and the first report of their
+// progress.
 #include "run/simulation/running_stage.h"
 
 #include "lang/program/stage_kinds.h"

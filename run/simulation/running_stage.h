@@ -1,4 +1,4 @@
-// A stage that runs, of fields or of cells that crawl.
+// The interface of a running stage, either of fields or of crawling cells.
 #pragma once
 
 #include "core/result.h"
@@ -15,21 +15,21 @@
 
 namespace cascade {
 
-/// When and how the state of a run is kept while steps are taken; never without `is_due`.
+/// When and how the state of a run is saved during steps. If `is_due` is empty, it is never saved.
 struct Keeping {
     std::function<bool()> is_due;
     std::function<void()> keep;
 };
 
-/// When a stage is observed, as Simulation::advance_stage() says.
+/// The times at which a running stage is observed. See Simulation::advance_stage().
 struct Observation {
     std::function<void()> observe;
     std::int64_t every = 0;
     NextMoment next_moment = {};
 };
 
-/// The run of one stage that has been started. While it exists, nothing else may change the states
-/// of the simulation.
+/// The run of one stage that has been started. As long as it exists, nothing else may change the
+/// states of the simulation.
 class RunningStage {
 public:
     RunningStage() = default;
@@ -39,19 +39,20 @@ public:
 
     virtual std::uint32_t stage() const = 0;
     virtual StepKernels& kernels() = 0;
-    /// Like Simulation::advance_stage.
+    /// See Simulation::advance_stage().
     virtual Result<StageEnd> advance(std::int64_t last_step, RunControl& control,
                                      const Observation& observation) = 0;
-    /// May it be called again? Not after the end of the stage, a failure or a cancellation, nor if
-    /// doubts were looked for: their checks reuse the stage's memory.
+    /// Whether advance() may be called again. It may not after the end of the stage, a failure or a
+    /// cancellation. It also may not after the search for doubts about the result, which reuses the
+    /// stage's memory.
     virtual bool can_go_on() const = 0;
 };
 
-/// The run of a stage that has been started. The arguments must outlive it.
+/// Makes the run of a stage that has been started. The arguments must outlive it.
 std::unique_ptr<RunningStage> run_of(const Environment& environment, std::span<StageState> states,
                                      std::uint32_t stage, const Keeping& keeping);
 
-/// What is reported of a stage before it has taken a step.
+/// The report of progress before the first step of a stage.
 Progress progress_of(const Environment& environment, std::uint32_t stage);
 
 }  // namespace cascade

@@ -9,6 +9,7 @@
 #include "run/simulation/stage_start.h"
 #include "run/simulation/stages_on_grids.h"
 #include "run/stage/memory.h"
+#include "run/stage/stage_time.h"
 
 #include <cmath>
 #include <map>
@@ -25,13 +26,13 @@ Result<std::shared_ptr<TieredBackend>> make_stepper(const SimulationOptions& opt
 struct Simulation::Implementation {
     std::unique_ptr<StagesOnGrids> stages;
     Keeping keeping;
-    bool has_expected = false;  ///< Has the stepper been told what later stages need?
-    /// The run of the stage that advanced last, if it can go on.
+    bool has_expected = false;  ///< Whether `stepper` has been told the kernels of later stages.
+    /// The run of the stage that advanced last. Null if it cannot continue.
     std::unique_ptr<RunningStage> run;
-    /// By stage: kernels of stages that ended before it was known whether all can be compiled.
+    /// By stage: kernels of ended stages of which it is not yet known whether all can be compiled.
     std::map<std::uint32_t, StepKernels> unsettled;
 
-    /// What all stages share, but for coarser grids.
+    /// Everything that all stages share, except those on coarser grids.
     Environment& environment() const { return stages->domain(); }
 
     /// Must be called before states are changed.
@@ -47,7 +48,8 @@ struct Simulation::Implementation {
                       [](const auto& of_stage) { return !of_stage.second.is_provisional(); });
     }
 
-    /// Lets the stepper compile the kernels of stages after `k`, if their steps take long.
+    /// Lets the stepper compile the kernels of stages after `k` in advance if their steps take
+    /// long.
     void expect_stages_after(std::uint32_t k) {
         const KernelMaker& kernels = environment().kernels;
         if (!kernels.starts_interpreted() || std::exchange(has_expected, true)) return;

@@ -1,4 +1,4 @@
-// The state of a run: the values of every stage's items, and their computation.
+// Runs the stages of a script and holds the values of their items.
 #pragma once
 
 #include "core/plane.h"
@@ -28,43 +28,50 @@
 namespace cascade {
 
 struct SimulationOptions {
-    std::string_view backend = fastest_backend().name;  ///< A name of the table of backends.
-    int lanes = 0;                                      ///< As in BackendOptions.
-    int threads = 0;                                    ///< 0: all threads of the machine.
-    /// What takes the steps of stages of fields. No result depends on it.
+    std::string_view backend = fastest_backend().name;  ///< A name from the table of backends.
+    int lanes = 0;                                      ///< See BackendOptions.
+    int threads = 0;                                    ///< 0: as many as the machine has.
+    /// Makes the executor that takes the steps of stages of fields. No result depends on it.
     MakeExecutor executor = make_thread_executor;
-    /// Compiles the steps of several simulations, so that equal kernels are compiled once; null:
-    /// each simulation has its own.
+    /// Compiles the steps of several simulations, so that equal kernels are compiled only once. If
+    /// null, each simulation makes a compiler.
     std::shared_ptr<TieredBackend> stepper = nullptr;
-    /// Receives progress while the cells of a model are made, and may cancel it; may be null.
+    /// Receives the progress while the cells of a model are made, and may cancel this work. May be
+    /// null.
     RunControl* control = nullptr;
-    /// Refuses a model before its cells are made; may be empty.
+    /// Called with the model before its cells are made. May refuse the model. May be empty.
     std::function<Result<void>(const SurfaceMesh&)> check_model = {};
-    TimeAccount* account = nullptr;  ///< Receives the times spent; may be null.
-    std::filesystem::path cell_cache =
-        {};  ///< The folder in which cells of models are kept; empty: none.
-    /// The folder in which compiled kernels and the fastest tilings are kept for later processes;
-    /// empty: none.
+    /// The most seconds for making the cells of a model, after which the model is refused. 0: no
+    /// limit.
+    double model_seconds = 0;
+    TimeAccount* account = nullptr;  ///< Receives the times spent. May be null.
+    /// The folder in which cells of models are stored. If empty, they are not stored.
+    std::filesystem::path cell_cache = {};
+    /// The folder in which compiled kernels and the fastest tilings are stored for later processes.
+    /// If empty, they are not stored.
     std::filesystem::path kernel_cache = {};
-    /// Interpret the first steps while their code is compiled, unless the grid is so large that
-    /// waiting is faster. Affects the time of a step, but no result.
+    /// Whether the first steps are interpreted while their code is compiled. On large grids the
+    /// steps wait for their code anyway, because that is faster. No result depends on it.
     bool starts_interpreted = false;
-    std::uint64_t memory_limit = 0;  ///< The most bytes for all fields; 0: the free memory.
-    /// The cells of the script's model, where another simulation has made them; else null.
+    std::uint64_t memory_limit = 0;  ///< The most bytes for all fields. 0: all free memory.
+    /// The cells of the script's model if another simulation has made them, or null.
     std::shared_ptr<const ModelCells> known_model = nullptr;
-    /// Of an earlier simulation (SimulationDomain::known_sizes); no result depends on them.
+    /// The sizes that an earlier simulation found (SimulationDomain::known_sizes). No result
+    /// depends on them.
     std::map<std::string, double> known_sizes = {};
-    /// The choice of operands that are written to planes. No result depends on it.
+    /// How plans choose the operands that are written to planes. No result depends on it.
     PlanOptions planning = {Materialise::when_cheaper, false, true};
-    /// The tiling; none: chosen by size and by time. No result depends on it.
+    /// The tiling. If empty, it is chosen by the size of the grid and by measurement. No result
+    /// depends on it.
     std::optional<Tiling> tiling = {};
 };
 
-/// The stepper of `options`, which simulations may share. Fails if its backend is not available.
+/// Makes the stepper that `options` describe, which simulations may share. Fails if its backend is
+/// not available.
 Result<std::shared_ptr<TieredBackend>> make_stepper(const SimulationOptions& options);
 
-/// The first moment after t at which a stage is to be observed, in its own time; infinity if there
-/// is none.
+/// Returns the first moment after `t` at which a stage is to be observed. Both are times since the
+/// stage began. Infinity if there is no such moment.
 using NextMoment = std::function<double(double t)>;
 
 /// Why a stage ended.
@@ -72,69 +79,73 @@ enum class StageEnd { finished, stopped, cancelled };
 
 class StageView;
 
-/// Runs the stages of a checked program, one after the other. Owns all fields.
+/// Runs the stages of a checked program one after the other. Owns all fields.
 class Simulation {
 public:
-    /// Checks memory and reads the files that the script names. Faults of such files are added to
-    /// `script.diagnostics`, and the result fails. `script` must outlive the simulation.
+    /// Checks memory and reads the files that the script names. Errors in files are added to
+    /// `script.diagnostics`, and the result is then a failure. `script` must outlive the
+    /// simulation.
     static Result<std::unique_ptr<Simulation>> create(Script& script,
                                                       const SimulationOptions& options);
     ~Simulation();
 
     /// Computes the starting values of a stage from earlier stages. Fails if `speed` is not above 0
-    /// or a starting value is not finite. Making a grown body takes long: if `cancel` becomes true,
-    /// it fails, and the stage has not started.
+    /// or a starting value is not finite. Making a grown body takes long. If `cancel` becomes true
+    /// during that time, the call fails and the stage is not started.
     Result<void> start_stage(std::uint32_t stage,
                              const std::atomic<bool>& cancel = never_cancelled);
 
-    /// Takes steps until `last_step` are complete. The first call allocates what steps need and
-    /// keeps it for further calls, until the stage ends or states are changed. A stage with a
-    /// coarse start first runs on coarser grids, without observation. `observe` is called at
-    /// multiples of `every`, or of the stage's interval if `every` is 0; for a stage without an
-    /// interval, at tenths of its duration. With `next_moment`, for a stage of fields whose speed
-    /// is the same in all cells, `observe` is called at its moments instead, which are read between
-    /// steps (run/simulation/between_steps.h). If values are not finite, it fails with stage,
-    /// species, cell, step and the largest stable speed.
+    /// Takes steps until `last_step` steps are complete. The first call allocates the memory for
+    /// steps. It is kept for further calls until the stage ends or states are changed. A stage with
+    /// a coarse start first runs on coarser grids, without observation.
+    /// `observe` is called at multiples of `every` steps. If `every` is 0, it is called at the
+    /// stage's interval, or without one at multiples of its time `every` or at tenths of the
+    /// duration. If `next_moment` is given, `observe` is called at its moments instead, with values
+    /// interpolated between steps (run/simulation/between_steps.h). This requires a stage of fields
+    /// with a uniform `speed`. If values are not finite, the call fails with stage, species, cell,
+    /// step and the largest stable speed.
     Result<StageEnd> advance_stage(std::uint32_t stage, std::int64_t last_step, RunControl& control,
                                    const std::function<void()>& observe, std::int64_t every = 0,
                                    const NextMoment& next_moment = {});
 
-    /// From now on, `is_due` is called some fifty times a second while steps are taken. If it
-    /// returns true, `keep` is called at a complete step; a run can go on from the simulation's
-    /// states then with the same bits. Steps on coarser grids before a stage's first step are not
-    /// kept.
+    /// From now on, calls `is_due` about fifty times a second while steps are taken. If `is_due`
+    /// returns true, calls `keep` after the next complete step. A run that continues from the
+    /// states at that moment gives the same result, bit for bit. During steps on coarser grids
+    /// before a stage's first step, nothing is saved.
     void keep_with(std::function<bool()> is_due, std::function<void()> keep);
 
-    /// Waits for code of stages that ended before it was ready, and warns of kernels that could not
-    /// be compiled and were interpreted.
+    /// Waits for compiled code that was not ready when its stage ended, and warns of kernels that
+    /// were interpreted because they could not be compiled.
     void settle(RunControl& control);
 
-    /// Changes a started stage between two steps, in its own cells. What was computed from old
-    /// values when the stage started is kept: other parameters, and values of sides.
+    /// Changes the state of a started stage between two steps, in the stage's own cells. Values
+    /// that were computed from the old state at the start of the stage, such as other parameters
+    /// and values at sides, stay as they are.
     void change_stage(std::uint32_t stage, const std::function<void(StageState&)>& change);
 
-    /// Carries a run of the same script to the cells of this one, which are divided
-    /// (DomainSettings::detail), and makes `stage` go on here until its pattern has settled (see
-    /// run/simulation/finer_run.h). No stage of this simulation has started.
+    /// Carries a run of the same script to the divided cells of this simulation
+    /// (DomainSettings::detail), and lets `stage` continue here until its pattern has settled
+    /// (run/simulation/finer_run.h). No stage of this simulation may have started.
     Result<void> go_on_from(const Simulation& coarse, std::uint32_t stage);
 
-    /// Evaluates a formula for pictures over the present state: one field, or three for a colour.
-    /// Outside of the mask it is NaN, unless it is the same in all cells.
+    /// Evaluates a formula for pictures at the present state. Returns one field, or three for a
+    /// colour. Cells outside the mask are NaN unless the formula is uniform.
     std::vector<Field> evaluate(const Formula& formula, std::uint32_t stage) const;
-    /// Several formulas at once; common parts are computed once.
+    /// Evaluates several formulas together, so that common parts are computed once.
     std::vector<Field> evaluate(std::span<const Formula* const> formulas,
                                 std::uint32_t stage) const;
 
     const SimulationDomain& domain() const;
-    /// The domain in the cells of a stage, which may be wider.
+    /// The domain in the cells of a stage, which may be larger than the script's.
     const SimulationDomain& domain(std::uint32_t stage) const;
-    /// In the stage's own cells.
+    /// The state in the stage's own cells.
     const StageState& state(std::uint32_t stage) const;
-    /// An item that varies, in the cells of the domain; of cells that crawl in theirs.
+    /// The values of an item that varies, in the cells of the domain. In a stage of crawling cells,
+    /// each cell has one value.
     const Field& field(std::uint32_t stage, ItemId item) const;
-    /// The present state of a stage and of those before it, in the cells of the domain.
+    /// The present state of a stage and of all stages before it, in the cells of the domain.
     StageView view(std::uint32_t stage) const;
-    /// The same in the stage's own cells.
+    /// The present state of a stage and of all stages before it, in the stage's own cells.
     StageView own_view(std::uint32_t stage) const;
 
 private:
@@ -143,16 +154,15 @@ private:
     std::unique_ptr<Implementation> self_;
 };
 
-/// The values of formulas in the first cell, in their order. It is meant for formulas that are the
-/// same in all cells, such as aggregates over the domain. Formulas are evaluated together, so that
-/// common parts are computed once.
+/// The values of formulas in the first cell, in the order of the formulas. They are meant for
+/// formulas with the same value in all cells, such as aggregates. Common parts are computed once.
 std::vector<double> evaluate_numbers(const Simulation& simulation,
                                      std::span<const Formula* const> formulas, std::uint32_t stage);
 
-/// The time since a stage began, at its present step; NaN if `speed` varies by cell.
+/// The time from the beginning of a stage to its present step. NaN if `speed` varies.
 double time_of(const Simulation& simulation, std::uint32_t stage);
 
-/// The last stage that took a step, which pictures show; 0 if there is none.
+/// The last stage that has taken a step, which pictures show by default. 0 if no stage has.
 std::uint32_t shown_stage(const Simulation& simulation);
 
 }  // namespace cascade

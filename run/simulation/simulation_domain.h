@@ -1,4 +1,4 @@
-// What a simulation computes, and on which cells. Stages change none of it.
+// The program that a simulation computes, and its cells. Stages change neither.
 #pragma once
 
 #include "core/grid.h"
@@ -14,27 +14,29 @@
 
 namespace cascade {
 
-/// A model as a domain.
+/// A model whose surface is the domain.
 struct DomainModel {
     std::shared_ptr<const ModelCells> cells;
-    std::unique_ptr<SurfaceValues> values;  ///< What formulas read from places on it.
+    /// The values that formulas read at positions on the model.
+    std::unique_ptr<SurfaceValues> values;
 };
 
 struct SimulationDomain {
-    /// As it runs: lengths of stages with a size are scaled.
+    /// The program that runs. Lengths of stages with a size have been scaled.
     std::shared_ptr<const Program> program;
-    Grid grid;  ///< Of a model: the rows in which its cells lie.
+    Grid grid;  ///< On a model, the rows and columns in which its cells are stored.
     std::optional<DomainMask> mask = {};
     std::optional<DomainModel> model = {};
-    double memory = 0;  ///< Bytes of all planes that the simulation holds at one time.
-    /// By what lengths of stages were multiplied, under keys that say for what.
+    double memory = 0;  ///< Bytes of all planes that the simulation holds at the same time.
+    /// The factors by which lengths of stages were scaled. Each key describes the trial run that
+    /// found the factor.
     std::map<std::string, double> known_sizes = {};
 
     const Stage& stage(std::uint32_t k) const { return program->stages[k]; }
     Precision precision() const { return program->domain.precision; }
-    /// Null if all cells belong to the domain.
+    /// The mask, or null if all cells belong to the domain.
     const DomainMask* inside() const { return mask ? &*mask : nullptr; }
-    /// The cells of the model, for another simulation on it; null on grids.
+    /// The cells of the model, which another simulation can share. Null on grids.
     std::shared_ptr<const ModelCells> shared_model() const {
         return model ? model->cells : nullptr;
     }

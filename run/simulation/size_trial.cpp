@@ -1,4 +1,4 @@
-// Each trial is a small simulation of its own; its factor is corrected from one to the next.
+// Each trial is a small simulation. Its result corrects the factor for the next trial.
 #include "run/simulation/size_trial.h"
 
 #include "core/spread.h"
@@ -23,15 +23,17 @@ namespace cascade {
 
 namespace {
 
-/// What a trial run with a number of axes is like.
+/// The sizes of trial runs in one, two or three dimensions.
 struct TrialShape {
-    std::int64_t first_side;  ///< Cells along each axis while the wavelength is unknown;
-    double waves;             ///< then enough for this number of waves,
+    /// The number of cells along each axis of the first trial, when the wavelength is unknown.
+    std::int64_t first_side;
+    double waves;  ///< The number of waves for which later trials have room along each axis.
     std::int64_t least_side, most_side;
-    double most_cells;  ///< of at most so many cells each.
-    /// A wave of n cells is shorter than without a grid by this number / n². The discrete Laplacian
-    /// multiplies it by k² (1 − k²h²/12 · mean of Σ nᵢ⁴ over directions n) with k = 2π/(n h), and
-    /// half of that is missing in k; the mean is 1, 3/4 and 3/5 for one, two and three axes.
+    double most_cells;  ///< The largest number of cells for each of these waves.
+    /// The grid shortens a wave of n cells by the fraction `narrowing` / n². The discrete Laplacian
+    /// multiplies the wave by k² (1 − k²h²/12 · m) instead of k², where k = 2π/(n h) and m is the
+    /// mean of Σ dᵢ⁴ over all directions d: 1, 3/4 and 3/5 in one, two and three dimensions. Half
+    /// of that relative error appears in k.
     double narrowing;
 };
 
@@ -43,41 +45,50 @@ constexpr TrialShape shapes[3] = {
     {48, 7, 40, 56, 8, square(two_pi) / 24 * 3 / 5},
 };
 
-/// Steps after which a trial is looked at for the first time. It ends with the steps that the stage
-/// has, or its system if that has more, but not before the second number; with the third if neither
-/// says how many.
+/// Steps after which a trial is first examined, the smallest number of steps at which it may end,
+/// and the number at which it ends if neither stage nor system gives one. Otherwise it ends with
+/// the larger of the numbers of stage and system.
 constexpr std::int64_t first_steps = 250, least_most_steps = 1000, most_steps_without_end = 64000;
-/// Of a stage with a duration, the parts of it after which its trial is looked at; a doubling each.
+/// If a stage has a duration, its trial is examined after these fractions of it: the first one,
+/// then twice as much each time, up to the second one.
 constexpr double first_part = 0.125, last_part = 4;
-/// The relative changes of wavelength and contrast over a doubling that count as none, and the
-/// change of a wavelength that counts as no wavelength.
+/// The relative changes over a doubling of time below which wavelength and contrast count as
+/// constant, and the change above which a pattern has no wavelength of its own.
 constexpr double same_wavelength = 0.003, same_contrast = 0.03, other_wavelength = 0.08;
-/// A pattern has one wavelength if the spectrum's peak has this part of the variance.
+/// A pattern has a single wavelength if the peak of its spectrum holds at least this fraction of
+/// the variance.
 constexpr double regular_share = 0.3;
-/// Factors to begin with: patterns may be too large or too small for the cells as they are.
+/// Factors to try first, because the pattern may be too large or too small for the cells.
 constexpr double first_factors[] = {1, 1.0 / 4, 3, 1.0 / 16, 1.0 / 64, 1.0 / 256};
 constexpr double fewest_cells = 3, fewest_waves = 4;
-/// A trial is repeated until it has the wanted wavelength this closely, a few times at most. What
-/// is not even near says little about the wanted number of cells.
+/// Trials are repeated until the relative error of the wavelength is below the first number, at
+/// most `most_rounds` times. Trials with an error above the second number are left out of the
+/// average.
 constexpr double close_enough = 0.01, near_enough = 0.06;
 constexpr std::uint32_t most_rounds = 4;
 
 double relative_change(double now, double before) { return std::abs(now / before - 1); }
 
-/// What grew in a trial run.
+/// Measurements of the pattern of a trial.
 struct Look {
-    bool is_even = true;
-    double cells = 0;  ///< Of a wave.
-    double share = 0;  ///< Of the spectrum's peak.
+    bool is_uniform = true;
+    double cells = 0;  ///< The wavelength, in cells.
+    double share = 0;  ///< The part of the variance that the spectrum's peak holds.
     double deviation = 0;
 };
 
 struct Outcome {
-    Look last, before;  ///< The look before is that after half of the time.
-    int still = 0;      ///< Looks in a row that found no change.
-    /// Slow changes add up from one doubling to the next.
+    Look last, before;  ///< The last measurement, and the one after half of its time.
+    int still = 0;      ///< The number of successive measurements without a change.
+    /// Two are needed, because slow changes add up from one doubling to the next.
     bool holds_still() const { return still >= 2; }
 };
+
+/// Tools for trials, which run on small grids in this process, also if ranks share the run.
+StepTools alone(StepTools tools) {
+    tools.executor = make_thread_executor;
+    return tools;
+}
 
 class Trial {
 public:
@@ -86,7 +97,7 @@ public:
           tools_(tools),
           program_(std::make_shared<Program>(std::move(program))),
           environment_(tools.script, program_, {*program_, tools.planning}, program_->domain.grid,
-                       tools.steps) {
+                       alone(tools.steps)) {
         environment_.progress_note = ", a trial run for its size";
         control_.report = [this](const Progress& progress) {
             if (tools_.control.cancel) control_.cancel = true;
@@ -147,7 +158,7 @@ private:
         if (*end == StageEnd::cancelled) return failure("stopped");
         outcome.before = std::exchange(outcome.last, look());
         const Look &now = outcome.last, &before = outcome.before;
-        const bool is_still = !now.is_even && !before.is_even &&
+        const bool is_still = !now.is_uniform && !before.is_uniform &&
                               relative_change(now.cells, before.cells) < same_wavelength &&
                               relative_change(now.deviation, before.deviation) < same_contrast;
         outcome.still = is_still ? outcome.still + 1 : 0;
@@ -162,7 +173,7 @@ private:
         const Spread spread = spread_of([&](const auto& take) {
             for (const double value : samples.values) take(value);
         });
-        if (spread.is_even()) return {};
+        if (spread.is_uniform()) return {};
         const auto spectrum = measure::in_wide_rings(measure::radial_spectrum(samples));
         return {false, measure::peak_wavelength(spectrum), measure::peak_share(spectrum),
                 spread.deviation()};
@@ -194,11 +205,11 @@ public:
     Result<double> find(double cells) {
         auto first = first_wave();
         if (!first) return first;
-        // How wide waves of the stage are without a grid, in cells at a factor of 1.
+        // The wavelength of the stage without a grid, in cells, at a factor of 1.
         const double free = *first;
         const double target = std::min(cells, shape_.most_cells);
         double factor = without_grid(target) / free;
-        // Patterns from other random numbers differ: what several rounds say is averaged.
+        // The pattern depends on the random numbers, so the factors of several rounds are averaged.
         double sum = 0;
         int count = 0;
         for (std::uint32_t round = 1; round <= most_rounds; ++round) {
@@ -216,7 +227,7 @@ public:
     }
 
 private:
-    /// The wavelength that a wave of `cells` cells on a grid would have without the grid.
+    /// The wavelength without a grid of a wave that has `cells` cells on a grid.
     double without_grid(double cells) const { return cells + shape_.narrowing / cells; }
 
     std::int64_t side_for(double cells) const {
@@ -238,21 +249,22 @@ private:
 
     Result<double> first_wave() {
         const auto side = static_cast<double>(shape_.first_side);
-        Failure why{fmt::format("no pattern grows in a trial run of stage '{}', so there is none "
-                                "that size could scale",
+        Failure why{fmt::format("no pattern grows in a trial run of stage '{}', so 'size' has "
+                                "nothing to scale",
                                 trial_.stages[stage_].name),
-                    "run it without size first; cascade analyze says what would grow"};
+                    "run the stage without 'size' first; 'cascade analyze' predicts what grows"};
         for (const double factor : first_factors) {
             const auto grown = run(factor, shape_.first_side);
             if (tools_.control.cancel) return failure("stopped");
             if (!grown) {
-                // Only with its own lengths a stage has to be stable.
+                // Only the stage's own lengths must be stable. Failures with other factors are
+                // ignored.
                 if (factor == 1) why = grown.error();
                 continue;
             }
             const Look& look = grown->last;
             const bool is_shown =
-                !look.is_even && look.cells >= fewest_cells && look.cells <= side / fewest_waves;
+                !look.is_uniform && look.cells >= fewest_cells && look.cells <= side / fewest_waves;
             if (!is_shown) continue;
             if (const auto good = check(*grown); !good) return tl::unexpected(good.error());
             return without_grid(look.cells) / factor;
@@ -263,24 +275,24 @@ private:
     Result<void> check(const Outcome& grown) const {
         const std::string& name = trial_.stages[stage_].name;
         const Look &now = grown.last, &before = grown.before;
-        if (now.is_even) {
+        if (now.is_uniform) {
             return failure(fmt::format("the pattern of stage '{}' dies out in a trial run", name),
-                           "run it without size first");
+                           "run the stage without 'size' first");
         }
-        if (!grown.holds_still() && !before.is_even &&
+        if (!grown.holds_still() && !before.is_uniform &&
             relative_change(now.cells, before.cells) > other_wavelength) {
             return failure(
                 fmt::format("the pattern of stage '{}' has no size of its own: in a trial run its "
                             "waves had {:.3g} cells after half of the time and {:.3g} at the end",
                             name, before.cells, now.cells),
-                "leave size out: the pattern becomes wider as long as it runs, or never settles");
+                "leave 'size' out: the pattern widens throughout the run, or never settles");
         }
         if (now.share < regular_share) {
             return failure(
                 fmt::format("the pattern of stage '{}' has waves of many lengths, and none that "
-                            "size could scale",
+                            "'size' could scale",
                             name),
-                "leave size out");
+                "leave 'size' out");
         }
         return {};
     }

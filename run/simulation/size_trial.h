@@ -1,5 +1,5 @@
-// Short runs of a stage on a plane of its own, which find by how much its lengths must be scaled so
-// that its pattern has a wanted wavelength.
+// Runs a stage briefly on a separate plane, to find the factor by which its lengths must be
+// multiplied for a wanted wavelength.
 #pragma once
 
 #include "core/result.h"
@@ -13,26 +13,28 @@
 
 namespace cascade {
 
-/// What trial runs have in common with the run that needs them.
+/// The tools that a trial run shares with the run that needs it.
 struct TrialTools {
-    const Script& script;  ///< For the names of its stages in messages.
+    const Script& script;  ///< Gives the names of stages for messages.
     StepTools steps;
     PlanOptions planning;
-    RunControl& control;  ///< Receives progress and may cancel; the result is then a failure.
+    RunControl& control;  ///< Receives progress and may cancel. A cancelled search fails.
 };
 
-/// The factor for with_lengths() by which a wave gets `cells` cells of width `cell`; rounded to
-/// four digits, so that last bits of measurements do not matter. `trial` is trial_program() of the
-/// stage. It grows from its own starting values until wavelength and contrast hold still while the
-/// number of steps doubles twice, first with its lengths as they are, then at the wanted number of
-/// cells, because a coarse grid makes waves shorter. Waves of more cells than a short run can hold
-/// are found at fewer, with the theory of the difference. Fails if no pattern grows, if it never
-/// holds still, or if it has no single wavelength. The same with any number of threads and any
-/// vectors.
+/// Returns the factor for with_lengths() that gives the waves of a stage a length of `cells` cells,
+/// each `cell` wide. The factor is rounded to four digits, so that errors in the last bits of
+/// measurements do not matter. `trial` is trial_program() of the stage.
+/// The pattern grows from its own starting values until wavelength and contrast stay the same while
+/// the number of steps doubles twice. The first trial uses the stage's own lengths. Later ones use
+/// the wanted number of cells, because a coarse grid shortens waves. If a short run cannot hold
+/// enough waves of the wanted length, it finds the factor at a shorter length, and theory gives the
+/// difference.
+/// Fails if no pattern grows, if the pattern keeps changing, or if it has no single wavelength. The
+/// result depends neither on the number of threads nor on the width of vectors.
 Result<double> find_length_factor(const Program& trial, std::uint32_t stage, double cell,
                                   double cells, const TrialTools& tools);
 
-/// The most steps of a trial of a stage that ends by its steps.
+/// The most steps of a trial, for a stage whose end is given in steps.
 std::int64_t trial_steps(const Program& trial, std::uint32_t stage);
 
 }  // namespace cascade

@@ -1,20 +1,23 @@
-// Examines the species, a few more steps, and the rates.
+// Examines the species, their rates, and a few further steps.
 #include "run/simulation/stage_doubts.h"
 
-#include "core/counted_cells.h"
 #include "core/spread.h"
 #include "lang/program/nodes_of_rates.h"
+#include "run/simulation/diagnosis.h"
+#include "run/simulation/lost_changes.h"
 #include "run/simulation/stage_tools.h"
-#include "run/stage/not_finite.h"
-#include "run/stage/result_doubts.h"
+#include "run/stage/step_advice.h"
 #include "solvers/chequerboard.h"
 #include "solvers/field_norms.h"
 #include "solvers/flicker.h"
+#include "solvers/solve_report.h"
 #include "solvers/step_paths.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -22,103 +25,80 @@ namespace cascade {
 
 namespace {
 
-/// Species of more bytes are not copied for trial steps.
-constexpr std::int64_t most_copied_bytes = std::int64_t{64} << 20;
-/// The number of trial steps: at most a quarter of those before.
-constexpr std::int64_t most_trial_steps = 8, least_trial_steps = 4;
-
-/// Can the species be copied, and were there enough steps that a few more cost little?
-bool allows_trial_steps(const EndedStage& ended) {
-    const StageState& state = ended.state;
-    Schedule schedule = ended.timer.schedule(state.steps, 1);
-    schedule.most_kept_bytes = most_copied_bytes;
-    const Environment& here = ended.view.environment();
-    return !ended.view.stage().time.chooses_steps() && state.steps / 4 >= least_trial_steps &&
-           keeps_copy(schedule, state.species.size(), here.grid, here.precision());
-}
-
-/// Takes `count` steps with `timer`; `observe` receives the state before the first and after each.
-/// Returns false if a value was spoiled.
-bool take_trial_steps(const EndedStage& ended, StageTimer& timer, std::int64_t count,
-                      const Observer& observe) {
-    StageState& state = ended.state;
-    Schedule schedule = timer.schedule(state.steps, 1);
-    schedule.last_step = state.steps + count;
-    schedule.end_time = std::numeric_limits<double>::infinity();
-    schedule.check = 0;
-    schedule.ends = {};
-    schedule.most_kept_bytes = 0;
-    schedule.threads = ended.view.environment().tools.threads;
-    // The last step of a duration may have been shorter.
-    const double speed = state.numbers[ended.view.system().speed_item()];
-    if (schedule.time.clock.step > 0) schedule.time.clock.set_step(state.steps, speed);
-
-    const std::int64_t steps = state.steps;
-    const double t = state.t;
-    std::vector<Field> copies;
-    for (const Field& field : state.species) copies.push_back(field.clone());
-    bool is_finite = false;
-    {
-        const OtherSpecies trial(state, std::move(copies));
-        observe(steps, t, state.species);
-        RunControl unwatched;
-        is_finite =
-            !advance(timer.problem(), schedule, state.species, unwatched, {}, observe).not_finite;
-    }
-    state.go_to(steps, t);
-    return is_finite;
-}
-
-/// The number of shorter steps that replace one in a check. Two would not be enough: a value that
-/// repeats with the step often repeats with half of it, too.
-constexpr std::int64_t shorter_steps = 3;
-
-/// Do the steps of a stage depend on their number or length, or on chance? Shorter steps would then
-/// be those of another stage.
-bool knows_its_steps(const Program& program, std::uint32_t stage) {
-    const System& system = program.system_of(stage);
-    const auto knows = [&](const Node& node) {
-        return is_draw(node) || node.is(Builtin::step) || node.is(system.speed_item());
-    };
-    return holds_in_rates(system, knows) || holds_in_sides(program.stages[stage], knows) ||
-           std::any_of(system.invariants.begin(), system.invariants.end(),
-                       [&](const Invariant& each) { return holds_in(each.bound, knows); });
-}
-
-/// Changes that steps cannot add to a species.
-struct LostChange {
-    double part = 0;  ///< The part of the cells whose rate is not 0 that a step does not change.
-    double rate = 0;  ///< The sum of the magnitudes in such cells, over the number of all cells.
+/// A species that jumps back and forth from step to step.
+struct Flicker {
+    std::string species;
+    double part = 0;     ///< The fraction of the cells that jump.
+    double largest = 0;  ///< The largest jump.
 };
 
-LostChange lost_change(const Field& species, const Field& rates, double step, const Mask* counted,
-                       const Mask* frozen) {
-    const auto &value = species.plane(), &rate = rates.plane();
-    const auto length = static_cast<float>(step);
-    double cells = 0, moving = 0, lost = 0, sum = 0;
-    for_each_counted(value.layout(), counted, [&](std::int64_t row, std::int64_t i) {
-        ++cells;
-        const float change = length * rate.row(row)[i];
-        if (change == 0 || (frozen != nullptr && frozen->row(row)[i] != 0)) return;
-        ++moving;
-        if (value.row(row)[i] + change != value.row(row)[i]) return;
-        ++lost;
-        sum += std::abs(double{rate.row(row)[i]});
-    });
-    if (moving == 0) return {};
-    return {lost / moving, sum / cells};
+std::optional<Flicker> find_flicker(const EndedStage& ended);
+
+/// A stage that may be in doubt.
+class Doubted {
+public:
+    explicit Doubted(const EndedStage& stage) : ended(stage), view(stage.view) {}
+
+    const EndedStage& ended;
+    const StageView& view;
+
+    const std::string& name() const { return view.stage().name; }
+    std::string species(std::size_t number) const { return species_name(view.system(), number); }
+    /// Several doubts ask for it; it is measured once.
+    const std::optional<Flicker>& flicker() const {
+        if (!flicker_) flicker_ = allows_trial_steps(ended) ? find_flicker(ended) : std::nullopt;
+        return *flicker_;
+    }
+
+private:
+    mutable std::optional<std::optional<Flicker>> flicker_;
+};
+
+bool is_ended(const Doubted&) { return true; }
+bool allows_trial(const Doubted& stage) { return allows_trial_steps(stage.ended); }
+
+// Constraints that were not solved.
+
+struct Unsolved {
+    const SolveReport& solve;
+    const std::string& unknown;
+};
+
+constexpr double largest_rest = 1e-3, largest_mean = 1e-3;
+
+std::optional<Unsolved> find_unsolved(const Doubted& stage) {
+    for (const auto& [number, report] : *stage.ended.state.fields().constraints) {
+        if (report->largest_rest <= largest_rest && report->largest_mean <= largest_mean) continue;
+        return Unsolved{*report, stage.view.program().literals->constraint(number).unknown};
+    }
+    return std::nullopt;
 }
 
-/// a + factor · b.
-Field sum(const Field& a, const Field& b, double factor) {
-    Field result = a.clone();
-    for_each_cell([&](float& value, float other) { value += static_cast<float>(factor * other); },
-                  result.plane(), b);
-    return result;
+std::string describe_unsolved(const Doubted& stage, const Unsolved& report) {
+    const SolveReport& solve = report.solve;
+    if (!(solve.largest_rest <= largest_rest)) {
+        return fmt::format(
+            "stage '{}': the constraint of {} was not solved: after {} iterations its residual was "
+            "{:.2g} of that without {}; its operator may have no inverse, or its coefficients may "
+            "differ too much",
+            stage.name(), report.unknown, solve.most_iterations, solve.largest_rest,
+            report.unknown);
+    }
+    return fmt::format(
+        "stage '{}': no {} balances the mean of its constraint, {:.2g} of the whole, as any "
+        "constant may be added to it; it was found for the rest, and its own mean is 0",
+        stage.name(), report.unknown, solve.largest_mean);
 }
 
-/// Detects values that jump back and forth in a few more steps.
-std::optional<FlickerReport> find_flicker(const EndedStage& ended) {
+// Values that jump back and forth.
+
+/// A warning is given if at least this fraction of the cells jumps,
+constexpr double flicker_threshold = 0.01;
+/// or if at least this fraction of all changes is undone and steps are too long even for a regular
+/// oscillation.
+constexpr double undone_threshold = 0.4;
+
+std::optional<Flicker> find_flicker(const EndedStage& ended) {
     const StageView& view = ended.view;
     const StageState& state = ended.state;
     FlickerWatch watch(view.environment().counted());
@@ -132,30 +112,142 @@ std::optional<FlickerReport> find_flicker(const EndedStage& ended) {
 
     const System& system = view.system();
     const bool is_random = holds_in_rates(system, is_draw);
-    for (std::size_t s = 0; s < state.species.size(); ++s) {
+    for (std::size_t s = 0; s < state.species().size(); ++s) {
         const FlickerWatch::Finding found = watch.finding(s);
         if (found.flickering < flicker_threshold && (is_random || found.undone < undone_threshold))
             continue;
-        FlickerReport report;
-        report.stage = view.stage().name;
-        report.species = species_name(system, s);
-        report.use = view.step_in_use();
-        report.part = found.flickering;
-        report.largest = found.largest;
-        return report;
+        return Flicker{species_name(system, s), found.flickering, found.largest};
     }
     return std::nullopt;
 }
 
-/// Detects values that shorter steps would move differently.
-std::optional<AstrayReport> find_astray(const EndedStage& ended) {
-    const StageView& view = ended.view;
+/// A flicker with the longest stable step, if known.
+struct SureFlicker {
+    Flicker flicker;
+    StepInUse use;
+    std::optional<double> limit;
+};
+
+/// Compares the step with its stability limit. Changes that undo each other irregularly may be
+/// waves with a period of a few steps. Only a step beyond the limit shows that they are errors.
+std::optional<SureFlicker> find_sure_flicker(const Doubted& stage) {
+    if (!stage.flicker()) return std::nullopt;
+    const StageView& view = stage.view;
+    SureFlicker sure{*stage.flicker(), view.step_in_use(), std::nullopt};
+    const auto is_beyond = [&] { return sure.limit && is_too_long(sure.use, *sure.limit); };
+    sure.limit = longest_step(view.stability(view.state().species()), sure.use);
+    if (!is_beyond()) sure.limit = longest_step(view.stability(view.starting_species()), sure.use);
+    if (sure.flicker.part < flicker_threshold && !is_beyond()) return std::nullopt;
+    return sure;
+}
+
+std::string describe_flicker(const Doubted& stage, const SureFlicker& sure) {
+    const auto& [flicker, use, limit] = sure;
+    std::string text = fmt::format("stage '{}': {} jumps back and forth from step to step",
+                                   stage.name(), flicker.species);
+    if (flicker.part >= flicker_threshold) {
+        text += fmt::format(", by up to {:.3g} in {:.0f} % of the cells", flicker.largest,
+                            std::max(1.0, 100 * flicker.part));
+    }
+    text += ", which is a fault of too large a time step; ";
+    if (limit && is_too_long(use, *limit)) return text + advise(*limit, use);
+    if (!(use.speed > 0)) return text + "make 'speed' smaller";
+    return text + fmt::format("try 'speed: {:.2g}'", use.speed / 2);
+}
+
+// Neighbours that alternate because of the steps or the rate.
+
+/// The number of the first species that alternates from cell to cell.
+std::optional<std::size_t> find_alternating(const Doubted& stage) {
+    const StageView& view = stage.view;
+    const std::vector<Field>& species = view.state().species();
+    const Environment& here = view.environment();
+    const Links* links = here.model ? &here.model->cells->spread().links : nullptr;
+    const StageTime& time = view.stage().time;
+    const auto alternates = [&](const Field& field) {
+        const auto k = static_cast<std::size_t>(&field - species.data());
+        const StageCourse& course = view.state().course;
+        const double once = course.empty() ? 0 : course.last().largest[k];
+        if (alternating_part(field, here.counted(), links) < chequerboard_threshold) return false;
+        // Small values consist of rounding errors, or of errors within the solver's tolerance.
+        // These may well contain the shortest waves.
+        const FieldMoments values = moments(field, here.counted());
+        const double errors =
+            time.chooses_steps() ? time.step_tolerance() * values.root_mean_square : 0;
+        return values.deviation > std::max(remaining_part * once, errors);
+    };
+    const auto found = std::find_if(species.begin(), species.end(), alternates);
+    if (found == species.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - species.begin());
+}
+
+/// "" unless the step is too long or a rate makes differences between neighbours grow, because the
+/// pattern may otherwise be a lattice.
+std::string describe_chequerboard(const Doubted& stage, std::size_t species) {
+    const StageView& view = stage.view;
+    StepInUse use = view.step_in_use();
+    use.diffusion_limits = view.diffusion_limits();
+    const StabilityEstimate estimate = view.stability(view.state().species());
+    const std::string text =
+        fmt::format("stage '{}': {} alternates from cell to cell like a chequerboard", stage.name(),
+                    stage.species(species));
+    const auto limit = longest_step(estimate, use);
+    if (limit && is_too_long(use, *limit)) {
+        return text + ", which is a fault of too large a time step and not a pattern; " +
+               advise(*limit, use);
+    }
+    if (stage.flicker()) {
+        return text + fmt::format(
+                          ", and jumps back and forth from step to step: the time step is too "
+                          "large; try 'speed: {:.2g}'",
+                          use.speed / 2);
+    }
+    if (!limit && estimate.eigenvalue > 0 && !is_partly_implicit(use.solver)) {
+        return text +
+               ", because its rate makes differences of neighbours grow, the faster the finer they "
+               "are: is a sign wrong?";
+    }
+    return {};
+}
+
+// Values that shorter steps would move differently.
+
+/// The number of shorter steps that replace one step in a check. Two would not suffice: values that
+/// alternate with each step often alternate with steps of half the length, too.
+constexpr std::int64_t shorter_steps = 3;
+
+/// Do the rates depend on the number or length of steps, or on random numbers? If so, shorter steps
+/// would compute a different stage.
+bool knows_its_steps(const Program& program, std::uint32_t stage) {
+    const System& system = program.system_of(stage);
+    const auto knows = [&](const Node& node) {
+        return is_draw(node) || node.is(Builtin::step) || node.is(system.speed_item());
+    };
+    return holds_in_rates(system, knows) || holds_in_sides(program.stages[stage], knows) ||
+           std::any_of(system.invariants.begin(), system.invariants.end(),
+                       [&](const Invariant& each) { return holds_in(each.bound, knows); });
+}
+
+bool could_take_shorter_steps(const Doubted& stage) {
+    const StageView& view = stage.view;
+    return allows_trial(stage) && view.stage().uniform[view.system().speed_item()] &&
+           !is_stabilised(view.stage().time.solver) &&
+           !knows_its_steps(view.program(), view.number());
+}
+
+/// A species that moves differently, or not at all, with shorter steps.
+struct Astray {
+    std::string species;
+    double change = 0;             ///< The distance that steps move the values (root mean square).
+    double change_of_shorter = 0;  ///< The same for shorter steps that take the same time.
+    double apart = 0;              ///< The distance between the two results.
+};
+
+std::optional<Astray> find_astray(const Doubted& stage) {
+    const EndedStage& ended = stage.ended;
+    const StageView& view = stage.view;
     const System& system = view.system();
     const Mask* counted = view.environment().counted();
-    if (!view.stage().uniform[system.speed_item()] || is_stabilised(view.stage().time.solver) ||
-        knows_its_steps(view.program(), view.number())) {
-        return std::nullopt;
-    }
     const auto follow = [&](StageTimer& own, std::int64_t steps, StepPath& path) {
         return take_trial_steps(ended, own, steps,
                                 [&](std::int64_t, double, std::span<const Field> species) {
@@ -172,147 +264,54 @@ std::optional<AstrayReport> find_astray(const EndedStage& ended) {
     const bool is_finite = follow(shorter, least_trial_steps * shorter_steps, fine);
     speed = own_speed;
     if (!is_finite) return std::nullopt;
-    for (std::size_t s = 0; s < ended.state.species.size(); ++s) {
+    for (std::size_t s = 0; s < ended.state.species().size(); ++s) {
         const PathDifference found = difference(coarse, fine, s, counted);
         if (!found.is_apart) continue;
-        AstrayReport report;
-        report.stage = view.stage().name;
-        report.species = species_name(system, s);
-        report.use = view.step_in_use();
-        report.steps = least_trial_steps;
-        report.shorter_steps = least_trial_steps * shorter_steps;
-        report.change = found.coarse;
-        report.change_of_shorter = found.fine;
-        report.apart = found.apart;
-        return report;
+        return Astray{stage.species(s), found.coarse, found.fine, found.apart};
     }
     return std::nullopt;
 }
 
-/// Does a species alternate from cell to cell because of its steps or its rate?
-std::optional<std::string> find_chequerboard(const StageView& view, bool flickers) {
-    const std::vector<Field>& species = view.state().species;
-    const Environment& here = view.environment();
-    const Links* links = here.model ? &here.model->cells->spread().links : nullptr;
-    const StageTime& time = view.stage().time;
-    const auto alternates = [&](const Field& field) {
-        const auto k = static_cast<std::size_t>(&field - species.data());
-        const StageCourse& course = view.state().course;
-        const double once = course.empty() ? 0 : course.last().largest[k];
-        if (alternating_part(field, here.counted(), links) < chequerboard_threshold) return false;
-        // What has died away is rounding, or errors within the solver's tolerance, of which the
-        // fastest waves may well be left.
-        const FieldMoments values = moments(field, here.counted());
-        const double errors =
-            time.chooses_steps() ? time.step_tolerance() * values.root_mean_square : 0;
-        return values.deviation > std::max(remaining_part * once, errors);
-    };
-    const auto found = std::find_if(species.begin(), species.end(), alternates);
-    if (found == species.end()) return std::nullopt;
-    ChequerboardReport report;
-    report.stage = view.stage().name;
-    report.species = species_name(view.system(), static_cast<std::size_t>(found - species.begin()));
-    report.use = view.step_in_use();
-    report.flickers = flickers;
-    report.estimate = view.stability(species);
-    report.use.diffusion_limits = view.diffusion_limits();
-    return describe(report);
+std::string describe_astray(const Doubted& stage, const Astray& found) {
+    const StageView& view = stage.view;
+    const StepInUse use = view.step_in_use();
+    const std::string text = fmt::format(
+        "stage '{}': the time step is too large: {} more steps would move {} by {:.2g}, and {} "
+        "steps of a third of the length by {:.2g}, to values that differ by {:.2g}; ",
+        stage.name(), least_trial_steps, found.species, found.change,
+        least_trial_steps * shorter_steps, found.change_of_shorter, found.apart);
+    const auto limit = longest_step(view.stability(view.state().species()), use);
+    if (limit && is_too_long(use, *limit)) return text + advise(*limit, use);
+    return text + fmt::format("try 'speed: {:.2g}'", use.speed / 3);
 }
 
-/// How fast the rates decay when the state moves along them, in 1 / time; negative if they grow.
-double decay_along(const EndedStage& ended, const std::vector<Field>& rates) {
-    const std::vector<Field>& species = ended.state.species;
-    const Mask* counted = ended.view.environment().counted();
-    // Far enough along the rates that differences are well above rounding.
-    double step = std::numeric_limits<double>::infinity();
-    for (std::size_t s = 0; s < species.size(); ++s) {
-        const double largest = largest_magnitude(std::span(&rates[s], 1));
-        if (largest > 0)
-            step = std::min(step, 0.005 * root_mean_square(species[s], counted) / largest);
-    }
-    if (!std::isfinite(step) || !(step > 0)) return 0;
-    std::vector<Field> moved;
-    for (std::size_t s = 0; s < species.size(); ++s)
-        moved.push_back(sum(species[s], rates[s], step));
-    const std::vector<Field> there = [&] {
-        const OtherSpecies other(ended.state, std::move(moved));
-        return ended.view.rates();
-    }();
-    double products = 0, squares = 0;
-    for (std::size_t s = 0; s < rates.size(); ++s) {
-        const auto &here = rates[s].plane(), &then = there[s].plane();
-        for_each_cell(
-            [&](double rate, double other) {
-                products += rate * (other - rate);
-                squares += rate * rate;
-            },
-            here, then);
-    }
-    return squares > 0 ? -products / squares / step : 0;
+// Changes that are lost by rounding.
+
+bool may_lose_changes(const Doubted& stage) { return could_lose_changes(stage.view); }
+std::optional<ChangesLost> find_changes_lost(const Doubted& stage) {
+    return find_lost_changes(stage.ended);
 }
 
-/// Detects changes that single precision cannot add to the values, and that would have become
-/// noticeable.
-std::optional<LostChangeReport> find_lost_change(const EndedStage& ended) {
-    const StageView& view = ended.view;
-    const StageState& state = ended.state;
-    const Mask* counted = view.environment().counted();
-    const double step = state.time.clock.step;
-    const auto steps = static_cast<double>(state.steps);
-    // A step loses half of the last digit at most.
-    const bool is_possible = view.environment().precision() == Precision::single &&
-                             !is_adaptive(view.stage().time.solver) && step > 0 &&
-                             steps * 0x1p-24 >= lost_change_threshold;
-    if (!is_possible || holds_in_rates(view.system(), is_draw)) return std::nullopt;
-    const std::vector<Field> rates = view.rates();
-    const double decay = decay_along(ended, rates);
-    const double time = decay * steps * step > 1 ? 1 / decay : steps * step;
-    const Mask* frozen = state.frozen.empty() ? nullptr : &state.frozen;
-    for (std::size_t s = 0; s < rates.size(); ++s) {
-        const LostChange found = lost_change(state.species[s], rates[s], step, counted, frozen);
-        const double value = root_mean_square(state.species[s], counted);
-        if (found.part < 0.95 || !(found.rate * time >= lost_change_threshold * value)) continue;
-        LostChangeReport report;
-        report.stage = view.stage().name;
-        report.species = species_name(view.system(), s);
-        report.change = found.rate * step;
-        report.value = value;
-        report.lost = found.rate * time;
-        return report;
-    }
-    return std::nullopt;
+std::string describe_changes_lost(const Doubted& stage, const ChangesLost& found) {
+    return fmt::format(
+        "stage '{}': a step would change {} by about {:.2g}, which is too small to be added to "
+        "values of {:.2g} in single precision; about {:.2g} is lost over the stage; "
+        "'precision: double' in the domain keeps it",
+        stage.name(), found.species, found.change, found.value, found.lost);
 }
 
-/// Computes the limit of the step. Without a regular oscillation, changes that undo each other may
-/// be waves with a period of a few steps, so only a step beyond the limit is conclusive.
-bool is_sure(const StageView& view, FlickerReport& report) {
-    report.limit = longest_step(view.stability(view.state().species), report.use);
-    if (!report.limit || !is_too_long(report.use, *report.limit)) {
-        report.limit = longest_step(view.stability(view.starting_species()), report.use);
-    }
-    return report.part >= flicker_threshold ||
-           (report.limit && is_too_long(report.use, *report.limit));
-}
+constexpr Diagnosis<Doubted> doubts[] = {
+    diagnosis<Doubted, is_ended, find_unsolved, describe_unsolved>(),
+    diagnosis<Doubted, is_ended, find_alternating, describe_chequerboard>(),
+    diagnosis<Doubted, allows_trial, find_sure_flicker, describe_flicker>(),
+    diagnosis<Doubted, could_take_shorter_steps, find_astray, describe_astray>(),
+    diagnosis<Doubted, may_lose_changes, find_changes_lost, describe_changes_lost>(),
+};
 
 }  // namespace
 
-std::optional<std::string> find_doubt(const EndedStage& ended) {
-    const StageView& view = ended.view;
-    for (const auto& [number, report] : *view.state().constraints) {
-        const std::string& unknown = view.program().literals->constraint(number).unknown;
-        if (auto doubt = describe(*report, unknown, view.stage().name)) return doubt;
-    }
-    const bool allows_trial = allows_trial_steps(ended);
-    std::optional<FlickerReport> flicker;
-    if (allows_trial) flicker = find_flicker(ended);
-    if (auto chequerboard = find_chequerboard(view, flicker.has_value())) return chequerboard;
-    if (flicker && is_sure(view, *flicker)) return describe(*flicker);
-    if (auto astray = allows_trial ? find_astray(ended) : std::nullopt) {
-        astray->limit = longest_step(view.stability(view.state().species), astray->use);
-        return describe(*astray);
-    }
-    if (const auto lost = find_lost_change(ended)) return describe(*lost);
-    return std::nullopt;
+std::string find_doubt(const EndedStage& ended) {
+    return first_of<Doubted>(doubts, Doubted(ended));
 }
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// A record holds copies.
+// Copies values into records, and records back into stages.
 #include "run/simulation/stage_record.h"
 
 #include "run/simulation/simulation.h"
@@ -10,39 +10,45 @@ namespace cascade {
 
 namespace {
 
-std::size_t bytes_of_field(const Field& field) {
+std::size_t bytes_of(const Field& field) {
     return field.empty() ? 0 : Field::bytes(field.layout(), field.precision());
 }
 
-std::size_t bytes_of_cells(const TissueRecord& record) {
+std::size_t bytes_of(const RecordedFields& fields) {
+    std::size_t bytes = 0;
+    for (const auto& [name, field] : fields) bytes += bytes_of(field);
+    return bytes;
+}
+
+std::size_t bytes_of(const RecordedCells& cells) {
     std::size_t values = 0;
-    for (const auto* of : {&record.species, &record.stiffest, &record.kept}) {
+    for (const auto* of : {&cells->species, &cells->stiffest, &cells->kept}) {
         for (const std::vector<double>& each : *of) values += each.size();
     }
-    return sizeof(double) * values + sizeof(std::uint32_t) * 2 * record.numbers.size();
+    return sizeof(double) * values + sizeof(std::uint32_t) * 2 * cells->numbers.size();
 }
 
 }  // namespace
 
 std::size_t StageRecord::bytes() const {
-    std::size_t bytes = cells ? bytes_of_cells(*cells) : 0;
-    for (const auto& [name, field] : fields) bytes += bytes_of_field(field);
-    for (const Field& field : watch.last()) bytes += bytes_of_field(field);
+    std::size_t bytes = std::visit([](const auto& each) { return bytes_of(each); }, values);
+    for (const Field& field : watch.last()) bytes += bytes_of(field);
     return bytes;
 }
 
 StageRecord record_of(const StageState& state, const Program& program, std::uint32_t stage,
                       const std::set<std::string>& parameters) {
-    StageRecord record{StageMoment(state), {}, {}};
-    if (state.tissue) {
-        record.cells = std::make_shared<const TissueRecord>(state.tissue->record());
+    StageRecord record{StageMoment(state), {}};
+    if (const Tissue* const tissue = state.tissue()) {
+        record.values = std::make_shared<const TissueRecord>(tissue->record());
         return record;
     }
+    RecordedFields& fields = std::get<RecordedFields>(record.values);
     const System& system = program.system_of(stage);
     for (const ItemId item : recorded_items(program, stage)) {
         const std::string name(system.item_name(item));
         if (!system.is_species(item) && !parameters.contains(name)) continue;
-        record.fields.emplace(name, state.field(item).clone());
+        fields.emplace(name, state.field(item).clone());
     }
     return record;
 }
@@ -52,18 +58,24 @@ void restore(Simulation& simulation, std::uint32_t stage, StageRecord record) {
     const System& system = program.system_of(stage);
     simulation.change_stage(stage, [&](StageState& state) {
         static_cast<StageMoment&>(state) = std::move(record);
-        if (record.cells) {
-            state.tissue = std::make_shared<Tissue>(*record.cells, program.domain.precision);
-            return state.go_to(state.steps, record.cells->time.t);
+        if (const auto* const cells = std::get_if<RecordedCells>(&record.values)) {
+            std::get<TissueState>(state.values).tissue =
+                std::make_shared<Tissue>(**cells, program.domain.precision);
+            return state.go_to(state.steps, (*cells)->time.t);
         }
+        auto& fields = std::get<RecordedFields>(record.values);
         state.course = {};
+        std::vector<ItemId> items;
+        std::vector<Field> planes;
         for (const ItemId item : system.items()) {
-            const auto found = record.fields.find(system.item_name(item));
-            CHECK(found != record.fields.end() || !system.is_species(item),
+            const auto found = fields.find(system.item_name(item));
+            CHECK(found != fields.end() || !system.is_species(item),
                   "every species of the stage is given");
-            if (found != record.fields.end())
-                set_item(state, system, item, std::move(found->second));
+            if (found == fields.end()) continue;
+            items.push_back(item);
+            planes.push_back(std::move(found->second));
         }
+        take_values(state, program, stage, items, planes);
         state.go_to(state.steps, state.t);
     });
 }

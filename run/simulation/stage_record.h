@@ -1,4 +1,4 @@
-// Everything that a run needs to continue a stage from one moment.
+// Records everything that a run needs to continue a stage from one moment.
 #pragma once
 
 #include "core/plane.h"
@@ -12,6 +12,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace cascade {
@@ -19,26 +20,31 @@ namespace cascade {
 class Simulation;
 struct TissueRecord;
 
-/// A moment of a stage from which its run can continue, in the stage's own cells. If `time` and
-/// `watch` are empty, the lengths of steps are chosen as at the start of a stage.
-struct StageRecord : StageMoment {
-    /// By the names of items: all species, and parameters whose values the start does not give.
-    /// Empty for crawling cells.
-    std::map<std::string, Field, std::less<>> fields;
-    std::shared_ptr<const TissueRecord> cells;  ///< Crawling cells. Null for fields.
+/// Values by the names of their items: all species, and the parameters that cannot be computed from
+/// the start.
+using RecordedFields = std::map<std::string, Field, std::less<>>;
+using RecordedCells = std::shared_ptr<const TissueRecord>;  ///< Never null.
 
-    std::size_t bytes() const;  ///< The size of all values.
+/// A moment of a stage from which its run can continue, in the stage's own cells. If `time` and
+/// `watch` are empty, step lengths are chosen as at the start of a stage.
+struct StageRecord : StageMoment {
+    /// The fields or the crawling cells.
+    std::variant<RecordedFields, RecordedCells> values;
+
+    bool is_of_cells() const { return std::holds_alternative<RecordedCells>(values); }
+    std::size_t bytes() const;  ///< The size of all values, in bytes.
 };
 
-/// The present moment of a stage that has started, with the named parameters.
+/// Records the present moment of a started stage, with the named parameters.
 StageRecord record_of(const StageState& state, const Program& program, std::uint32_t stage,
                       const std::set<std::string>& parameters = {});
 
-/// Makes a started stage go on from another moment. The record has all species of a stage of
-/// fields, or all values of cells that crawl; of their moment only steps and ends count.
+/// Lets a started stage continue from another moment. The record must contain all species of a
+/// stage of fields, or all values of crawling cells. Of the moment in the record, only the steps
+/// and whether the stage has ended are used.
 void restore(Simulation& simulation, std::uint32_t stage, StageRecord record);
 
-/// The items that a record may hold: species, and parameters that vary by cell.
+/// The items that a record may contain: species, and parameters that vary.
 std::vector<ItemId> recorded_items(const Program& program, std::uint32_t stage);
 
 }  // namespace cascade

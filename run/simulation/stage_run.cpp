@@ -1,5 +1,5 @@
-// Begins a stage once, and continues it on each call. Where steps fail, the right speed is
-// estimated from the last good state and from the start of the stage.
+// Prepares a stage in the first call and continues it in each further call. If steps fail, the
+// largest stable speed is estimated from the last good state and from the start of the stage.
 #include "run/simulation/stage_run.h"
 
 #include "core/parallel.h"
@@ -9,6 +9,7 @@
 #include "run/simulation/stage_doubts.h"
 #include "run/simulation/stage_tools.h"
 #include "run/stage/not_finite.h"
+#include "solvers/executor_failure.h"
 
 #include <fmt/format.h>
 
@@ -21,7 +22,7 @@
 namespace cascade {
 namespace {
 
-/// Steps between two checks: a stage of few steps is checked as many times as a long one.
+/// Steps between two entries of a stage's course. Short stages get as many entries as long ones.
 std::int64_t look_every(const Stage& stage, std::int64_t usual) {
     constexpr std::int64_t looks = 10;
     return std::clamp<std::int64_t>(stage.iterations / looks, 1, usual);
@@ -30,7 +31,7 @@ std::int64_t look_every(const Stage& stage, std::int64_t usual) {
 Failure explain(const StepTooShort& place, const StageView& view) {
     Failure failure;
     failure.message = fmt::format(
-        "stage '{}' ({}): steps shrink to nothing: at t = {:.6g} one of {:.2g} is too long still, "
+        "stage '{}' ({}): steps shrink to nothing: at t = {:.6g} even one of {:.2g} is too long, "
         "for "
         "{} at {}",
         view.stage().name, view.system().name, place.t, place.step,
@@ -41,8 +42,9 @@ Failure explain(const StepTooShort& place, const StageView& view) {
     return failure;
 }
 
-/// For an outcome with a value that is not finite, or with steps that have become too short.
-/// `state` is the view's; if its values are spoiled, it is reset to the start of the stage.
+/// Explains an outcome with a value that is not finite, or with steps that have become too short.
+/// `state` must be the state that the view shows. If its values are spoiled, it is reset to the
+/// start of the stage.
 Failure explain(const StageOutcome& outcome, const StageView& view, StageState& state,
                 const std::atomic<bool>& cancel) {
     if (!outcome.not_finite) return explain(*outcome.too_short, view);
@@ -60,27 +62,27 @@ Failure explain(const StageOutcome& outcome, const StageView& view, StageState& 
         complete([&] { found = view.stability(species, kernels.once(), &cancel); });
         return found;
     };
-    const std::size_t count = state.species.size();
-    // Without a kept copy the values are the spoiled ones, even if two checks are one step apart.
+    const std::size_t count = state.species().size();
+    // Without a kept copy, `state` holds the spoiled values, even if two checks are one step apart.
     const bool keeps = !outcome.last_checked.empty();
     std::vector<Field> last_finite;
     if (keeps) {
         report.estimate_before = estimate(outcome.last_checked);
-        report.largest_before = largest_magnitude(state.species);
-        last_finite = std::move(state.species);
+        report.largest_before = largest_magnitude(state.species());
+        last_finite = std::move(state.species());
     }
-    // A state on its way to infinity says little about the right speed, so the start of the stage
-    // is used as well.
-    state.species.clear();
-    state.species.resize(count);
-    state.species = view.starting_species();
-    report.largest_at_start = largest_magnitude(state.species);
-    report.estimate_at_start = estimate(state.species);
+    // A state that grows towards infinity gives a poor estimate of the largest stable speed, so the
+    // start of the stage is used as well.
+    state.species().clear();
+    state.species().resize(count);
+    state.species() = view.starting_species();
+    report.largest_at_start = largest_magnitude(state.species());
+    report.estimate_at_start = estimate(state.species());
     report.use.diffusion_limits = view.diffusion_limits();
     if (keeps) {
-        state.species = std::move(last_finite);
+        state.species() = std::move(last_finite);
     } else {
-        // Spoiled values are of no use: the stage is reset to its start.
+        // Spoiled values are useless, so the stage is reset to its start.
         state.time = {};
         state.go_to(0, 0);
     }
@@ -118,16 +120,32 @@ Result<StageEnd> StageRun::advance(std::int64_t last_step, RunControl& control,
     next_moment_ = observation.next_moment;
     can_go_on_ = false;
     std::optional<Result<StageEnd>> over;
-    if (!loop_) over = begin(last_step);
-    if (!over) {
+    const std::optional<Failure> failed = failure_in([&] {
+        if (!loop_) over = begin(last_step);
+        control.may_end = false;
+        if (over) return;
         over = take_steps(last_step, observation);
         if (!*over) over->error().message += note_of_cells(view_.program());
-    }
+    });
+    if (failed) over = reset_after(*failed);
     control_ = nullptr;
     return std::move(*over);
 }
 
-/// Prepares the steps of the stage; returns a result if it ends before it takes any.
+/// Resets the stage to its start, because the values that it had are lost with the device.
+Result<StageEnd> StageRun::reset_after(Failure why) {
+    loop_.reset();
+    between_.reset();
+    state_.species().clear();
+    state_.species().resize(view_.system().species_count());
+    state_.species() = view_.starting_species();
+    state_.time = {};
+    state_.go_to(0, 0);
+    why.message = fmt::format("stage '{}': {}", view_.stage().name, why.message);
+    return tl::unexpected(std::move(why));
+}
+
+/// Prepares the steps of the stage. Returns a result only if the stage ends before its first step.
 std::optional<Result<StageEnd>> StageRun::begin(std::int64_t last_step) {
     const Environment& here = view_.environment();
     const Stage& stage = view_.stage();
@@ -152,11 +170,11 @@ std::optional<Result<StageEnd>> StageRun::begin(std::int64_t last_step) {
     invariants_ = find_step_invariants(view_);
     const StepProblem& problem = timer_.problem();
     tilings_.emplace(here.tilings, problem, kernels_.identity());
-    loop_.emplace(problem, schedule(), state_.species, progress_of(here, view_.number()));
+    loop_.emplace(problem, schedule(), state_.species(), progress_of(here, view_.number()));
     return std::nullopt;
 }
 
-/// If all cells are frozen nothing changes: steps are complete at once.
+/// Completes all steps at once, because nothing changes if all cells are frozen.
 StageEnd StageRun::end_frozen(std::int64_t last_step) {
     const bool has_duration = view_.stage().time.has_duration();
     state_.go_to(has_duration ? 0 : last_step, state_.t);
@@ -172,7 +190,7 @@ Schedule StageRun::schedule() {
             return next_moment_ ? next_moment_(t) : std::numeric_limits<double>::infinity();
         };
     }
-    schedule.tenths = view_.stage().interval == 0;
+    schedule.marks = view_.stage().interval == 0;
     schedule.check_every = look_every(view_.stage(), schedule.check_every);
     schedule.onlooker = [this](std::int64_t step, double t, std::span<const Field>) {
         if (!state_.course.is_due(step)) return;
@@ -192,15 +210,16 @@ Schedule StageRun::schedule() {
     return schedule;
 }
 
-/// Adds the present state of the stage to its course.
+/// Adds the spread of the present values to the record of the stage (run/stage/stage_course.h).
 void StageRun::look() {
-    // If steps differ from cell to cell, steps are counted instead of time.
+    // If `speed` varies, cells have no common time, so steps are counted instead.
     const bool is_timed = view_.stage().uniform[view_.system().speed_item()];
     const double age = is_timed ? state_.t : static_cast<double>(state_.steps);
-    state_.course.look(state_.steps, age, state_.species, view_.environment().counted());
+    state_.course.look(state_.steps, age, state_.species(), view_.environment().counted());
 }
 
-/// At a complete step, or between it and the one before.
+/// Called at complete steps. If moments are observed, they are interpolated since the previous
+/// step.
 void StageRun::observe(const Observation& observation) {
     if (between_) {
         between_->pass(observation.next_moment, observation.observe, control_->cancel);
@@ -215,7 +234,7 @@ Result<StageEnd> StageRun::take_steps(std::int64_t last_step, const Observation&
         observation.every > 0 ? observation.every : view_.stage().interval;
     if (next_moment_ && !between_) {
         between_.emplace(view_, state_);
-        observe(observation);  // Keeps the first step.
+        observe(observation);  // Copies the state before the first step.
     }
     const StageOutcome outcome =
         loop_->advance(last_step, interval, *control_,
@@ -232,7 +251,7 @@ Result<StageEnd> StageRun::take_steps(std::int64_t last_step, const Observation&
     const bool is_done = is_good && (outcome.ended || state_.steps >= view_.stage().iterations);
     const bool looks_for_doubts = control_->warn && (is_done || !control_->checks_later);
     can_go_on_ = is_good && !is_done && state_.steps > 0 && !looks_for_doubts;
-    // The checks from here on allocate memory of their own.
+    // The checks that follow need the memory.
     if (!can_go_on_) loop_.reset();
     if (outcome.not_finite || outcome.too_short)
         return tl::unexpected(explain(outcome, view_, state_, control_->cancel));
@@ -247,10 +266,10 @@ Result<StageEnd> StageRun::take_steps(std::int64_t last_step, const Observation&
 }
 
 void StageRun::look_for_doubts() {
-    const auto doubt = state_.steps > 0 ? find_doubt({view_, state_, timer_}) : std::nullopt;
-    if (doubt) {
-        control_->warn(*doubt);
-        // A stage in doubt has no course and gets no further remark.
+    const std::string doubt = state_.steps > 0 ? find_doubt({view_, state_, timer_}) : "";
+    if (!doubt.empty()) {
+        control_->warn(doubt);
+        // A stage in doubt gets no remarks, so its course is not needed.
         state_.course = {};
     }
     undefined_.look_at_end(view_, *control_);
@@ -258,7 +277,7 @@ void StageRun::look_for_doubts() {
     if (lost_.are_told()) state_.course = {};
 }
 
-/// Adds the steps taken to the account of times.
+/// Adds the steps taken, and their time, to the account.
 void StageRun::account_for(std::int64_t steps, const StageOutcome& outcome) const {
     const Environment& here = view_.environment();
     TimeAccount::Stage& entry = here.account.stage(view_.number());

@@ -1,11 +1,11 @@
-// A stage that runs. Everything that its steps need lives from its start to its end: kernels, bound
-// passes, step-invariants, the copies of its species, threads, and measurements of their speed.
+// Runs a stage of fields. Holds everything that its steps need from start to end: kernels, bound
+// passes, step-invariants, copies of species, threads, and measurements of speed.
 #pragma once
 
 #include "core/result.h"
 #include "core/run_control.h"
 #include "run/simulation/between_steps.h"
-#include "run/simulation/lost_products.h"
+#include "run/simulation/lost_parts.h"
 #include "run/simulation/running_stage.h"
 #include "run/simulation/stage_view.h"
 #include "run/simulation/undefined_values.h"
@@ -24,7 +24,7 @@ namespace cascade {
 /// The run of a stage of fields.
 class StageRun : public RunningStage {
 public:
-    /// All must outlive the run.
+    /// All arguments must outlive the run.
     StageRun(const Environment& environment, std::span<StageState> states, std::uint32_t stage,
              const Keeping& keeping);
 
@@ -39,6 +39,7 @@ private:
     StageEnd end_frozen(std::int64_t last_step);
     Schedule schedule();
     void look();
+    Result<StageEnd> reset_after(Failure why);
     Result<StageEnd> take_steps(std::int64_t last_step, const Observation& observation);
     void observe(const Observation& observation);
     void look_for_doubts();
@@ -50,14 +51,14 @@ private:
     StageState& state_;
     const Keeping& keeping_;
     StepKernels kernels_;
-    LostProducts lost_;
+    LostParts lost_;
     UndefinedValues undefined_;
-    RunControl* control_ = nullptr;  ///< For the present call.
+    RunControl* control_ = nullptr;  ///< The control of the present call of advance().
     StageTimer timer_;
     std::optional<StageTilings> tilings_;
-    NextMoment next_moment_;               ///< For the present call.
-    std::optional<BetweenSteps> between_;  ///< With moments.
-    std::optional<TimeLoop> loop_;         ///< From the first step on.
+    NextMoment next_moment_;               ///< The moments of the present call of advance().
+    std::optional<BetweenSteps> between_;  ///< Empty unless moments are observed.
+    std::optional<TimeLoop> loop_;         ///< Empty before the first step.
     bool can_go_on_ = true;
 };
 

@@ -1,4 +1,4 @@
-// The key of a factor is the trial program as text: equations, parameters, start, solver.
+// Factors are stored under the text of the trial program: equations, parameters, start, solver.
 #include "run/simulation/stage_sizes.h"
 
 #include "core/check.h"
@@ -7,6 +7,7 @@
 #include "core/version.h"
 #include "lang/program/scaled_lengths.h"
 #include "lang/program/trial_program.h"
+#include "run/domain/model_cells.h"
 #include "run/simulation/size_trial.h"
 
 #include <fmt/format.h>
@@ -25,10 +26,11 @@ namespace cascade {
 
 namespace {
 
-/// The last byte of the magic changes with the way in which factors are found.
+/// The digit at the end must change whenever the way of finding factors changes.
 constexpr KeptFiles::Kind size_files{".size", "CascSiz1", std::uint64_t{1} << 20};
 
-/// Factors by their keys: those that the simulation was given and has found, and those on disk.
+/// Factors by their keys: those found by this or an earlier simulation of the process, and those on
+/// disk.
 class KeptFactors {
 public:
     KeptFactors(const std::filesystem::path& folder, std::map<std::string, double>& known)
@@ -56,7 +58,7 @@ private:
     std::map<std::string, double>& known_;
 };
 
-/// The side of a square as large as the mean cell, in units of the domain.
+/// The side of a square that has the area of the mean cell, in units of the domain.
 double cell_width(const Environment& here) {
     const DomainSettings& domain = here.program->domain;
     if (here.model) {
@@ -75,20 +77,22 @@ double cell_width(const Environment& here) {
     return std::sqrt(area / static_cast<double>(here.grid.cell_count()));
 }
 
-/// The longest wave, in cells: a side of the grid, or of a square with as many cells as the model.
+/// The longest possible wave, in cells: the longest side of the grid, or the side of a square with
+/// as many cells as the model.
 double longest_wave(const Environment& here) {
     if (!here.model) return static_cast<double>(here.grid.longest_side());
     return std::sqrt(static_cast<double>(here.model->cells->count()));
 }
 
-/// The same for all ends of the stage, since the trial has an end of its own.
+/// The key of a trial. It does not depend on the end of the stage, because trials have ends of
+/// their own.
 std::string key_of(const Program& trial, std::uint32_t stage, double cell, double cells) {
     Program keyed = trial;
     const bool has_steps = !trial.stages[stage].time.has_duration();
-    // Fewer steps than trials take anyway make no difference.
+    // The stage's steps matter only if a trial takes more because of them.
     if (has_steps) keyed.stages[stage].iterations = trial_steps(trial, stage);
     keyed.stages[stage].interval = 0;
-    // Trials have a grid of their own.
+    // Trials have another grid.
     Grid& grid = keyed.domain.grid;
     grid.spacing = 1;
     for (std::int64_t* const side : {&grid.width, &grid.height, &grid.depth}) {
@@ -97,7 +101,31 @@ std::string key_of(const Program& trial, std::uint32_t stage, double cell, doubl
     return fmt::format("{}\n{} cells of {}\n{}", version(), cells, cell, print_program(keyed));
 }
 
+/// The length of one unit on a model, in lengths of scripts.
+double unit_in_scripts(const ModelSettings& model, const ModelCells& cells) {
+    const double unit = model.unit ? *model.unit : cells.spread().unit;
+    return unit / ModelBox(cells.mesh).longest;
+}
+
 }  // namespace
+
+void size_cells(Environment& here, const ModelCells& cells, RunControl& control) {
+    std::optional<Program> sized;
+    for (std::uint32_t k = 0; k < here.program->stages.size(); ++k) {
+        const Stage& stage = here.stage(k);
+        if (!(stage.cell_size > 0)) continue;
+        if (!sized) sized = *here.program;
+        const double radius =
+            stage.cell_size / 2 * unit_in_scripts(*here.program->domain.model, cells);
+        const ItemId item = here.program->system_of(k).cells->radius;
+        sized->stages[k].items[item] = {{Node{radius, stage.span}}};
+        if (control.note) {
+            control.note(fmt::format("stage '{}': cells of size {:g} start with r = {:.4g}",
+                                     stage.name, stage.cell_size, radius));
+        }
+    }
+    if (sized) here.use(*std::move(sized));
+}
 
 Result<void> find_sizes(Environment& here, Script& script, const SimulationOptions& options,
                         RunControl& control) {

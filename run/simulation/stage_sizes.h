@@ -1,4 +1,5 @@
-// The sizes that stages ask for, found by trial runs and kept for later ones.
+// Finds, by trial runs, the factors that give stages their wanted sizes, and stores the factors for
+// later runs.
 #pragma once
 
 #include "core/result.h"
@@ -7,18 +8,23 @@
 
 namespace cascade {
 
-/// Scales the lengths of the stages that run and have a size, so that `here` gets a program of its
-/// own; says what was found. Factors are kept in the process and beside compiled kernels; no result
-/// depends on whether one was found there. Sizes that cannot be had are errors in
-/// `script.diagnostics`, and the result fails. `here` is complete but for its mask.
+/// Scales the lengths of all stages that run and have a size, reports the factors found, and gives
+/// `here` the scaled program. Factors are stored in the process and beside compiled kernels, and no
+/// result depends on whether a stored factor is used. A size that cannot be reached is an error in
+/// `script.diagnostics`, and the result is then a failure. `here` must be complete except for its
+/// mask.
 Result<void> find_sizes(Environment& here, Script& script, const SimulationOptions& options,
                         RunControl& control);
 
-/// Does a stage that runs have a size?
+/// Gives the crawling cells on a model the radii that the sizes of their stages mean, and notes
+/// them. Throws std::bad_alloc.
+void size_cells(Environment& here, const ModelCells& cells, RunControl& control);
+
+/// Whether a stage of fields that runs has a size.
 bool has_sizes(const Script& script);
 
-/// The program of a checked script as it runs, with the sizes of its stages; that of the script if
-/// there are none. Fails like Simulation::create().
+/// The program that runs, with lengths scaled for the sizes of its stages. Without sizes it is the
+/// script's own program. Fails like Simulation::create().
 Result<std::shared_ptr<const Program>> sized_program(Script& script,
                                                      const SimulationOptions& options);
 

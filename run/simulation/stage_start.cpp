@@ -32,21 +32,10 @@ namespace {
 void start_varying_items(const StageView& view, StageState& state) {
     const StepPlan& plan = view.environment().plans.start(view.number());
     std::vector<Field> values = view.evaluate(plan);
-    for (std::size_t r = 0; r < values.size(); ++r) {
-        const ItemId item = plan.results[r];
-        const auto species = state.species_of_item[item];
-        if (view.stage().uniform[item]) {
-            state.numbers[item] = values[r].number_at(0, 0);
-        } else if (species) {
-            state.species[species->index()] = std::move(values[r]);
-        } else {
-            if (item == view.system().frozen_item()) state.frozen = to_mask(values[r]);
-            state.fields[item] = std::move(values[r]);
-        }
-    }
+    take_values(state, view.program(), view.number(), plan.results, values);
 }
 
-/// Do rows and columns meet at an angle other than a right one beside a side with a slope?
+/// Whether rows and columns of the surface meet at an oblique angle beside a side with a slope.
 bool is_sheared_at(const Environment& here, Side side, SideKind kind) {
     if (here.metric.empty() || kind != SideKind::slope) return false;
     const auto at = [&](MetricPlane plane, std::int64_t offset) {
@@ -63,8 +52,8 @@ bool is_sheared_at(const Environment& here, Side side, SideKind kind) {
     return false;
 }
 
-/// The value of a side of species number `species` of a stage, ready to be computed for any moment.
-/// The parts that do not depend on the moment are computed here, from the present state.
+/// Prepares the value of one species at a side, so that it can be computed for any moment. The
+/// parts that do not depend on the moment are computed here, from the present state.
 ChangingSide bind_side(const SidePlans& plans, std::uint32_t stage, SpeciesId species, Side side,
                        const Compile& compile, const BindingContext& context, Team& team) {
     const IdVector<StepInvariantId, Field> step_invariants(
@@ -89,7 +78,8 @@ ChangingSide bind_side(const SidePlans& plans, std::uint32_t stage, SpeciesId sp
         const auto* const id = std::get_if<StepInvariantId>(&source);
         const Field& plane = id != nullptr ? step_invariants[*id] : plane_of(source, context);
         std::vector<double>& strip = changing.strips.emplace_back(values_beside(plane, side));
-        strip.resize(strip.size() + PlaneLayout::row_pad);  // Kernels read whole vectors.
+        // Kernels read whole vectors, so the strip is padded.
+        strip.resize(strip.size() + PlaneLayout::row_pad);
     }
     for (const UniformSource& source : bound.uniforms) {
         const auto slot = static_cast<std::uint32_t>(changing.uniforms.size());
@@ -109,9 +99,9 @@ ChangingSide bind_side(const SidePlans& plans, std::uint32_t stage, SpeciesId sp
     return changing;
 }
 
-/// Finds the rules of species and definitions at the sides. Values come from formulas that may read
-/// any starting value; one that is the same along the side is kept as a number. Meanwhile the
-/// boundary of the domain holds.
+/// Finds the rules of species and definitions at the sides. Their values are formulas that may read
+/// any starting value. A value that is uniform along its side is stored as a number. Until the
+/// rules are found, the boundary of the domain applies.
 class SideFinder {
 public:
     SideFinder(const StageView& view) : view_(view), here_(view.environment()) {}
@@ -152,8 +142,8 @@ public:
     }
 
     void give_to(StageState& state) && {
-        state.sides = std::move(rules_);
-        state.changing_sides = std::move(changing_);
+        state.fields().sides = std::move(rules_);
+        state.fields().changing_sides = std::move(changing_);
         state.go_to(state.steps, state.t);
     }
 
@@ -183,7 +173,7 @@ Result<void> check_speed(const StageView& view) {
     const Environment& here = view.environment();
     const ItemId item = view.system().speed_item();
     double slowest = view.state().numbers[item];
-    if (!view.stage().uniform[item]) slowest = smallest(view.state().fields[item], here.inside());
+    if (!view.stage().uniform[item]) slowest = smallest(view.state().field(item), here.inside());
     if (slowest > 0 && std::isfinite(slowest)) return {};
     const std::string text = with_number(here.precision(), [&](auto zero) {
         return fmt::format("{}", static_cast<decltype(zero)>(slowest));
@@ -192,7 +182,7 @@ Result<void> check_speed(const StageView& view) {
                                view.stage().name, text));
 }
 
-/// Refuses convolutions over too many cells, before anything computes them.
+/// Refuses convolutions over too many cells before any is computed.
 Result<void> check_reaches(const StageView& view) {
     const Environment& here = view.environment();
     Result<void> good;
@@ -220,7 +210,7 @@ Result<void> check_reaches(const StageView& view) {
 }  // namespace
 
 void start_uniform_items(const StageView& view, StageState& state) {
-    // On a grid of one cell.
+    // A grid of one cell suffices for uniform items.
     const StepPlan plan = plan_uniform_start(view.program(), view.number());
     const Grid one{1, 1, Boundary::periodic};
     const Environment& here = view.environment();

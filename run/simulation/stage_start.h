@@ -1,4 +1,4 @@
-// Starts stages of either kind. A stage of fields gets its parameters, species and sides.
+// Starts stages of fields, with their parameters, species and sides, and stages of crawling cells.
 #pragma once
 
 #include "core/result.h"
@@ -13,11 +13,12 @@
 
 namespace cascade {
 
-/// Computes the items of a stage that are the same in all cells.
+/// Computes the uniform items of a stage.
 void start_uniform_items(const StageView& view, StageState& state);
 
-/// Computes the starting values of a stage from earlier stages. Fails if `speed` is not above 0, if
-/// a side with a flux lies where the surface is sheared, or as start_tissue() does.
+/// Computes the starting values of a stage from earlier stages. Fails if `speed` is not above 0 or
+/// if a side with a flux meets a sheared part of the surface. A stage of cells fails like
+/// start_tissue().
 Result<void> start_stage(const Environment& environment, std::span<StageState> states,
                          std::uint32_t stage, const std::atomic<bool>& cancel = never_cancelled);
 

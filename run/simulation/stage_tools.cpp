@@ -1,4 +1,4 @@
-// Binds the passes of steps, and computes the numbers from which their length is chosen.
+// Binds the passes of steps, and computes the numbers that determine the length of steps.
 #include "run/simulation/stage_tools.h"
 
 #include "core/counted_cells.h"
@@ -23,10 +23,10 @@ namespace cascade {
 namespace {
 
 constexpr std::int64_t fewest_moments = 16;
-/// What is evaluated for all moments takes a fraction of a second.
+/// With this many cells, evaluating a formula at all moments takes a fraction of a second.
 constexpr std::int64_t most_cells_of_moments = std::int64_t{1} << 23;
 
-/// Of |a − b| over the cells; what is not finite counts as 0.
+/// The sum of |a − b| over the cells. Differences that are not finite count as 0.
 double sum_of_changes(const Field& a, const Field& b, const Mask* counted) {
     double sum = 0;
     with_number(a.precision(), [&](auto zero) {
@@ -40,7 +40,7 @@ double sum_of_changes(const Field& a, const Field& b, const Mask* counted) {
     return sum;
 }
 
-/// Of |a − mean| over the cells.
+/// The sum of |a − mean| over the cells.
 double sum_of_differences(const Field& a, const Mask* counted) {
     double sum = 0, cells = 0, differences = 0;
     a.visit([&](const auto& plane) {
@@ -59,7 +59,7 @@ double sum_of_differences(const Field& a, const Mask* counted) {
     return differences;
 }
 
-/// The values of a formula of constants and `t` alone. The view must outlive it.
+/// Returns the values of a formula of constants and `t` alone. The view must outlive the result.
 ValueAt values_at(const StageView& view, const Formula& formula) {
     const Grid one{1, 1, Boundary::periodic};
     const auto runner =
@@ -74,10 +74,10 @@ ValueAt values_at(const StageView& view, const Formula& formula) {
     };
 }
 
-/// For a formula of constants, places and `t`: the part of it that changes within a 1000th of the
-/// duration, at up to 1000 moments that are spread evenly; fewer if there are many cells. The part
-/// is the sum of all changes, divided by the sum of all differences from the mean at the moment
-/// when that sum is largest.
+/// Returns how much a formula of constants, positions and `t` changes within 1/1000 of the
+/// duration, at up to 1000 evenly spread moments. Large grids get fewer moments. Each change is the
+/// sum of |change| over the cells, divided by the largest sum of |difference from the mean| at any
+/// of the moments.
 std::vector<double> motion_over(const StageView& view, const Formula& formula, double duration) {
     const Environment& here = view.environment();
     const Formula* const formulas[] = {&formula};
@@ -106,7 +106,7 @@ std::vector<double> motion_over(const StageView& view, const Formula& formula, d
     return changes;
 }
 
-/// Turns the plan's results into temporaries after its own; returns them.
+/// Writes the plan's results to new temporaries instead. Returns these.
 std::vector<TemporaryId> results_to_temporaries(StepPlan& plan) {
     std::vector<TemporaryId> planes;
     for (PassTarget& target : plan.passes.back().targets) {
@@ -118,21 +118,21 @@ std::vector<TemporaryId> results_to_temporaries(StepPlan& plan) {
 }
 
 /// The diffusion of a stage's species, for the filters of semi-implicit solvers. Constant factors
-/// are computed once. A factor that changes is the largest value of a plane, an aggregate of each
-/// step.
+/// are computed once. A factor that changes is recomputed in each step, as the largest value of a
+/// plane.
 class BoundDiffusion {
 public:
-    /// Returns the largest value of each formula over the cells at the present state.
+    /// Returns the largest value of each formula over the cells, at the present state.
     using Largest = std::function<std::vector<double>(std::span<const Formula* const>)>;
 
     BoundDiffusion(const Program& program, std::uint32_t stage, const Largest& largest);
 
-    /// The passes that precede those of a step and write the changing factors to temporary planes.
-    /// There are none if no factor changes.
+    /// The passes that write the changing factors to temporary planes, before the passes of a step.
+    /// Empty if no factor changes.
     const StepPlan& before() const { return before_; }
 
-    /// Adds the factors to a problem that begins with the passes of before(); after those, the
-    /// planes are reduced to their largest values.
+    /// Adds the factors to a problem that begins with the passes of before(). The planes are then
+    /// reduced to their largest values.
     void add_to(StepProblem& problem) const;
 
 private:
@@ -241,7 +241,7 @@ StageTools stage_tools(const StageView& view, Compile steps) {
         return condition()[0] != 0;
     };
     tools.estimate = [view, compile = here.kernels.often()] {
-        const auto limit = view.stability(view.state().species, compile).largest_speed;
+        const auto limit = view.stability(view.state().species(), compile).largest_speed;
         return limit ? 2 / *limit : 0;
     };
     tools.inside = here.counted();
@@ -278,7 +278,8 @@ StepWork step_work(Simulation& simulation, std::uint32_t k) {
         StageView view = simulation.own_view(k);
         const StepInvariants invariants = find_step_invariants(view);
         view.use(invariants);
-        StageTimer timer(view.program(), k, state, stage_tools(view, {}));  // Nothing is run.
+        StageTimer timer(view.program(), k, state,
+                         stage_tools(view, {}));  // Binds only. No pass is run.
         work = work_of(timer.problem());
     });
     return work;

@@ -1,4 +1,5 @@
-// Queries of a stage's time to the simulation, and the step-invariants.
+// Gives a stage's timer the values of the simulation that it needs, and computes the
+// step-invariants.
 #pragma once
 
 #include "run/simulation/simulation.h"
@@ -13,10 +14,10 @@ namespace cascade {
 /// `steps` makes the kernels of steps. The view is copied.
 StageTools stage_tools(const StageView& view, Compile steps);
 
-/// The step-invariants, computed from the present state.
+/// Computes the step-invariants from the present state.
 StepInvariants find_step_invariants(const StageView& view);
 
-/// The work of one step of a started stage, as it would be taken now.
+/// The work of one step of a started stage in its present state.
 StepWork step_work(Simulation& simulation, std::uint32_t stage);
 
 }  // namespace cascade

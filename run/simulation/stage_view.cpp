@@ -1,4 +1,4 @@
-// Evaluates formulas and rates over the present values of a stage.
+// Evaluates formulas and rates from the present values of a stage.
 #include "run/simulation/stage_view.h"
 
 #include "lang/calculus/derivative.h"
@@ -21,12 +21,25 @@ BindingContext StageView::context() const {
             invariants_};
 }
 
-/// In the cells of the domain, or in those that crawl. `formulas` as for evaluate_in_cells().
+/// Runs a plan in the cells of the domain, or in the crawling cells. evaluate_in_cells() explains
+/// `formulas`.
 std::vector<Field> StageView::run(const StepPlan& plan,
                                   std::span<const Formula* const> formulas) const {
-    if (state().tissue) return evaluate_in_cells(*this, plan, formulas);
+    if (state().tissue() != nullptr) return evaluate_in_cells(*this, plan, formulas);
     return run_plan(plan, environment_->kernels.once(), context(), environment_->grid,
                     environment_->team);
+}
+
+/// The species of this stage if the formula is nothing but this species, whose plane can be copied.
+/// Null otherwise.
+const Field* StageView::species_alone(const Formula& formula) const {
+    if (state().tissue() != nullptr || environment_->inside() != nullptr ||
+        formula.nodes.size() != 1) {
+        return nullptr;
+    }
+    const auto* const item = formula.nodes.back().as<ItemId>();
+    const auto species = item != nullptr ? state().species_of_item[*item] : std::nullopt;
+    return species ? &state().species()[species->index()] : nullptr;
 }
 
 std::vector<Field> StageView::evaluate(std::span<const Formula* const> formulas) const {
@@ -35,6 +48,11 @@ std::vector<Field> StageView::evaluate(std::span<const Formula* const> formulas)
 }
 
 std::vector<Field> StageView::evaluate(const Formula& formula) const {
+    if (const Field* const species = species_alone(formula)) {
+        std::vector<Field> values;
+        values.push_back(species->clone());
+        return values;
+    }
     const Formula* const formulas[] = {&formula};
     return evaluate(formulas);
 }
@@ -44,7 +62,7 @@ std::vector<Field> StageView::rates() const { return evaluate(plan_rates(program
 std::vector<Field> StageView::starting_species() const {
     const StepPlan& plan = environment_->plans.start(number_);
     std::vector<Field> values = evaluate(plan);
-    std::vector<Field> species(state().species.size());
+    std::vector<Field> species(state().species().size());
     for (std::size_t r = 0; r < values.size(); ++r) {
         const auto id = state().species_of_item[plan.results[r]];
         if (id) species[id->index()] = std::move(values[r]);
@@ -54,8 +72,8 @@ std::vector<Field> StageView::starting_species() const {
 
 StabilityEstimate StageView::stability(std::span<const Field> species, const Compile& compile,
                                        const std::atomic<bool>* cancel) const {
-    // Rates ignore `frozen`, but frozen cells cannot blow up.
-    const Mask* frozen = state().frozen.empty() ? nullptr : &state().frozen;
+    // Rates ignore `frozen`, so frozen cells are left out here. They cannot blow up.
+    const Mask* frozen = state().frozen().empty() ? nullptr : &state().frozen();
     const DomainMask* inside = environment_->inside();
     const Mask still = inside != nullptr ? still_cells(*inside, frozen) : Mask();
     if (inside != nullptr) frozen = &still;
@@ -94,12 +112,12 @@ bool StageView::diffusion_limits() const {
 }
 
 OtherSpecies::OtherSpecies(StageState& state, std::vector<Field> species)
-    : state_(state), own_(std::exchange(state.species, std::move(species))) {
+    : state_(state), own_(std::exchange(state.species(), std::move(species))) {
     state_.go_to(state_.steps, state_.t);
 }
 
 OtherSpecies::~OtherSpecies() {
-    state_.species = std::move(own_);
+    state_.species() = std::move(own_);
     state_.go_to(state_.steps, state_.t);
 }
 

@@ -1,4 +1,4 @@
-// The present state of a stage: its values and those of earlier stages, and evaluations over them.
+// The present state of a stage and of the stages before it. Evaluates formulas on it.
 #pragma once
 
 #include "core/plane.h"
@@ -18,7 +18,7 @@ namespace cascade {
 
 class StageView {
 public:
-    /// All arguments must outlive the view. `invariants` are the step-invariants; null if no steps
+    /// All arguments must outlive the view. `invariants` are the step-invariants. Null if no steps
     /// are taken.
     StageView(const Environment& environment, std::span<const StageState> states,
               std::uint32_t stage, const StepInvariants* invariants = nullptr)
@@ -27,38 +27,40 @@ public:
     const Environment& environment() const { return *environment_; }
     std::uint32_t number() const { return number_; }
     std::span<const StageState> states() const { return states_; }
-    /// The step-invariants of steps from now on, which must outlive the view.
+    /// Sets the step-invariants for the following steps. They must outlive the view.
     void use(const StepInvariants& invariants) { invariants_ = &invariants; }
     const Program& program() const { return *environment_->program; }
     const Stage& stage() const { return environment_->stage(number_); }
     const System& system() const { return program().system_of(number_); }
     const StageState& state() const { return states_[number_]; }
 
-    /// Where slots of kernels get the present values.
+    /// Where the slots of kernels find their present values.
     BindingContext context() const;
-    /// The results of a plan, and values of formulas outside of steps.
+    /// Evaluates a plan or formulas outside of steps.
     std::vector<Field> evaluate(const StepPlan& plan) const { return run(plan, {}); }
     std::vector<Field> evaluate(std::span<const Formula* const> formulas) const;
     std::vector<Field> evaluate(const Formula& formula) const;
-    /// The rates of all species.
+    /// The present rates of all species.
     std::vector<Field> rates() const;
-    /// The starting values of all species.
+    /// The starting values of all species, computed anew.
     std::vector<Field> starting_species() const;
 
-    /// Stability of the rates at a state of the species.
+    /// Estimates the stability of the rates for these values of the species.
     StabilityEstimate stability(std::span<const Field> species) const {
         return stability(species, environment_->kernels.once());
     }
     StabilityEstimate stability(std::span<const Field> species, const Compile& compile,
                                 const std::atomic<bool>* cancel = nullptr) const;
-    /// Is `frozen` one number for all cells, and not 0? Then no step changes anything.
+    /// Whether all cells are frozen, so that no step changes anything.
     bool is_frozen() const;
     StepInUse step_in_use() const;
-    /// Does diffusion limit the step at the present state, far below the limit of the reaction?
+    /// Whether, in the present state, diffusion limits the step to far less than the reaction
+    /// would.
     bool diffusion_limits() const;
 
 private:
     std::vector<Field> run(const StepPlan& plan, std::span<const Formula* const> formulas) const;
+    const Field* species_alone(const Formula& formula) const;
 
     const Environment* environment_;
     std::span<const StageState> states_;
@@ -66,7 +68,7 @@ private:
     const StepInvariants* invariants_;
 };
 
-/// Gives a stage other species while it lives.
+/// Replaces the species of a state, and restores them in its destructor.
 class OtherSpecies {
 public:
     OtherSpecies(StageState& state, std::vector<Field> species);

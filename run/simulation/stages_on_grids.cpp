@@ -1,4 +1,4 @@
-// States in the cells of the domain are made when something asks for them.
+// States are carried to the cells of the domain only when they are read there.
 #include "run/simulation/stages_on_grids.h"
 
 #include "run/simulation/finer_run.h"

@@ -1,5 +1,5 @@
-// Hands a stage's equations to the time loop of tissues, and says in its script's words how it
-// went.
+// Passes a stage's equations to the time loop of tissues, and reports the outcome in the words of
+// the script.
 #include "run/simulation/tissue_run.h"
 
 #include "core/with_commas.h"
@@ -24,8 +24,8 @@ namespace cascade {
 
 namespace {
 
-/// A rate by the name that it has in scripts, and its formula: of a place or a frame the vector of
-/// which it is a component.
+/// A rate as scripts name it, and its formula. A component of a position or frame has the name and
+/// the formula of the whole vector.
 struct NamedRate {
     std::string_view name;
     const Formula* formula = nullptr;
@@ -38,7 +38,7 @@ NamedRate rate_of(const System& system, ItemId item) {
     return {"turn", &system.definitions[rules.spin].formula};
 }
 
-/// The summands of the whole formula, in their order, without their signs.
+/// The terms of a sum, in their order, without their signs.
 std::vector<Formula> terms_of(const Formula& sum) {
     std::vector<Formula> terms;
     std::vector<NodeId> open{NodeId(sum.nodes.size() - 1)};
@@ -65,7 +65,8 @@ std::optional<std::size_t> find_cell(const Tissue& tissue, std::uint32_t number)
     return std::nullopt;
 }
 
-/// The magnitude of a number or a vector in a cell; infinite where it is not finite.
+/// The absolute value of a number, or the length of a vector, in a cell. Infinity if it is not
+/// finite.
 double size_of(const Formula& term, const StageView& view, std::size_t cell) {
     std::vector<Formula> parts;
     if (term.nodes.back().type == ValueType::vector) {
@@ -77,17 +78,18 @@ double size_of(const Formula& term, const StageView& view, std::size_t cell) {
     for (const Formula& part : parts) formulas.push_back(&part);
     double square = 0;
     for (const Field& values : view.evaluate(formulas)) {
-        const double value = value_in(values, *view.state().tissue, cell);
+        const double value = value_in(values, *view.state().tissue(), cell);
         square += value * value;
     }
     return std::isfinite(square) ? std::sqrt(square) : INFINITY;
 }
 
-/// Names the term that is largest, by magnitude, in the rate of a species of the cell with this
-/// number, at the present state: "the largest term of p' is …, 3.2e+09", or the first that is not
-/// finite. Empty if the rate has one term only, if no such cell lives, or if all terms are 0 in it.
+/// Names the term with the largest magnitude in a species' rate, at the present state of the cell
+/// with this number: "the largest term of p' is …, 3.2e+09". A term that is not finite counts as
+/// the largest. Empty if the rate has only one term, if the cell is not alive, or if all terms are
+/// 0.
 std::string largest_term(const StageView& view, SpeciesId species, std::uint32_t number) {
-    const Tissue& tissue = *view.state().tissue;
+    const Tissue& tissue = *view.state().tissue();
     const System& system = view.system();
     const NamedRate rate = rate_of(system, system.species()[species]);
     const std::optional<std::size_t> cell = find_cell(tissue, number);
@@ -119,23 +121,23 @@ TissueSpecies species_of(const TissueStage& stage) {
     TissueSpecies species;
     species.place = stage.species_of(stage.rules().place).index();
     species.radius = stage.species_of(stage.rules().radius).index();
-    // Without terms of p' its rate is a number.
+    // If p' has no terms, its rate is a constant.
     const Formula& rate = stage.system().rates[stage.rules().place];
     species.crawls = rate.nodes.size() != 1 || !rate.nodes.back().is<double>();
     species.restless = {stage.species_of(stage.rules().age).index()};
     return species;
 }
 
-/// A species in words: scripts have no names for the components of places and frames.
+/// A species in words, because scripts have no names for the components of positions and frames.
 std::string name_of(const System& system, ItemId item) {
     if (!system.cells->has_component(item)) return std::string(system.item_name(item));
     return item < system.cells->frame ? "the place" : "the axes";
 }
 
-/// A remark on a tissue whose cells only replace each other.
+/// A remark on a tissue in which as many cells are born as die.
 std::string describe(const Turnover& turnover, const Stage& stage) {
     return fmt::format(
-        "stage '{}' divides and dies for ever: {} births and {} deaths from t = {:.4g} to {:.4g}, "
+        "stage '{}' divides and dies without end: {} births and {} deaths from t = {:.4g} to {:.4g}, "
         "while the number of cells stays near {}",
         stage.name, turnover.births, turnover.deaths, turnover.from, turnover.to, turnover.cells);
 }
@@ -155,11 +157,11 @@ TissueRun::TissueRun(const Environment& environment, std::span<StageState> state
                         if (control_ != nullptr) kernels_.warn(refusal, *control_);
                     }),
              near_) {
-    CHECK(state_.started && state_.tissue, "a stage is started before it advances");
-    near_->begin(state_.tissue->triangles);
+    CHECK(state_.started && state_.tissue(), "a stage is started before it advances");
+    near_->begin(state_.tissue()->triangles);
     const TissueStage here = tissue_stage(environment, states, stage);
-    loop_.emplace(rules_, *state_.ground->surroundings(), *state_.tissue, near_, species_of(here),
-                  schedule(keeping), progress_of(environment, stage));
+    loop_.emplace(rules_, *state_.ground()->surroundings(), *state_.tissue(), near_,
+                  species_of(here), schedule(keeping), progress_of(environment, stage));
 }
 
 TissueSchedule TissueRun::schedule(const Keeping& keeping) {
@@ -170,13 +172,14 @@ TissueSchedule TissueRun::schedule(const Keeping& keeping) {
     schedule.tolerance = time.step_tolerance();
     if (time.largest_step) schedule.largest_step = *time.largest_step;
     if (time.duration) schedule.end_time = *time.duration;
+    schedule.every = time.every;
     schedule.steady = time.steady.value_or(0);
     schedule.seed = environment_.program->domain.seed;
     schedule.stage = stage_;
     const TissueStage stage = tissue_stage(environment_, states_, stage_);
     schedule.neighbours = neighbours_of(stage, widest_near(view));
     schedule.threads = environment_.tools.threads;
-    reaches_all_ = schedule.neighbours.near >= length(state_.ground->surroundings()->extent());
+    reaches_all_ = schedule.neighbours.near >= length(state_.ground()->surroundings()->extent());
     schedule.most_cells = most_cells_in_memory(view.system(), environment_.precision());
     schedule.most_list_bytes = static_cast<double>(available_memory()) / 4;
     if (time.until) {
@@ -199,7 +202,8 @@ TissueSchedule TissueRun::schedule(const Keeping& keeping) {
     return schedule;
 }
 
-/// Says once that a stage has stopped growing and still waits for its condition.
+/// Warns, only once, that a stage has stopped growing while the condition of its `until` is still
+/// false.
 void TissueRun::warn_of_waiting(const Tissue& tissue) {
     constexpr double times_of_growth = 4;
     constexpr std::int64_t fewest_steps = 1000;
@@ -215,13 +219,14 @@ void TissueRun::warn_of_waiting(const Tissue& tissue) {
         stage.name, last, state_.t));
 }
 
-/// The condition is the same for all cells: the first one decides.
+/// Whether the condition of `until` is true. The condition is uniform, so its value in the first
+/// cell is used.
 bool TissueRun::condition_holds() {
     const StageView view(environment_, states_, stage_);
     return view.evaluate(*view.stage().time.until)[0].number_at(0, 0) != 0;
 }
 
-/// Brings the state up to the last complete step.
+/// Copies the last complete step of the tissue to the state.
 void TissueRun::follow(const Tissue& tissue) {
     state_.steps = tissue.time.steps;
     state_.t = tissue.time.t;
@@ -238,23 +243,30 @@ Result<StageEnd> TissueRun::advance(std::int64_t last_step, RunControl& control,
     control_ = &control;
     if (std::exchange(reaches_all_, false) && control.warn) {
         control.warn(
-            fmt::format("stage '{}': 'near' reaches all cells, so that a step takes time "
+            fmt::format("stage '{}': 'near' reaches all cells, so each step takes time "
                         "as the square of their number",
                         stage.name));
     }
     can_go_on_ = false;
-    // Without an interval, frames are drawn at tenths of the duration.
+    // Without an interval, frames are drawn at marks.
+    const auto marks = [&] {
+        return marks_reached(state_.t,
+                             stage.time.duration.value_or(std::numeric_limits<double>::infinity()),
+                             stage.time.every);
+    };
     const std::int64_t interval = observation.every > 0 ? observation.every : stage.interval;
-    double tenths = tenths_reached(state_.t, stage.time.duration.value_or(0));
-    const TissueOutcome outcome = loop_->advance(
-        last_step, std::max<std::int64_t>(1, interval), control, [&](const Tissue& tissue) {
-            follow(tissue);
-            const double reached = tenths_reached(state_.t, stage.time.duration.value_or(0));
-            const bool is_due = interval > 0 || reached > tenths;
-            tenths = reached;
-            if (is_due && observation.observe) observation.observe();
-            return true;
-        });
+    double seen = marks();
+    const TissueOutcome outcome = loop_->advance(last_step, std::max<std::int64_t>(1, interval),
+                                                 control, [&](const Tissue& tissue) {
+                                                     follow(tissue);
+                                                     const double reached = marks();
+                                                     const bool is_due =
+                                                         interval > 0 || reached > seen;
+                                                     seen = reached;
+                                                     if (is_due && observation.observe)
+                                                         observation.observe();
+                                                     return true;
+                                                 });
     control_ = nullptr;
     state_.steps = outcome.steps;
     state_.t = outcome.t;
@@ -268,7 +280,7 @@ Result<StageEnd> TissueRun::advance(std::int64_t last_step, RunControl& control,
     }
     state_.done = outcome.ended || state_.steps >= stage.iterations;
     const bool in_time = !stage.time.duration || outcome.t < *stage.time.duration;
-    state_.condition_met = outcome.ended && in_time && state_.tissue->count() > 0;
+    state_.condition_met = outcome.ended && in_time && state_.tissue()->count() > 0;
     can_go_on_ = !state_.done;
     if (state_.done) loop_.reset();
     return state_.done ? StageEnd::finished : StageEnd::stopped;
@@ -296,17 +308,18 @@ Failure explain(const TissueFailure& failure, const StageView& view, std::int64_
                                 what, failure.number, failure.t),
                     term_or("it divides by 0 or grows without bound")};
         case Kind::too_short:
-            return {fmt::format("{}: steps shrink to nothing: at t = {:.6g} one of {:.2g} is too "
-                                "long still, for {} of cell {}",
-                                where, failure.t, failure.step, what, failure.number),
-                    term_or("something jumps or grows without bound there") +
-                        "; a larger tolerance may pass it"};
+            return {
+                fmt::format("{}: steps shrink to nothing: at t = {:.6g} even one of {:.2g} is too "
+                            "long still, for {} of cell {}",
+                            where, failure.t, failure.step, what, failure.number),
+                term_or("something jumps or grows without bound there") +
+                    "; a larger tolerance may pass it"};
         case Kind::too_far:
             return {fmt::format("{}: a step of {:.3g} from t = {:.6g} moves cell {} too far", where,
                                 failure.step, failure.t, failure.number),
                     "a smaller largest_step keeps cells beside their neighbours"};
         case Kind::divides_for_ever:
-            return {fmt::format("{}: cell {} wants to divide again as soon as it has divided, at "
+            return {fmt::format("{}: cell {} would divide again as soon as it has divided, at "
                                 "t = {:.6g}",
                                 where, failure.number, failure.t),
                     "a division must make the condition of 'divide' false, as 'ripe: 0 after "

@@ -1,4 +1,4 @@
-// A stage of cells that crawl while it runs.
+// Runs a stage of crawling cells.
 #pragma once
 
 #include "core/result.h"
@@ -20,7 +20,7 @@ namespace cascade {
 
 class TissueRun : public RunningStage {
 public:
-    /// All must outlive the run. The stage has been started.
+    /// All arguments must outlive the run. The stage must have been started.
     TissueRun(const Environment& environment, std::span<StageState> states, std::uint32_t stage,
               const Keeping& keeping);
 
@@ -41,17 +41,19 @@ private:
     std::uint32_t stage_;
     StageState& state_;
     StepKernels kernels_;
-    RunControl* control_ = nullptr;  ///< For the present call.
+    RunControl* control_ = nullptr;  ///< The control of the present call of advance().
     std::shared_ptr<NearTriangles> near_ = std::make_shared<NearTriangles>();
     ScriptRules rules_;
     std::optional<TissueLoop> loop_;
     bool can_go_on_ = true;
-    bool is_waiting_ = false;   ///< That 'until' may never come true has been said.
-    bool reaches_all_ = false;  ///< Are all cells neighbours? False as soon as it has been said.
+    /// Whether a warning that `until` may never become true has been given.
+    bool is_waiting_ = false;
+    /// Whether all cells are neighbours of each other. Set to false after a warning about it.
+    bool reaches_all_ = false;
 };
 
-/// What a failure of a tissue in a step, counted from 1, means in the words of its script. The view
-/// shows the cells before that step.
+/// Explains the failure of a tissue in a step, counted from 1, in the words of its script. The view
+/// must show the cells before that step.
 Failure explain(const TissueFailure& failure, const StageView& view, std::int64_t step);
 
 }  // namespace cascade

@@ -1,4 +1,5 @@
-// Cells get their places first; all other values are formulas of these and of earlier stages.
+// Cells first get their positions. All other values are computed from these and from earlier
+// stages.
 #include "run/simulation/tissue_stage.h"
 
 #include "core/counted_cells.h"
@@ -27,7 +28,8 @@ namespace cascade {
 
 namespace {
 
-/// Where the cells of a stage are.
+/// The surroundings of a stage's cells: the model or plane, a body grown here, or those of the
+/// previous stage of cells.
 Result<std::shared_ptr<const TissueGround>> ground_of(const Environment& here,
                                                       std::span<const StageState> states,
                                                       std::uint32_t k,
@@ -35,9 +37,9 @@ Result<std::shared_ptr<const TissueGround>> ground_of(const Environment& here,
     const Stage& stage = here.stage(k);
     if (stage.body.nodes.empty()) {
         if (stage.founders) return here.crawling->ground;
-        return states[*stage_of_cells_before(*here.program, k)].ground;
+        return states[*stage_of_cells_before(*here.program, k)].ground();
     }
-    std::uint32_t last = 0;  // Of the stages that the body reads.
+    std::uint32_t last = 0;  // The last stage that the body's formula reads.
     for (const Node& node : stage.body.nodes) {
         if (const auto* item = node.as<StageItem>()) last = std::max(last, item->stage);
     }
@@ -58,13 +60,13 @@ Result<std::shared_ptr<const TissueGround>> ground_of(const Environment& here,
     return std::make_shared<TissueGround>(here.grid, *std::move(body));
 }
 
-/// A number of 0 … 1 for each cell, from a hash: the angle of a random direction in a plane.
+/// A random number from 0 to 1 for each cell: the angle of a random direction in a plane.
 double uniform_of(std::uint32_t seed, std::uint32_t stage, std::uint32_t number) {
     const Vector3d direction = random_direction({seed, stage, number, ~number}, {0, 0, 1});
     return std::atan2(direction.y, direction.x) / (2 * std::numbers::pi) + 0.5;
 }
 
-/// Starts one stage.
+/// Starts one stage of cells.
 class TissueStart {
 public:
     TissueStart(const Environment& environment, std::span<StageState> states, std::uint32_t k)
@@ -76,9 +78,6 @@ public:
           stage_(tissue_stage(environment, states, k)) {}
 
     Result<void> run() {
-        auto ground = std::move(state_.ground);
-        state_ = empty_state(view_.system());
-        state_.ground = std::move(ground);
         start_uniform_items(view_, state_);
         const bool founds = view_.stage().founders.has_value();
         if (auto made = founds ? found() : go_on(); !made) return made;
@@ -89,11 +88,17 @@ public:
     }
 
 private:
-    Tissue& tissue() { return *state_.tissue; }
+    Tissue& tissue() { return *state_.tissue(); }
 
-    /// A record of cells without values.
+    void make_tissue(TissueRecord record) {
+        std::get<TissueState>(state_.values).tissue =
+            std::make_shared<Tissue>(blank(std::move(record)), here_.precision());
+    }
+
+    /// A copy of a record with the same cells, all values 0, and no history.
     TissueRecord blank(TissueRecord record) const {
-        record.species.assign(state_.species.size(), std::vector<double>(record.numbers.size()));
+        record.species.assign(view_.system().species_count(),
+                              std::vector<double>(record.numbers.size()));
         record.stiffest.clear();
         record.kept.assign(view_.system().item_count(), {});
         record.frozen.reset();
@@ -113,7 +118,7 @@ private:
         }
         std::vector<NearPlace> places;
         if (founders.places.empty()) {
-            auto found = random_founders(*state_.ground->surroundings(),
+            auto found = random_founders(*state_.ground()->surroundings(),
                                          static_cast<std::size_t>(founders.count),
                                          here_.program->domain.seed, k_);
             if (!found) return tl::unexpected(found.error());
@@ -124,25 +129,25 @@ private:
                 wanted.push_back(
                     {founders.places[k], founders.places[k + 1], founders.places[k + 2]});
             }
-            places = founders_at(*state_.ground->surroundings(), wanted);
+            places = founders_at(*state_.ground()->surroundings(), wanted);
         }
         place(places);
-        // Of these places, those that are not taken are left out; so place k is the same with and
-        // without a chance.
+        // All positions are chosen first, and some of them are then left out by chance. So position
+        // k does not depend on the chance.
         const auto is_left_out = [&](double chance, std::size_t cell) {
             return !(uniform_of(here_.program->domain.seed, k_, tissue().numbers()[cell]) < chance);
         };
         return leave_out(founders.chance, is_left_out, "no founder takes its chance");
     }
 
-    /// Makes a cell at each place.
+    /// Makes a cell at each position.
     void place(std::span<const NearPlace> places) {
         TissueRecord record;
         record.numbers.resize(places.size());
         std::iota(record.numbers.begin(), record.numbers.end(), std::uint32_t{0});
         for (const NearPlace& each : places) record.triangles.push_back(each.place.triangle);
         record.next_number = static_cast<std::uint32_t>(places.size());
-        state_.tissue = std::make_shared<Tissue>(blank(std::move(record)), here_.precision());
+        make_tissue(std::move(record));
         for (std::size_t cell = 0; cell < places.size(); ++cell) {
             const Vector3d& at = places[cell].position;
             const std::array components{at.x, at.y, at.z};
@@ -154,13 +159,15 @@ private:
         tissue().pad();
     }
 
-    /// The same cells in the same order, so that values can be read cell by cell.
+    /// Takes the cells of the previous stage in the same order, so that values can be read cell by
+    /// cell.
     Result<void> go_on() {
         const auto before = stage_of_cells_before(view_.program(), k_);
-        CHECK(before && states_[*before].tissue, "the checker knows which cells go on");
-        const TissueRecord record = states_[*before].tissue->record();
-        *states_[*before].tissue = Tissue(record, here_.precision());
-        state_.tissue = std::make_shared<Tissue>(blank(record), here_.precision());
+        CHECK(before && states_[*before].tissue(), "the checker knows which cells go on");
+        Tissue& earlier = *states_[*before].tissue();
+        TissueRecord record = earlier.record();
+        earlier = Tissue(record, here_.precision());
+        make_tissue(std::move(record));
         const ItemId place = here_.program->system_of(*before).cells->place;
         for (std::uint32_t k = 0; k < 3; ++k) {
             tissue().species[stage_.species_of(stage_.rules().place, k).index()] =
@@ -178,25 +185,12 @@ private:
         const StepPlan& plan = here_.plans.start(k_);
         auto values = evaluate(plan);
         if (!values) return tl::unexpected(values.error());
-        for (std::size_t r = 0; r < values->size(); ++r) {
-            const ItemId item = plan.results[r];
-            const auto species = state_.species_of_item[item];
-            if (view_.stage().uniform[item]) {
-                state_.numbers[item] = (*values)[r].number_at(0, 0);
-            } else if (!species) {
-                tissue().kept[item.index()] = std::move((*values)[r]);
-            } else {
-                tissue().species[species->index()] = std::move((*values)[r]);
-            }
-        }
-        tissue().pad();
-        const ItemId frozen = view_.system().frozen_item();
-        if (!view_.stage().uniform[frozen]) tissue().freeze_by(frozen.index());
+        take_values(state_, view_.program(), k_, plan.results, *values);
         return {};
     }
 
-    /// Removes the cells for which `is_left_out` is true of the formula's value. The formula may be
-    /// missing.
+    /// Removes each cell for which `is_left_out`, called with the formula's value in that cell,
+    /// returns true. Does nothing if the formula is empty.
     Result<void> leave_out(const Formula& formula, const auto& is_left_out, const char* why) {
         if (formula.nodes.empty()) return {};
         const Formula* const formulas[] = {&formula};
@@ -225,7 +219,7 @@ private:
     TissueStage stage_;
 };
 
-/// Does a plan read the cells of an earlier stage?
+/// Whether a plan reads the cells of an earlier stage.
 bool reads_earlier_cells(const StepPlan& plan, std::uint32_t stage) {
     const auto is_earlier = [stage](const PlaneSource& source) {
         const auto* const item = std::get_if<StageItem>(&source);
@@ -241,11 +235,11 @@ bool reads_earlier_cells(const StepPlan& plan, std::uint32_t stage) {
 TissueStage tissue_stage(const Environment& environment, std::span<const StageState> states,
                          std::uint32_t stage) {
     const StageView view(environment, states, stage);
-    return {*environment.program, stage, *states[stage].ground, view.context()};
+    return {*environment.program, stage, *states[stage].ground(), view.context()};
 }
 
 std::size_t most_cells_in_memory(const System& system, Precision precision) {
-    // Planes of all registers, and lists.
+    // Counts the planes of all registers, and the lists of neighbours.
     constexpr std::uint64_t registers = 12, bytes_of_lists = 600;
     const std::uint64_t each =
         registers * system.species_count() * bytes_of(precision) + bytes_of_lists;
@@ -275,8 +269,8 @@ double widest_near(const StageView& view, std::span<const Formula* const> others
 std::vector<Field> evaluate_in_cells(const StageView& view, const StepPlan& plan,
                                      std::span<const Formula* const> formulas) {
     const Environment& here = view.environment();
-    const Tissue& tissue = *view.state().tissue;
-    const TissueStage stage{view.program(), view.number(), *view.state().ground, view.context()};
+    const Tissue& tissue = *view.state().tissue();
+    const TissueStage stage{view.program(), view.number(), *view.state().ground(), view.context()};
     const double widest = widest_near(view, formulas);
     auto values = evaluate_in(tissue, plan, stage, neighbours_of(stage, widest),
                               here.crawling->kernels.once(), here.team);
@@ -290,25 +284,8 @@ std::vector<Field> evaluate_in_cells(const StageView& view, const StepPlan& plan
 }
 
 std::shared_ptr<const SurfaceMesh> body_under_cells(const StageState& state) {
-    return state.ground ? state.ground->body() : nullptr;
-}
-
-std::string remark_on_cells(const StageView& view) {
-    const StageState& state = view.state();
-    const Tissue& tissue = *state.tissue;
-    const StageTime& time = view.stage().time;
-    const bool has_condition = time.until || time.steady;
-    if (view.is_frozen() || (tissue.count() > 0 && tissue.is_frozen())) {
-        return fmt::format("stage '{}' is frozen in all cells: nothing in it changes",
-                           view.stage().name);
-    }
-    if (tissue.count() == 0) {
-        return fmt::format("all cells of stage '{}' have died, the last at t = {:.4g}",
-                           view.stage().name, tissue.time.last_event);
-    }
-    if (!has_condition || state.condition_met || time.duration) return "";
-    return fmt::format("'until' of stage '{}' never came true, in {} steps up to t = {:.4g}",
-                       view.stage().name, state.steps, state.t);
+    const auto ground = state.ground();
+    return ground ? ground->body() : nullptr;
 }
 
 Result<void> start_tissue(const Environment& environment, std::span<StageState> states,
@@ -316,7 +293,8 @@ Result<void> start_tissue(const Environment& environment, std::span<StageState> 
     const TimeAccount::Scope spent(environment.account, Spent::starting, stage);
     auto ground = ground_of(environment, states, stage, cancel);
     if (!ground) return tl::unexpected(ground.error());
-    states[stage].ground = std::move(*ground);
+    states[stage] = empty_state(environment.program->system_of(stage));
+    states[stage].values = TissueState{std::move(*ground), nullptr};
     auto started = TissueStart(environment, states, stage).run();
     if (started) states[stage].started = true;
     return started;
@@ -325,7 +303,7 @@ Result<void> start_tissue(const Environment& environment, std::span<StageState> 
 std::vector<std::vector<double>> values_of_start(const StageView& view) {
     const Environment& here = view.environment();
     const std::uint32_t k = view.number();
-    const Tissue& tissue = *view.state().tissue;
+    const Tissue& tissue = *view.state().tissue();
     const StepPlan& plan = here.plans.start(k);
     if (tissue.count() == 0 || reads_earlier_cells(plan, k)) return {};
     const TissueStage stage = tissue_stage(here, view.states(), k);

@@ -1,4 +1,5 @@
-// Evaluates, for each part of a formula that may lose a NaN, the formula that says where it does.
+// For each part of a formula that may lose a NaN, evaluates a second formula that is true where it
+// does.
 #include "run/simulation/undefined_values.h"
 
 #include "run/domain/field_values.h"
@@ -14,11 +15,11 @@ namespace cascade {
 
 namespace {
 
-/// Less than the deviation of a picture in which one of 2²⁶ pixels differs by one of 256 levels.
+/// Smaller than the deviation of a picture in which one of 2²⁶ pixels differs by one of 256 grey
+/// levels.
 constexpr double one_level = 1e-7;
 
-/// Calls `is_found(value)` for the cells that count, in order; returns the first cell for which it
-/// is true.
+/// Returns the first cell of the domain for which `is_found(value)` is true.
 template <typename Test>
 std::optional<CellPlace> first_cell(const Field& field, const Mask* counted, Test is_found) {
     return field.visit([&](const auto& plane) -> std::optional<CellPlace> {
@@ -34,7 +35,7 @@ std::optional<CellPlace> first_cell(const Field& field, const Mask* counted, Tes
     });
 }
 
-/// Does it consist of numbers alone? The checker has then reported it.
+/// Whether a formula consists of numbers alone. The checker has already reported such formulas.
 bool is_constant(const Formula& formula) {
     return std::all_of(formula.nodes.begin(), formula.nodes.end(),
                        [](const Node& node) { return node.is<double>() || node.is<Call>(); });
@@ -44,9 +45,9 @@ std::string not_finite_words(double value) {
     return std::isnan(value) ? "not a number" : "infinite";
 }
 
-constexpr const char* for_comparisons = "what compares it takes it for false";
+constexpr const char* for_comparisons = "comparisons treat it as false";
 
-/// The formulas that steps evaluate.
+/// The formulas that are evaluated in each step.
 std::vector<UndefinedWatch> watched_in_steps(const System& system) {
     LostNumbers lost(system);
     std::vector<UndefinedWatch> watched;
@@ -66,7 +67,7 @@ std::vector<UndefinedWatch> watched_in_steps(const System& system) {
     return watched;
 }
 
-/// The formulas that are evaluated once, when the stage starts.
+/// The formulas that are evaluated once, at the start of the stage.
 std::vector<UndefinedWatch> watched_at_start(const Stage& stage, const System& system) {
     LostNumbers lost(system);
     std::vector<UndefinedWatch> watched;
@@ -84,7 +85,7 @@ std::vector<UndefinedWatch> watched_in_until(const Stage& stage, const System& s
     if (!stage.time.until) return watched;
     LostNumbers lost(system);
     for (LostNumber& each : lost.in_comparisons(*stage.time.until)) {
-        watched.push_back({"in 'until'", "the stage does not end by it", std::move(each)});
+        watched.push_back({"in 'until'", "it does not end the stage", std::move(each)});
     }
     for (LostNumber& each : lost.as_whole(*stage.time.until)) {
         watched.push_back({"'until' itself", "that counts as true", std::move(each)});
@@ -92,7 +93,7 @@ std::vector<UndefinedWatch> watched_in_until(const Stage& stage, const System& s
     return watched;
 }
 
-/// Warns of the first part that is NaN now; returns false if there is none.
+/// Warns of the first part that is NaN now. Returns false if there is none.
 bool warn_of_lost(const StageView& view, std::span<const UndefinedWatch> watched,
                   const RunControl& control) {
     if (watched.empty()) return false;
@@ -104,7 +105,7 @@ bool warn_of_lost(const StageView& view, std::span<const UndefinedWatch> watched
         const auto place =
             first_cell(found[n], here.counted(), [](double value) { return value > 0; });
         if (!place) continue;
-        // An aggregate is the same in all cells.
+        // An aggregate is uniform, so the message names no cell.
         const std::string where = is_same_everywhere(found[n])
                                       ? ""
                                       : " at " + here.place_in_words(place->column, place->row);
@@ -128,7 +129,7 @@ bool warn_of_undefined_parameters(const StageView& view, const RunControl& contr
         if (system.is_species(item) || item == system.speed_item()) continue;
         std::string place;
         double value = state.numbers[item];
-        if (const Field& field = state.fields[item]; !field.empty()) {
+        if (const Field& field = state.field(item); !field.empty()) {
             if (are_finite(field, {{0, field.layout().row_count()}})) continue;
             const auto cell = first_cell(field, here.counted(), is_undefined);
             if (!cell) continue;
@@ -170,7 +171,7 @@ void UndefinedValues::look_at_until(const StageView& view, const RunControl& con
     until_is_told_ = warn_of_lost(view, *in_until_, control);
 }
 
-void warn_of_even_pictures(const Environment& environment, const RunControl& control) {
+void warn_of_uniform_pictures(const Environment& environment, const RunControl& control) {
     if (!control.warn) return;
     const Literals& literals = *environment.program->literals;
     environment.files.each_of(Function::image, [&](const NamedPlane& name, const Field& plane) {
@@ -202,7 +203,7 @@ void warn_of_undefined_mask(const Environment& environment,
             first_cell(evaluate(plan_mask(asked)), nullptr, [](double value) { return value > 0; });
         if (!place) continue;
         return control.warn(
-            fmt::format("the mask of the domain: {} is not a number at {}, which is outside by it",
+            fmt::format("the mask of the domain: {} is not a number at {}, which counts as outside",
                         environment.script.sources.text(each.span),
                         environment.place_in_words(place->column, place->row)));
     }

@@ -1,4 +1,5 @@
-// NaNs that no species would show: in parameters, comparisons, bounds, conditions and the mask.
+// Detects NaNs that would not spread to a species and so would go unnoticed: in parameters,
+// comparisons, bounds, conditions and the mask.
 #pragma once
 
 #include "core/run_control.h"
@@ -12,21 +13,22 @@
 
 namespace cascade {
 
-/// A part of a formula that may be NaN unnoticed.
+/// A part of a formula that may become NaN without notice.
 struct UndefinedWatch {
-    std::string where;   ///< A description of its place.
-    const char* effect;  ///< The effect of a NaN there.
+    std::string where;   ///< The place of the part in the script, in words.
+    const char* effect;  ///< The effect of a NaN there, in words.
     LostNumber number;
 };
 
-/// Warns of such values in a stage that is run. Coarser grids are skipped, because they would
-/// repeat the warnings of the full grid.
+/// Warns of unnoticed NaNs in a stage that runs. Does not warn on coarser grids, because the full
+/// grid gives the same warnings.
 class UndefinedValues {
 public:
-    /// Called before the first step of a stage and at its end; gives one warning for both.
+    /// Must be called before the first step of a stage and at its end. Both together give at most
+    /// one warning.
     void look_at_start(const StageView& view, const RunControl& control);
     void look_at_end(const StageView& view, const RunControl& control);
-    /// Called whenever `until` is evaluated.
+    /// Must be called whenever `until` is evaluated.
     void look_at_until(const StageView& view, const RunControl& control);
 
 private:
@@ -35,11 +37,11 @@ private:
     std::optional<std::vector<UndefinedWatch>> in_until_;
 };
 
-/// `evaluate` returns the first result of a plan of the mask.
+/// Warns of NaNs in the formula of the mask. `evaluate` returns the first result of a plan.
 void warn_of_undefined_mask(const Environment& environment,
                             const std::function<Field(const StepPlan&)>& evaluate,
                             const RunControl& control);
-/// Warns of pictures that a script reads and that have a single level.
-void warn_of_even_pictures(const Environment& environment, const RunControl& control);
+/// Warns of picture files that a script reads and that have the same grey in all pixels.
+void warn_of_uniform_pictures(const Environment& environment, const RunControl& control);
 
 }  // namespace cascade

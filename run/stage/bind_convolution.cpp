@@ -1,5 +1,5 @@
-// The kernel is computed on a line of cells, one for each lag, as starting values are: once, by the
-// interpreter.
+// Evaluates the kernel of a convolution with the interpreter, on a line of cells with one cell for
+// each lag.
 #include "run/stage/bind_convolution.h"
 
 #include "core/enough_memory.h"
@@ -16,7 +16,7 @@
 namespace cascade {
 namespace {
 
-/// The values of a plan of one result on a line of cells.
+/// The values of a plan with a single result, on a line of cells.
 std::vector<double> values_on_line(const StepPlan& plan, const BindingContext& context,
                                    std::int64_t cells) {
     const std::unique_ptr<Backend> interpreter = make_interpreter();
@@ -52,7 +52,7 @@ std::array<Field, lag_part_count> parts_of(const std::vector<Lag>& lags, double 
     return parts;
 }
 
-/// What a plan on the line of lags reads of files there.
+/// The values of files that a plan on the line of lags reads.
 InputFiles files_at_lags(const StepPlan& plan, const BindingContext& context, std::int64_t lags) {
     InputFiles files;
     for (const Pass& pass : plan.passes) {
@@ -86,7 +86,7 @@ WeightedLags weights_of(const Convolution& convolution, const BindingContext& co
         reach = value > 0 ? value : 0;
     }
     auto lags = lags_within(grid, reach);
-    if (!lags) lack_memory();  // The start of the stage has refused it.
+    if (!lags) lack_memory();  // The start of the stage has refused so many lags.
     const auto parts = parts_of(*lags, grid.spacing, context.precision);
     const auto count = static_cast<std::int64_t>(lags->size());
     BindingContext at_lags = context;

@@ -1,4 +1,4 @@
-// The weights of convolutions.
+// Computes the weights of convolutions.
 #pragma once
 
 #include "run/stage/bound_kernel.h"
@@ -6,9 +6,9 @@
 
 namespace cascade {
 
-/// Computes the weights of a convolution from the present parameters, each times the length, area
-/// or volume of a cell. A reach of NaN or below 0 counts as 0. There are at most most_lags, as the
-/// start of the stage has made sure.
+/// Computes the weights of a convolution from the present parameters, each multiplied by the
+/// length, area or volume of a cell. A reach of NaN or below 0 counts as 0. There are at most
+/// most_lags weights, because a stage with more is refused at its start.
 WeightedLags weights_of(const Convolution& convolution, const BindingContext& context);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Finds the planes of slots, and binds single plans.
+// Finds the planes of slots, and binds plans outside of schemes.
 #include "run/stage/bound_kernel.h"
 
 #include "core/check.h"

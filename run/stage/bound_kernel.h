@@ -20,64 +20,71 @@
 
 namespace cascade {
 
-/// A step-invariant value (plan_step_invariants), computed once.
+/// A step-invariant value (plan_step_invariants), which is computed once.
 struct StepInvariant {
-    Field plane;               ///< Empty if the value is the same in all cells …
-    double number = 0;         ///< … and is this number.
+    Field plane;               ///< Empty if the value is uniform.
+    double number = 0;         ///< The value if it is uniform.
     Boundaries boundary = {};  ///< How the halo of the plane is filled.
 };
 using StepInvariants = IdVector<StepInvariantId, StepInvariant>;
 
-/// What a stage of cells that crawl reads instead of the planes and links of a model.
+/// The data of a stage of crawling cells, which replace the planes and links of a model.
 struct TissueBinding {
-    std::int64_t count = 0;          ///< Cells, without the padding of the last row.
-    const Links* links = nullptr;    ///< Their present neighbours.
-    const Field* numbers = nullptr;  ///< ModelPlane::number: their numbers, in order of birth;
-    const Field* ones = nullptr;     ///< ModelPlane::area: all cells count alike.
-    /// Computes what cells sense at their places: one result for each of `sensed`.
+    std::int64_t count = 0;  ///< The number of cells, without the unused positions of the last row.
+    const Links* links = nullptr;  ///< The present neighbours of the cells.
+    /// The plane of ModelPlane::number. It contains the cells' numbers, in order of birth.
+    const Field* numbers = nullptr;
+    /// The plane of ModelPlane::area. It contains 1 for each cell, because all cells have the same
+    /// weight.
+    const Field* ones = nullptr;
+    /// Computes the values of the domain's planes at the cells: one result for each of `sensed`.
     KernelPointer sense;
     std::vector<PlaneSource> sensed;
-    std::array<StageItem, 3> place;  ///< The fields of that kernel.
+    /// The items that the kernel `sense` reads as a cell's position.
+    std::array<StageItem, 3> place;
 };
 
-/// Where slots get their values.
+/// The values to which the slots of kernels are bound.
 struct BindingContext {
     std::span<const StageState> states;
     const InputFiles& files;
-    std::int64_t steps = 0;  ///< Complete steps of the stage the kernel belongs to.
+    std::int64_t steps = 0;  ///< Complete steps of the stage to which the kernel belongs.
     Grid grid;
     Precision precision = Precision::single;
-    double t = 0;                                     ///< The stage's time.
-    std::span<const Field> metric = {};               ///< By MetricPlane; empty without a surface.
+    double t = 0;  ///< The stage's time.
+    /// Indexed by MetricPlane. Empty if the domain has no surface.
+    std::span<const Field> metric = {};
     const ModelCells* model = nullptr;                ///< Null on grids.
     const DomainMask* mask = nullptr;                 ///< Null if all cells belong to the domain.
-    SurfaceValues* surface_values = nullptr;          ///< For a model.
-    const StepInvariants* step_invariants = nullptr;  ///< For the steps that are bound.
-    const TissueBinding* tissue = nullptr;            ///< For a stage of cells that crawl.
-    std::span<const Field> lags = {};                 ///< By LagPart; for kernels of convolutions.
-    const Field* unknown = nullptr;                   ///< Of the constraint that is solved.
+    SurfaceValues* surface_values = nullptr;          ///< Given on models.
+    const StepInvariants* step_invariants = nullptr;  ///< Given for the steps that read them.
+    const TissueBinding* tissue = nullptr;            ///< Given for stages of crawling cells.
+    /// Indexed by LagPart. Given for kernels of convolutions.
+    std::span<const Field> lags = {};
+    /// The unknown of the constraint that is being solved.
+    const Field* unknown = nullptr;
 };
 
-/// The plane of a slot whose values lie in one, other than a temporary.
+/// The plane of a slot. The source must have a plane and must not be a temporary.
 const Field& plane_of(const PlaneSource& source, const BindingContext& context);
 
-/// Creates a kernel that can be run. An empty function creates none: the problem then only
-/// describes a step, and stages that it reads need not have planes.
+/// Makes a kernel that can be run. If the function is empty, the problem only describes a step, and
+/// stages that the step reads need not have planes.
 using Compile = std::function<KernelPointer(const CellKernel&)>;
 
-/// The passes of a plan with all slots bound. Species of `stage` are those of the old register,
-/// and results go to the new one, in order. The halo of planes that do not change is filled here.
+/// The passes of a plan with all slots bound. Species of `stage` are read from the old register.
+/// Results go to the new register, in order. The halo of planes that never change is filled here.
 StepProblem bind_plan(const StepPlan& plan, const Compile& compile, const BindingContext& context,
                       const System& system, std::uint32_t stage);
 
-/// The passes of all sweeps of a scheme; `plans` are those of its forms (plan_sweep). The passes of
-/// `before`, if any, come first and write only temporaries.
+/// The passes of all sweeps of a scheme. `plans` are the plans of the scheme's forms (plan_sweep).
+/// The passes of `before`, if any, run first and write only temporaries.
 StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
                         const StepPlan& before, const Compile& compile,
                         const BindingContext& context, const System& system, std::uint32_t stage);
 
-/// The passes of a plan that is not part of a stage's steps: it reads no registers, and results go
-/// to the new one.
+/// The passes of a plan outside of the steps of a stage. It reads no registers, and writes its
+/// results to the new register.
 StepProblem bind_plan(const StepPlan& plan, const Compile& compile, const BindingContext& context);
 
 /// The name of species number `species`.

@@ -1,4 +1,4 @@
-// Binds the sweeps of a scheme as one problem.
+// Binds all sweeps of a scheme as one problem.
 #include "run/stage/plan_binder.h"
 
 #include <algorithm>
@@ -7,8 +7,9 @@ namespace cascade {
 
 namespace {
 
-/// The registers at which rates are evaluated: those of stages, the old step, and the new one,
-/// which becomes the old one. Kept rates and errors are only read in the cell itself.
+/// The registers at which rates are evaluated, and which therefore need a halo: the registers of
+/// stages, the old step, and the new step, which becomes the old one. Stored rates and errors are
+/// only read in the same cell.
 IdVector<RegisterId, bool> halo_registers(const Scheme& scheme) {
     IdVector<RegisterId, bool> registers(scheme.registers, false);
     registers[old_register] = registers[new_register] = true;
@@ -16,8 +17,8 @@ IdVector<RegisterId, bool> halo_registers(const Scheme& scheme) {
     return registers;
 }
 
-/// Are the rates at the end of a step bit for bit those at the start of the next one? Not if they
-/// read the number of the step or its length.
+/// Are the rates at the end of a step bit for bit the rates at the start of the next step? Not if
+/// they read the number or the length of the step.
 bool rates_go_on(const StepPlan& plan) {
     for (const Pass& pass : plan.passes) {
         for (const UniformSource& source : pass.bound.uniforms) {
@@ -28,8 +29,8 @@ bool rates_go_on(const StepPlan& plan) {
     return true;
 }
 
-/// The moment at which rates read the output of a sweep at neighbours: that of the next sweep that
-/// has it as input. The new step is read when the next step begins.
+/// The moment for which the halo of a sweep's output is filled: the moment of the next sweep that
+/// reads this output. The new step is read when the next step begins.
 std::vector<double> moments_of_outputs(const Scheme& scheme, std::size_t number) {
     const std::span<const Sweep> later(scheme.sweeps.begin() + number + 1, scheme.sweeps.end());
     std::vector<double> moments;
@@ -60,10 +61,7 @@ StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
     whole.precision = context.precision;
     whole.registers = scheme.registers;
     whole.error_register = scheme.error_register;
-    whole.sides = context.states[stage].sides;
-    whole.changing_sides = context.states[stage].changing_sides;
-    whole.sides_moment = {context.steps, context.t};
-    whole.species_needs_halo.assign(context.states[stage].species.size(), false);
+    take_sides(whole, context, system, stage);
     std::vector<const Sweep*> sweeps;
     const auto add = [&](const StepPlan& plan, const SweepForm* form, const Sweep* sweep,
                          std::vector<double> read_at) {
@@ -74,7 +72,7 @@ StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
             if (binder.species_needs_halo()[k]) whole.species_needs_halo[k] = true;
         }
     };
-    // The first rates come first, because a step that knows them leaves out its first passes.
+    // The first rates come first, because a step that already has them skips its first passes.
     const std::size_t needs_before = scheme.rate_registers ? 1 : 0;
     for (std::size_t n = 0; n < scheme.sweeps.size(); ++n) {
         if (n == needs_before && !before.passes.empty()) add(before, nullptr, nullptr, {});
@@ -88,7 +86,7 @@ StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
         binders[n].set_halo_registers(with_halo);
         StepProblem part = binders[n].bind(compile);
         if (n == 0) first_passes = part.passes.size();
-        // Links with weights of gradients serve the plans that do not read these, too.
+        // Links that carry weights of gradients also serve plans that do not read gradients.
         const bool is_on_model = context.model && !context.tissue;
         if (whole.links == nullptr || !is_on_model ||
             part.links != &context.model->spread().links) {

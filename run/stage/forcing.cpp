@@ -1,5 +1,5 @@
-// Samples the parts that depend on time alone, and computes for each sample how long they stay
-// close to it, and where they jump.
+// Samples the parts that depend on time alone. Finds their jumps, and for each sample the time
+// during which they stay close to it.
 #include "run/stage/forcing.h"
 
 #include <algorithm>
@@ -11,14 +11,14 @@ namespace cascade {
 
 namespace {
 
-/// Once a step ends within a pulse, error estimates know of it.
+/// Once a step ends within a pulse, error estimates notice the pulse.
 constexpr double most_of_range = 0.3;
-/// No step is longer than this part of the time.
+/// The longest step, in intervals.
 constexpr std::size_t farthest = Forcing::intervals / 4;
-/// A change within an interval may be a jump if it is at least this part of the range, and this
-/// many times those of the intervals beside it.
+/// A change within an interval may be a jump if it is at least the first fraction of the range, and
+/// is larger than the changes of the adjacent intervals by at least the second factor.
 constexpr double least_jump = 1e-3, steeper = 4;
-/// Steps end this part of the duration before a jump, which rounding cannot bridge.
+/// Steps end before a jump by this fraction of the duration, which is more than rounding errors.
 constexpr double before_jump = 1e-13;
 
 }  // namespace
@@ -53,7 +53,7 @@ void Forcing::add_motion(std::span<const double> changes) {
         const std::size_t k = n * changes.size() / intervals;
         return part * std::max(changes[k], changes[std::min(k + 1, changes.size() - 1)]);
     };
-    double sum = 0;  // Of the intervals from `n` to `end`.
+    double sum = 0;  // The sum of the intervals from `n` to `end`.
     for (std::size_t n = 0, end = 0; n < intervals; ++n) {
         if (end <= n) {
             end = n;
@@ -115,7 +115,7 @@ std::vector<Jump> find_jumps(const std::vector<double>& values, double duration,
         if (!(whole > std::max(least, steeper * beside))) continue;
         Jump jump{time_of(n), time_of(n + 1)};
         double a = values[n], b = values[n + 1];
-        // What is steep and no jump becomes small before its ends meet.
+        // A steep change without a jump becomes small when its ends approach each other.
         while (2 * std::abs(b - a) > whole) {
             const double middle = std::midpoint(jump.before, jump.after);
             if (!(middle > jump.before && middle < jump.after)) break;

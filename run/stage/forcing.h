@@ -1,5 +1,5 @@
-// How fast the rates of a stage, and the rules at its sides, change by themselves. An error
-// estimate knows of such a change only after a step has passed over it.
+// How fast the rates of a stage and the rules at its sides change with time alone. An error
+// estimate detects such a change only after a step has passed over it.
 #pragma once
 
 #include <cstddef>
@@ -9,37 +9,37 @@
 
 namespace cascade {
 
-/// A value at a time.
+/// A value as a function of time.
 using ValueAt = std::function<double(double t)>;
 
-/// Where a value jumps: between two times that are neighbours among numbers.
+/// A jump of a value. `before` and `after` are adjacent floating-point times.
 struct Jump {
     double before = 0, after = 0;
 };
 
 class Forcing {
 public:
-    /// The number of intervals of a stage's time at whose ends values are sampled. A shorter pulse
-    /// may be missed.
+    /// Values are sampled at the ends of this number of intervals of the stage's time. A shorter
+    /// pulse may be missed.
     static constexpr std::size_t intervals = 10000;
-    /// How far what moves goes is compared over this part of the time.
+    /// Changes in space are measured over the duration of the stage divided by this number.
     static constexpr std::size_t intervals_of_motion = 1000;
 
     Forcing() = default;
     explicit Forcing(double duration) : interval_(duration / static_cast<double>(intervals)) {}
 
-    /// Adds a part that is the same in all cells: its value at n / intervals of the duration.
+    /// Adds a part that is uniform. `values[n]` is its value at n / intervals of the duration.
     void add(const std::vector<double>& values);
-    /// Adds what moves: `changes[m]` is the part of it that changes within a 1000th of the
-    /// duration, at moments that are spread evenly over the duration.
+    /// Adds a part that varies in space. `changes[m]` is the fraction of it that changes within
+    /// 1/1000 of the duration, at moments that are spread evenly over the duration.
     void add_motion(std::span<const double> changes);
     void add_jumps(const std::vector<Jump>& jumps);
 
-    /// The longest step from `t` in which no part changes by more than three tenths of its range:
-    /// at least one interval, at most a quarter of the duration. Infinite if no part changes. It
-    /// ends just before a jump, after which the next step must begin at time_after().
+    /// The longest step from `t` in which no part changes by more than three tenths of its range.
+    /// At least one interval and at most a quarter of the duration. Infinite if no part changes.
+    /// The step ends just before a jump, and the next step must then begin at time_after().
     double longest_step(double t) const;
-    /// The time after a jump that `t` has come to; else `t`.
+    /// The time just after a jump if `t` is just before one. Otherwise `t`.
     double time_after(double t) const;
 
 private:
@@ -47,14 +47,15 @@ private:
     void begin_reach();
 
     double interval_ = 0;
-    std::vector<std::size_t> reach_;  ///< By interval: the number of intervals that a step may
-                                      ///< pass; empty if nothing changes.
-    std::vector<Jump> jumps_;         ///< In the order of time.
+    /// For each interval, the number of intervals that a step may pass over. Empty if nothing
+    /// changes.
+    std::vector<std::size_t> reach_;
+    std::vector<Jump> jumps_;  ///< In ascending order of time.
 };
 
 /// The values of a part at n / Forcing::intervals of a duration.
 std::vector<double> values_over(double duration, const ValueAt& at);
-/// Where a part whose values_over() are known jumps.
+/// Finds the jumps of a part with these values_over().
 std::vector<Jump> find_jumps(const std::vector<double>& values, double duration, const ValueAt& at);
 
 }  // namespace cascade

@@ -1,4 +1,5 @@
-// One line of numbers under a key of text. A tiling is sure once it was found twice in a row.
+// A tiling is stored as one line of numbers. It is not searched again once two searches in a row
+// have found it.
 #include "run/stage/kept_tilings.h"
 
 #include "core/cache_sizes.h"

@@ -1,8 +1,8 @@
-// The fastest tilings that runs have found, kept for later stages of the process and, beside
-// compiled kernels, on disk for later processes.
+// Stores the fastest tilings that runs have found, for later stages of this process and, in the
+// folder of compiled kernels, for later processes.
 //
-// The key of a tiling contains everything that determines its speed: this build, the processor, its
-// caches, the kernels of the steps, the grid and the number of threads. No result depends on the
+// The key of a tiling contains everything that affects its speed: this build, the processor, its
+// caches, the kernels of the steps, the grid and the number of threads. No result depends on
 // tilings.
 #pragma once
 
@@ -18,21 +18,23 @@ namespace cascade {
 
 struct FoundTiling {
     Tiling tiling;
-    bool is_sure = false;  ///< It was found twice in a row.
+    /// Whether two searches in a row have found this tiling. If so, it is not searched again.
+    bool is_sure = false;
     friend bool operator==(const FoundTiling&, const FoundTiling&) = default;
 };
 
 class KeptTilings {
 public:
-    /// `code` identifies the build and the processor. Nothing is kept on disk without a folder or
-    /// if `code` is empty.
+    /// `code` identifies the build and the processor. Tilings are stored on disk only if both
+    /// `folder` and `code` are not empty.
     KeptTilings(const std::filesystem::path& folder, std::string code);
 
-    /// The tiling that was found twice in a row, by this process or others.
+    /// The tiling that two searches in a row have found, in this process or in others. Empty if
+    /// there is none.
     std::optional<Tiling> find(const std::string& key);
     void keep(const std::string& key, const Tiling& tiling);
 
-    /// The part that all keys have in common: build, processor and caches.
+    /// The part that all keys share: build, processor and caches.
     const std::string& machine() const { return machine_; }
 
 private:
@@ -43,14 +45,15 @@ private:
     std::map<std::string, FoundTiling> known_;
 };
 
-/// To a line of text and back; nothing for any other text.
+/// Converts a found tiling to a line of text, and back. Any other text gives an empty optional.
 std::string text_of(const FoundTiling& found);
 std::optional<FoundTiling> found_tiling_of(const std::string& text);
 
-/// The tilings of one stage.
+/// The stored tilings of one stage.
 class StageTilings final : public TilingMemory {
 public:
-    /// `kernels` is a hash of the kernels of the steps of `problem`. `tilings` must outlive this.
+    /// `kernels` is a hash of the kernels of the steps of `problem`. `tilings` must outlive this
+    /// object.
     StageTilings(KeptTilings& tilings, const StepProblem& problem, std::uint64_t kernels);
 
     std::optional<Tiling> find(int threads) override;

@@ -5,10 +5,10 @@
 
 namespace cascade {
 
-/// The folder of compiled kernels: the one that the environment variable CASCADE_KERNEL_CACHE names
-/// (none if it is set and empty), else `cascade/kernels` in XDG_CACHE_HOME, else in ~/.cache (XDG
-/// Base Directory Specification 0.8). Empty if there is none, for example in the home of another
-/// user.
+/// The folder of compiled kernels. If the environment variable CASCADE_KERNEL_CACHE is set, it
+/// names the folder, and an empty value means none. Otherwise the folder is `cascade/kernels` in
+/// XDG_CACHE_HOME or else in ~/.cache (XDG Base Directory Specification 0.8). Empty if there is no
+/// such folder, for example in the home of another user.
 std::filesystem::path usual_kernel_cache();
 
 }  // namespace cascade

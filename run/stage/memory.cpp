@@ -1,4 +1,4 @@
-// Counts planes from the plans of all stages, before any of them is allocated.
+// Counts the planes of all stages from their plans, before any plane is allocated.
 #include "run/stage/memory.h"
 
 #include "core/plane.h"
@@ -29,9 +29,9 @@ std::string describe_sides(const Grid& grid) {
 
 namespace {
 
-/// Planes that operations between the passes of a plan need: the vectors of the solver of a
-/// constraint and the temporaries of its plans, and the waves of a convolution and of its kernel on
-/// a grid that is at most twice as wide along each axis.
+/// The planes that operations between the passes of a plan need. A constraint needs the vectors of
+/// its solver and the temporaries of its plans. A convolution needs the waves of its operand and of
+/// its kernel, on a grid that is at most twice as wide along each axis.
 std::uint64_t planes_between_passes(const StepPlan& plan, const Grid& grid) {
     std::uint64_t planes = 0;
     for (const Pass& pass : plan.passes) {
@@ -50,8 +50,8 @@ std::uint64_t planes_between_passes(const StepPlan& plan, const Grid& grid) {
     return planes;
 }
 
-/// Planes that live while a stage is run: temporaries of passes, all registers but the old step,
-/// and the kept copy of the species.
+/// Planes that exist while a stage runs: temporaries of passes, all registers except the old step,
+/// and the copy of the species for replays.
 std::uint64_t planes_while_running(const Program& program, std::uint32_t k, StagePlans& plans,
                                    const Grid& grid) {
     const Stage& stage = program.stages[k];
@@ -67,7 +67,7 @@ std::uint64_t planes_while_running(const Program& program, std::uint32_t k, Stag
         temporaries = std::max(temporaries, plan.temporaries);
         between_passes += planes_between_passes(plan, grid);
     }
-    // Step-invariants are kept besides, and computed with their own temporaries.
+    // Step-invariants stay in memory. Computing them needs further temporaries.
     const StepPlan& step_invariants = plans.step_invariants(k);
     temporaries = std::max(temporaries, step_invariants.temporaries) + step_invariants.result_count;
     Schedule schedule;
@@ -85,8 +85,8 @@ std::uint64_t planes_while_running(const Program& program, std::uint32_t k, Stag
     return planes;
 }
 
-/// The elements of a plane and of those of the coarser grids that exist at the same time: the grid
-/// that is run and the one before it.
+/// The number of elements of a plane, together with the planes of the coarser grids that exist at
+/// the same time: the grid that runs and the previous one.
 std::int64_t plane_size(const Program& program, const Grid& grid) {
     std::int64_t size = PlaneLayout(grid).size(), coarse = 0;
     for (const Stage& stage : program.stages) {
@@ -99,8 +99,8 @@ std::int64_t plane_size(const Program& program, const Grid& grid) {
     return size + coarse;
 }
 
-/// Planes that choosing steps and stages needs temporarily: for computing bounds, or for estimating
-/// an eigenvalue (two planes of each species and four vectors in double precision).
+/// Planes that are needed temporarily to choose steps and stages: for computing bounds, or for
+/// estimating an eigenvalue (two planes for each species and four vectors in double precision).
 std::uint64_t planes_to_choose(const Program& program, std::uint32_t stage,
                                const ModelFacts* model) {
     if (program.domain.model && model == nullptr) return 0;
@@ -123,12 +123,12 @@ double memory_of(const Program& program) {
 
 double memory_of(const Program& program, StagePlans& plans, const ModelFacts* model) {
     const Grid& grid = model ? model->grid : program.domain.grid;
-    // Every species, its copy for `until: steady`, and every varying parameter of all stages,
-    // because later stages and pictures may read any of them.
+    // Every species, its copy for `until: steady`, and every varying parameter of all stages are
+    // counted, because later stages and pictures may read any of them.
     std::uint64_t planes = 4;
     for (const Stage& stage : program.stages) {
         const System& system = program.systems[stage.system];
-        if (system.cells) continue;  // Their number is known while they run.
+        if (system.cells) continue;  // The number of crawling cells is known only during the run.
         for (const ItemId item : system.items()) {
             if (system.is_species(item)) {
                 planes += stage.time.steady ? 2 : 1;
@@ -145,7 +145,7 @@ double memory_of(const Program& program, StagePlans& plans, const ModelFacts* mo
     }
     planes += while_running;
     if (program.domain.surface) planes += metric_plane_count;
-    if (program.domain.mask) planes += 2;  // One of words, one of bytes.
+    if (program.domain.mask) planes += 2;  // One plane of words and one of bytes.
     return static_cast<double>(planes) * static_cast<double>(plane_size(program, grid)) *
            static_cast<double>(bytes_of(program.domain.precision));
 }

@@ -1,4 +1,4 @@
-// How much memory a run needs, and whether it may have it.
+// Computes how much memory a run needs, and refuses a run that would not fit.
 #pragma once
 
 #include "core/result.h"
@@ -10,17 +10,18 @@
 
 namespace cascade {
 
-/// The numbers of cells along the axes of a grid: "128 × 64", with slices "128 × 64 × 32".
+/// The numbers of cells along the axes of a grid, such as "128 × 64", or "128 × 64 × 32" with
+/// slices.
 std::string describe_sides(const Grid& grid);
 
-/// Bytes of all planes that a run holds at one time; the plans are those that it will run. If a
-/// model's cells are not made yet, `model` is null: then the number of cells is the one that the
-/// script asks for, and planes for computing bounds of the step do not count.
+/// Bytes of all planes that a run holds at one time. `plans` are the plans that will run. `model`
+/// is null if the cells of a model are not made yet. The number of cells is then the number that
+/// the script gives, and planes for bounds of the step are not counted.
 double memory_of(const Program& program, StagePlans& plans, const ModelFacts* model = nullptr);
 double memory_of(const Program& program);
 
-/// Fails if a run that needs this number of bytes on this grid would not fit into `limit` bytes (0:
-/// no limit) or into the free memory of the machine and of the container.
+/// Fails if `needed` bytes exceed `limit` (0: no limit) or the free memory of the machine or the
+/// container. Messages name the grid.
 Result<void> check_memory(const Grid& grid, double needed, std::uint64_t limit = 0);
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
-// Compares the step with the stability limits at the start and before the blow-up, and advises
-// accordingly: shorter steps, or a look at the formulas.
+// Compares the step with its stability limits at the start and before the failure. Then advises
+// shorter steps, or checking the formulas.
 #include "run/stage/not_finite.h"
 
 #include "core/counted_cells.h"
@@ -14,11 +14,12 @@ namespace cascade {
 
 namespace {
 
-/// A value that grows without bound passes this before it is infinite.
+/// A value that has reached this magnitude counts as growing without bound.
 constexpr double most_that_is_sane = 1e4;
 
-/// The smaller of the limits at both states; empty if neither has one. A state that has grown far
-/// beyond the starting values is spoiled and looks stiff whatever the reaction is.
+/// The smaller of the stability limits at both states. Empty if neither state has one. A state that
+/// has grown far beyond the starting values is ignored, because it looks stiff whatever the
+/// reaction is.
 std::optional<double> limit(const NotFiniteReport& report) {
     const auto start = longest_step(report.estimate_at_start, report.use);
     const bool is_spoiled =
@@ -29,8 +30,8 @@ std::optional<double> limit(const NotFiniteReport& report) {
     return start ? start : before;
 }
 
-/// For values that grew without bound by stable steps: either the equations do so, or only steps of
-/// this length.
+/// Advice for values that grew without bound although steps were stable. Either the equations make
+/// them grow, or steps are too long to follow the equations.
 std::string advice_for_growth(const StepInUse& use) {
     if (is_adaptive(use.solver)) return "the reaction itself grows without bound here";
     return "either the reaction itself grows without bound here, or steps are too long to follow "

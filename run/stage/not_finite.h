@@ -1,4 +1,4 @@
-// Messages for runs that blow up or are about to.
+// Explains why a run has produced NaN or infinity, or will soon.
 #pragma once
 
 #include "core/result.h"
@@ -18,17 +18,18 @@ struct NotFiniteReport {
     NotFinite found;
     std::string place;  ///< Describes the cell.
     StepInUse use;
-    // Only with a kept copy:
-    std::optional<double> largest_before;  ///< The largest magnitude before that step.
-    StabilityEstimate estimate_before;     ///< At the last check before.
-    double largest_at_start = 0;  ///< The largest magnitude of a starting value of the stage.
+    // The following two members are known only if a copy of the state before the failure exists.
+    std::optional<double> largest_before;  ///< The largest absolute value before the failing step.
+    StabilityEstimate estimate_before;     ///< At the last successful check.
+    double largest_at_start = 0;  ///< The largest absolute value of the stage's starting values.
     StabilityEstimate estimate_at_start;  ///< At the stage's starting values.
 };
 
-/// The largest magnitude of all values.
+/// The largest absolute value in all fields.
 double largest_magnitude(std::span<const Field> species);
 
-/// Names the stage, species, cell and step, and the largest stable speed if the step is to blame.
+/// Names the stage, species, cell and step. If the step is too long, also gives the largest stable
+/// speed.
 Failure describe(const NotFiniteReport& report);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Constraints are bound with their passes; each has binders of its own.
+// Binds constraints together with the passes that read them. Each constraint has its own binders.
 #include "run/stage/plan_binder.h"
 
 #include "core/check.h"
@@ -11,7 +11,8 @@ namespace cascade {
 
 namespace {
 
-/// The areas of cells where they differ, as on a surface, or where some do not count; else null.
+/// The areas of cells if they differ, as on a surface, or if some cells do not count. Otherwise
+/// null.
 std::shared_ptr<const Field> areas_of_cells(const BindingContext& context) {
     const Field* given = nullptr;
     if (!context.metric.empty()) given = &plane_of(MetricPlane::area, context);
@@ -32,7 +33,7 @@ std::shared_ptr<const Field> areas_of_cells(const BindingContext& context) {
     return areas;
 }
 
-/// Does it read a component of a gradient on a model?
+/// Does a pass read a component of a gradient on a model?
 bool reads_gradients(const Pass& pass) {
     const auto& code = pass.bound.kernel->code;
     return std::any_of(code.begin(), code.end(), [](const Instruction& instruction) {
@@ -41,7 +42,7 @@ bool reads_gradients(const Pass& pass) {
     });
 }
 
-/// The links of cells as a plan reads them; null on grids.
+/// The links of cells that a plan reads; null on grids.
 const Links* links_of(const BindingContext& context, const StepPlan& plan) {
     if (context.tissue) return context.tissue->links;
     if (!context.grid.linked) return nullptr;
@@ -57,6 +58,18 @@ std::int64_t cells_inside(const BindingContext& context) {
     return context.mask ? context.mask->cells : 0;
 }
 
+void take_sides(StepProblem& problem, const BindingContext& context, const System& system,
+                std::uint32_t stage) {
+    const StageState& state = context.states[stage];
+    if (const auto* const fields = std::get_if<FieldState>(&state.values)) {
+        problem.sides = fields->sides;
+        problem.changing_sides = fields->changing_sides;
+    }
+    problem.sides_moment = {context.steps, context.t};
+    // The planes of the species may be lent to the steps.
+    problem.species_needs_halo.assign(system.species_count(), false);
+}
+
 PlanBinder::PlanBinder(const StepPlan& plan, const BindingContext& context, const System* system,
                        std::uint32_t stage, const SweepForm* form, const Sweep* sweep,
                        std::vector<double> read_at)
@@ -68,10 +81,7 @@ PlanBinder::PlanBinder(const StepPlan& plan, const BindingContext& context, cons
       sweep_(sweep),
       read_at_(std::move(read_at)) {
     if (system_ != nullptr) {
-        problem_.sides = context_.states[stage_].sides;
-        problem_.changing_sides = context_.states[stage_].changing_sides;
-        problem_.sides_moment = {context_.steps, context_.t};
-        problem_.species_needs_halo.assign(context_.states[stage_].species.size(), false);
+        take_sides(problem_, context_, *system_, stage_);
     }
     temporary_needs_halo_.assign(plan_.temporaries, false);
     for (const Pass& pass : plan_.passes) {
@@ -153,11 +163,11 @@ StepProblem::Solve PlanBinder::bind_constraint(const Solve& solve, const Compile
     bound.needs_halo = temporary_needs_halo_[solve.target];
     bound.sides = solve.boundary;
     const StageState& state = context_.states[solve.stage];
-    if (solve.wall && !state.sides.empty()) {
-        bound.rules = SpeciesId(state.species.size() + *solve.wall);
-        bound.sides = state.sides[bound.rules->index()];
+    if (solve.wall && !state.sides().empty()) {
+        bound.rules = SpeciesId(state.species().size() + *solve.wall);
+        bound.sides = state.sides()[bound.rules->index()];
     }
-    if (system_ == nullptr) bound.rules = {};  // Then no side changes.
+    if (system_ == nullptr) bound.rules = {};  // Without a system there are no rules that change.
     bound.in_register = sweep_ != nullptr ? sweep_->inputs[0] : old_register;
     bound.read_at = sweep_ != nullptr ? sweep_->time : 0;
     std::vector<std::shared_ptr<const StepProblem>> problems;
@@ -175,13 +185,14 @@ StepProblem::Solve PlanBinder::bind_constraint(const Solve& solve, const Compile
             {std::shared_ptr<Field>(own.constant, &part.plane), part.boundary});
     }
     bound.areas = areas_of_cells(context_);
-    std::shared_ptr<SolveReport>& report = (*state.constraints)[solve.constraint];
+    std::shared_ptr<SolveReport>& report = (*state.fields().constraints)[solve.constraint];
     if (!report) report = std::make_shared<SolveReport>();
     bound.report = report;
     return bound;
 }
 
-/// The pass before all others, since places change with every evaluation of the rates.
+/// The pass that computes what cells sense. It precedes all others, because positions change with
+/// every evaluation of the rates.
 StepProblem::Pass PlanBinder::sense() {
     const TissueBinding& tissue = *context_.tissue;
     StepProblem::Pass pass;
@@ -217,7 +228,7 @@ PlanBinder::PlaneRef PlanBinder::bind_plane(const PlaneSource& source) const {
     return &plane_of(source, context_);
 }
 
-/// The rules at the sides of a plane that is read at neighbours and does not change.
+/// The rules at the sides of a constant plane that is read at neighbours.
 SideRules PlanBinder::sides_of(const PlaneSource& source) const {
     if (const auto* const id = std::get_if<StepInvariantId>(&source)) {
         return (*context_.step_invariants)[*id].boundary;
@@ -225,14 +236,14 @@ SideRules PlanBinder::sides_of(const PlaneSource& source) const {
     if (const auto* const each = std::get_if<StageItem>(&source)) {
         const StageState& state = context_.states[each->stage];
         const auto species = state.species_of_item[each->item];
-        if (species && !state.sides.empty()) return state.sides[species->index()];
+        if (species && !state.sides().empty()) return state.sides()[species->index()];
     }
     return context_.grid.boundary;
 }
 
 void PlanBinder::find_halos(const Pass& pass) {
     for (const FieldSlot slot : pass.bound.fields.ids()) {
-        if (context_.grid.linked) continue;  // Links need no halo.
+        if (context_.grid.linked) continue;  // Linked cells need no halo.
         if (!pass.bound.kernel->reads_neighbours(slot)) continue;
         const Overloaded note{
             [&](SpeciesPlane own) { problem_.species_needs_halo[own.species.index()] = true; },
@@ -268,7 +279,7 @@ StepProblem::Pass PlanBinder::bind_pass(const Pass& pass) const {
         }
     }
     for (const StageItem mask : pass.bound.masks) {
-        bound.masks.push_back(&context_.states[mask.stage].frozen_cells());
+        bound.masks.push_back(&context_.states[mask.stage].frozen());
     }
     for (const UniformSource& source : pass.bound.uniforms) bind_uniform(source, bound);
     for (const PassTarget& target : pass.targets) bound.results.push_back(bind_result(target));
@@ -276,7 +287,7 @@ StepProblem::Pass PlanBinder::bind_pass(const Pass& pass) const {
     return bound;
 }
 
-/// Checks what kernels ask of the planes that they overwrite (KernelArgumentsOf).
+/// Checks that kernels overwrite planes only in the ways that KernelArgumentsOf permits.
 void PlanBinder::check_overwritten(const CellKernel& kernel, const StepProblem::Pass& bound) {
     std::map<PlaneRef, std::size_t> written;
     for (std::size_t k = 0; k < bound.results.size(); ++k) written[bound.results[k].plane] = k;
@@ -320,8 +331,8 @@ StepProblem::Result PlanBinder::bind_result(const PassTarget& target) const {
         result.needs_halo = temporary_needs_halo_[*temporary];
         result.boundary = target.boundary;
         if (!target.wall) return result;
-        // The pass that reads it at neighbours evaluates the same rates.
-        const std::size_t species = context_.states[stage_].species.size();
+        // This value is read at neighbours by a later pass of the same evaluation of the rates.
+        const std::size_t species = context_.states[stage_].species().size();
         result.rules = SpeciesId(species + *target.wall);
         result.read_at = sweep_ != nullptr ? sweep_->time : 0;
         return result;
@@ -333,7 +344,7 @@ StepProblem::Result PlanBinder::bind_result(const PassTarget& target) const {
     }
     SpeciesPlane own{SpeciesId(number), new_register};
     if (form_ != nullptr) {
-        // Outputs in order, each for all species that are written.
+        // Outputs come in order. Each has one result for every species that is written.
         const std::size_t written =
             form_->species.empty() ? problem_.species_needs_halo.size() : form_->species.size();
         own.in_register = sweep_->outputs[number / written];

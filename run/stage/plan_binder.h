@@ -1,5 +1,5 @@
-// Resolves the slots of a plan's passes to registers, planes and numbers, and notes which planes
-// need a halo, and for which moment.
+// Resolves the slots of a plan's passes to registers, planes and numbers, and records which planes
+// need a halo and for which moment.
 #pragma once
 
 #include "run/stage/bound_kernel.h"
@@ -13,8 +13,12 @@
 
 namespace cascade {
 
-/// The number of cells that means are taken over; 0: all.
+/// The number of cells over which means are taken; 0: all cells.
 std::int64_t cells_inside(const BindingContext& context);
+
+/// Gives the steps of a stage the rules at its sides, and no species a halo.
+void take_sides(StepProblem& problem, const BindingContext& context, const System& system,
+                std::uint32_t stage);
 
 /// Binds one plan, once. All arguments must outlive the binder.
 class PlanBinder {
@@ -23,9 +27,9 @@ public:
                std::uint32_t stage, const SweepForm* form = nullptr, const Sweep* sweep = nullptr,
                std::vector<double> read_at = {});
 
-    /// Results of the plan become the last temporaries of the problem.
+    /// Writes the results of the plan to the last temporaries of the problem.
     void keep_results() { keeps_results_ = true; }
-    /// By species: is it read at neighbours? Other plans of the same step may need more.
+    /// By species: do neighbours read it? Other plans of the same step may add to this.
     std::vector<bool>& species_needs_halo() { return problem_.species_needs_halo; }
     /// By register of the scheme: does any sweep read it at neighbours?
     void set_halo_registers(const IdVector<RegisterId, bool>& registers) {
@@ -44,20 +48,20 @@ private:
     std::optional<TemporaryId> sensed(const PlaneSource& source) const;
     bool reads_what_is_sensed() const;
 
-    /// What the plans of a constraint read and write, and their binders.
+    /// The values that the plans of a constraint read and write, and the binders of these plans.
     struct OfConstraint {
         BindingContext context;
         std::shared_ptr<Field> unknown;
         std::shared_ptr<StepInvariants> constant;
-        std::vector<PlanBinder>
-            binders;  ///< Of the plans whole, linear and, if there is one, parts.
+        /// One for each of the plans `whole`, `linear` and, if it exists, `parts`.
+        std::vector<PlanBinder> binders;
     };
     void add_constraint(const Solve& solve);
     StepProblem::Solve bind_constraint(const Solve& solve, const Compile& compile);
     StepProblem::Pass sense();
     PlaneRef bind_plane(const PlaneSource& source) const;
 
-    /// The plane of a species that rates read.
+    /// The register from which rates read a species.
     RegisterId register_of(SpeciesId species) const {
         if (sweep_ == nullptr) return old_register;
         return species.index() < sweep_->renewed ? new_register : sweep_->inputs[0];
@@ -72,12 +76,12 @@ private:
 
     const StepPlan& plan_;
     const BindingContext& context_;
-    const System* system_;  ///< Null: no species is a register.
+    const System* system_;  ///< If null, no species is bound to a register.
     std::uint32_t stage_;
-    const SweepForm* form_;  ///< Of a sweep; null for a plan outside of a scheme.
+    const SweepForm* form_;  ///< The form of the sweep; null for a plan outside of a scheme.
     const Sweep* sweep_;
     std::vector<double> read_at_;  ///< By output of the sweep: the moment at which rates read it.
-    bool senses_ = false;          ///< Do passes read what cells sense at their places?
+    bool senses_ = false;          ///< Do passes read values that cells sense at their positions?
     bool keeps_results_ = false;
     std::map<const Solve*, std::unique_ptr<OfConstraint>> constraints_;
     StepProblem problem_;

@@ -1,4 +1,5 @@
-// Runs plans other than steps: starting values, views, and numbers from which steps are chosen.
+// Runs plans that are not steps: starting values, formulas of pictures, and numbers that determine
+// the length of steps.
 #pragma once
 
 #include "core/parallel.h"
@@ -12,22 +13,23 @@
 
 namespace cascade {
 
-/// Runs a plan repeatedly. Its kernels are made and its planes allocated by the first run and
-/// reused, because making them would cost more than the computation.
+/// Runs a plan repeatedly. The first run makes the kernels and allocates the planes. Later runs
+/// reuse both, because making them would cost more than the computation.
 class PlanRunner {
 public:
     PlanRunner(StepPlan plan, Compile compile);
     PlanRunner(const PlanRunner&) = delete;
     PlanRunner& operator=(const PlanRunner&) = delete;
 
-    /// Computes the plan from the present values; the team shares the rows. Returns one field for
-    /// each result, which the next run overwrites. Grid and precision are those of the first run.
+    /// Computes the plan from the present values. The team shares the rows. Returns one field for
+    /// each result, which the next run overwrites. Grid and precision must be the same in all runs.
     std::vector<Field>& run(const BindingContext& context, Team& team);
 
 private:
     StepPlan plan_;
     Compile compile_;
-    std::map<const CellKernel*, KernelPointer> made_;  ///< By the kernels of the plan.
+    /// For each kernel of the plan, the kernel that can be run.
+    std::map<const CellKernel*, KernelPointer> made_;
     StepProblem problem_;
     std::optional<PassRunner> runner_;
     std::vector<Field> results_;

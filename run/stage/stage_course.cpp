@@ -1,5 +1,5 @@
-// Keeps a limited number of moments, drops every other one when there are too many, and judges
-// trends by tenths of the stage's age.
+// Stores a limited number of moments, by dropping every other one when there are too many. Trends
+// are judged by tenths of the stage's age.
 #include "run/stage/stage_course.h"
 
 #include "solvers/field_norms.h"
@@ -12,23 +12,24 @@ namespace cascade {
 
 namespace {
 
-/// When there are this many moments, every other one is dropped.
+/// At this number of moments, every other one is dropped.
 constexpr std::size_t most_moments = 40;
-/// With more cells than this, rows are left out.
+/// With more cells than this, only some rows are read.
 constexpr std::int64_t most_cells_seen = 1 << 14;
 
-/// A pattern is growing if deviation and range of every species rose in each of the last three
-/// tenths of its age, in the last one at least by this part: as much time again would make it at
-/// least half as strong again. Fronts that fill a plane and patterns that coarsen keep their range;
-/// waves and pulses do not rise in all species for that long.
+/// A pattern is growing if deviation and range of every species have risen in each of the last
+/// three tenths of its age, and in the last of these at least by this fraction. Such a pattern
+/// would become at least half as strong again if the stage ran for twice the time. Fronts that fill
+/// a plane and patterns that coarsen keep their range. Waves and pulses do not rise in all species
+/// for that long.
 constexpr double least_growth = 0.05;
 
-/// A pattern is fading if the deviation of each species is at most this part of the species'
-/// largest magnitude so far, …
+/// A pattern is fading if three conditions hold. The deviation of each species is at most this
+/// fraction of the species' largest magnitude so far.
 constexpr double small_rest = 1e-3;
-/// … at most this part of its largest deviation …
+/// It is at most this fraction of the species' largest deviation so far.
 constexpr double part_of_before = 0.1;
-/// … and has fallen by this part over the last tenth of its age.
+/// It has fallen by this fraction over the last tenth of the stage's age.
 constexpr double least_fall = 0.05;
 
 Spread spread_of_rows(const Field& field, const Mask* inside, std::int64_t every_row) {
@@ -43,15 +44,16 @@ Spread spread_of_rows(const Field& field, const Mask* inside, std::int64_t every
     });
 }
 
-/// As Spread::is_even() of every n-th row. The root mean square, which takes less time to find, is
-/// at most the largest magnitude.
-bool is_even(const Field& field, const Mask* inside, std::int64_t every_row, double once) {
+/// Spread::is_uniform() for every n-th row. Compares with the root mean square, which is faster to
+/// compute than the largest magnitude and never exceeds it.
+bool is_uniform(const Field& field, const Mask* inside, std::int64_t every_row, double once) {
     if (every_row == 1) {
         const FieldMoments all = moments(field, inside);
-        if (all.deviation < std::max(even_deviation * all.root_mean_square, remaining_part * once))
+        if (all.deviation <
+            std::max(uniform_deviation * all.root_mean_square, remaining_part * once))
             return true;
     }
-    return spread_of_rows(field, inside, every_row).is_even(once);
+    return spread_of_rows(field, inside, every_row).is_uniform(once);
 }
 
 double range(const Spread& spread) { return spread.largest - spread.smallest; }
@@ -67,7 +69,7 @@ void StageCourse::look(std::int64_t step, double age, std::span<const Field> spe
     if (species.empty()) return;
     if (!moments_.empty() && last().step >= step) moments_.pop_back();
     if (moments_.size() >= most_moments) {
-        // The first one stays, as the start of the stage.
+        // The first moment stays, because it is the start of the stage.
         std::size_t kept = 1;
         for (std::size_t k = 2; k < moments_.size(); k += 2)
             moments_[kept++] = std::move(moments_[k]);
@@ -84,13 +86,14 @@ void StageCourse::look(std::int64_t step, double age, std::span<const Field> spe
             moment.species.emplace_back(spread_of_rows(species[k], inside, every_row));
         const double before = moments_.empty() ? 0 : last().largest[k];
         moment.largest.push_back(std::max(before, spread.magnitude()));
-        moment.is_even = moment.is_even && spread.is_even(moment.largest[k]);
+        moment.is_uniform = moment.is_uniform && spread.is_uniform(moment.largest[k]);
     }
-    // A small feature may lie between the rows.
-    for (std::int64_t rows = every_row; moment.is_even && rows > 1;) {
+    // A small feature may be hidden between the rows that were read.
+    for (std::int64_t rows = every_row; moment.is_uniform && rows > 1;) {
         rows = std::max<std::int64_t>(1, rows / 16);
         for (std::size_t k = 0; k < species.size(); ++k) {
-            moment.is_even = moment.is_even && is_even(species[k], inside, rows, moment.largest[k]);
+            moment.is_uniform =
+                moment.is_uniform && is_uniform(species[k], inside, rows, moment.largest[k]);
         }
     }
     moments_.push_back(std::move(moment));
@@ -112,9 +115,9 @@ double StageCourse::errors() const {
     return contrast > 0 ? errors_ / contrast : 0;
 }
 
-const Moment& StageCourse::even_since() const {
+const Moment& StageCourse::uniform_since() const {
     std::size_t k = moments_.size() - 1;
-    while (k > 0 && moments_[k - 1].is_even) --k;
+    while (k > 0 && moments_[k - 1].is_uniform) --k;
     return moments_[k];
 }
 
@@ -136,7 +139,7 @@ double StageCourse::greatest_contrast() const {
     return greatest;
 }
 
-/// The moment nearest to this part of the present age.
+/// The moment nearest to this fraction of the present age.
 const Moment& StageCourse::at_age(double part) const {
     const double age = part * last().age;
     return *std::min_element(moments_.begin(), moments_.end(),
@@ -155,7 +158,7 @@ double StageCourse::growth(std::size_t species) const {
 bool StageCourse::is_growing(std::size_t species) const {
     const std::array<const Moment*, 4> course = {&at_age(0.7), &at_age(0.8), &at_age(0.9), &last()};
     for (std::size_t k = 1; k < course.size(); ++k) {
-        // If moments are too far apart, nothing is known about the time between them.
+        // If the moments are too far apart, the time between them is unknown.
         if (course[k]->step <= course[k - 1]->step) return false;
         const Spread& before = course[k - 1]->species[species];
         const Spread& now = course[k]->species[species];
@@ -169,13 +172,13 @@ bool StageCourse::is_growing(std::size_t species) const {
 }
 
 Trend StageCourse::trend() const {
-    if (moments_.size() < 2 || last().is_even || !(last().age > 0)) return Trend::none;
+    if (moments_.size() < 2 || last().is_uniform || !(last().age > 0)) return Trend::none;
     const Moment& before = at_age(0.9);
     if (before.step == last().step) return Trend::none;
     bool grows = true, fades = true, differs = false;
     for (std::size_t k = 0; k < last().species.size(); ++k) {
         const Spread& now = last().species[k];
-        if (now.is_even(last().largest[k])) continue;
+        if (now.is_uniform(last().largest[k])) continue;
         differs = true;
         grows = grows && is_growing(k);
         fades = fades && now.deviation() <= small_rest * largest_seen(k, &Spread::magnitude) &&

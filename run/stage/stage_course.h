@@ -1,4 +1,4 @@
-// The course of a stage: how much its cells differed from each other, from start to end.
+// Records how much the cells of a stage differ from each other, from its start to its end.
 #pragma once
 
 #include "core/plane.h"
@@ -14,49 +14,53 @@ namespace cascade {
 /// The species of a stage at one moment.
 struct Moment {
     std::int64_t step = 0;
-    double age = 0;               ///< Its time, or its steps if the time varies by cell.
-    std::vector<Spread> species;  ///< Over some of the rows if there are many cells.
-    bool is_even = false;         ///< All species are even over all cells.
-    std::vector<double> largest;  ///< By species: the largest magnitude so far.
+    double age = 0;  ///< The stage's time, or its number of steps if `speed` varies.
+    /// The spread of each species. If there are many cells, some rows are not read.
+    std::vector<Spread> species;
+    /// Whether every species has the same value in all cells, except for rounding errors.
+    bool is_uniform = false;
+    std::vector<double> largest;  ///< For each species, the largest absolute value so far.
 };
 
 /// How the pattern of a stage changes at its end.
 enum class Trend {
-    none,     ///< Neither of the two below.
-    growing,  ///< Its amplitude rises in every species; more steps would change the picture.
-    fading,   ///< The small remains of an earlier pattern still decrease.
+    none,     ///< The pattern neither grows nor fades.
+    growing,  ///< The amplitude of every species rises, so more steps would change the picture.
+    fading,   ///< Small remains of an earlier pattern still decrease.
 };
 
-/// Remembers a few moments of a stage, spread roughly evenly over its steps. It keeps numbers only,
-/// so it costs no planes, and reads rows of some ten thousand cells at most, in vectors. Before it
-/// did so, all moments of 28,000 steps of 128² cells took 7 % of their time.
+/// Records some moments of a stage, roughly equally far apart in steps. Stores numbers instead of
+/// planes. Reads rows with at most some ten thousand cells in all, with vector instructions.
+/// Without that limit, recording took 7 % of the time of 28,000 steps of 128² cells.
 class StageCourse {
 public:
     bool empty() const { return moments_.empty(); }
-    /// Is another moment due?
+    /// Whether the state after this step should be recorded.
     bool is_due(std::int64_t step) const;
-    /// Adds a moment, or replaces the last one if that has the same step. With `inside`, cells
-    /// count where it is not 0.
+    /// Adds the present moment to the record, or replaces the last moment if it has the same step.
+    /// If `inside` is given, only cells in which it is not 0 count.
     void look(std::int64_t step, double age, std::span<const Field> species, const Mask* inside);
 
-    /// Adds the estimated errors of the steps up to this age, as a part of the values. Those of
-    /// steps before count as the square of their part of the age: patterns forget how they began.
+    /// Adds the estimated errors of the steps up to `age`, as a fraction of the values. Errors of
+    /// earlier steps are multiplied by the square of (their age / this age), because later states
+    /// depend less and less on early ones.
     void add_errors(double age, double part);
-    /// Their sum over the contrast at the last moment: the largest deviation of a species, as a
-    /// part of its root mean square.
+    /// The sum of all errors divided by the contrast at the last moment. The contrast is the
+    /// largest deviation of a species divided by its root mean square.
     double errors() const;
 
     const Moment& first() const { return moments_.front(); }
     const Moment& last() const { return moments_.back(); }
-    bool ended_even() const { return !empty() && last().is_even; }
-    /// The first of the even moments at the end; only if the stage ended even.
-    const Moment& even_since() const;
-    /// The largest deviation of a species so far, divided by its largest magnitude so far; the
-    /// maximum over all species.
+    bool ended_uniform() const { return !empty() && last().is_uniform; }
+    /// The earliest of the moments at the end in which all species are uniform. Only valid if
+    /// ended_uniform() is true.
+    const Moment& uniform_since() const;
+    /// For each species, the largest deviation so far is divided by the largest absolute value so
+    /// far. Returns the largest of these quotients.
     double greatest_contrast() const;
 
     Trend trend() const;
-    /// For a growing pattern: by which part the deviation of a species rose over the last tenth of
+    /// For a growing pattern: the relative increase of a species' deviation over the last tenth of
     /// the stage's age.
     double growth(std::size_t species) const;
 

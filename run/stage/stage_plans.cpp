@@ -1,4 +1,4 @@
-// Caches plans by stage and by form of sweep.
+// Stores plans by stage and by form of sweep.
 #include "run/stage/stage_plans.h"
 
 namespace cascade {

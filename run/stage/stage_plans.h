@@ -1,4 +1,4 @@
-// The plans of a program's stages. Each is made on first use and kept.
+// The plans of a program's stages. Each plan is made on first use and then stored.
 #pragma once
 
 #include "lang/lower/lower.h"
@@ -13,7 +13,7 @@ namespace cascade {
 
 class StagePlans {
 public:
-    /// `program` must outlive the plans.
+    /// `program` must outlive this object.
     StagePlans(const Program& program, const PlanOptions& options)
         : program_(&program),
           options_(options),
@@ -26,7 +26,7 @@ public:
     const StepPlan& start(std::uint32_t stage);
     /// The plan of the step-invariants.
     const StepPlan& step_invariants(std::uint32_t stage);
-    /// The plan of a sweep of the rates.
+    /// The plan of a sweep, that is, of one evaluation of the rates.
     const StepPlan& sweep(std::uint32_t stage, const SweepForm& form);
 
 private:

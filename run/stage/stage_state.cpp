@@ -1,4 +1,4 @@
-// Gives each species its number among those that solvers step.
+// Gives each species its number among the planes that solvers step, and moves stages in time.
 #include "run/stage/stage_state.h"
 
 #include "core/check.h"
@@ -15,54 +15,93 @@ namespace cascade {
 StageState empty_state(const System& system) {
     StageState state;
     state.numbers.assign(system.item_count(), 0);
-    state.fields.resize(system.item_count());
     state.species_of_item.resize(system.item_count());
     const auto species = system.species();
     for (const SpeciesId id : species.ids()) state.species_of_item[species[id]] = id;
-    state.species.resize(species.size());
+    if (system.cells) {
+        state.values = TissueState();
+    } else {
+        state.fields().parameters.resize(system.item_count());
+        state.fields().species.resize(species.size());
+    }
     return state;
 }
 
 std::optional<CellCounts> counts_of_cells(const StageState& state) {
-    if (!state.tissue) return std::nullopt;
-    const Tissue& tissue = *state.tissue;
-    return CellCounts{static_cast<std::int64_t>(tissue.count()), tissue.births, tissue.deaths};
+    const Tissue* const tissue = state.tissue();
+    if (tissue == nullptr) return std::nullopt;
+    return CellCounts{static_cast<std::int64_t>(tissue->count()), tissue->births, tissue->deaths};
+}
+
+Tissue* StageState::tissue() const {
+    const auto* const cells = std::get_if<TissueState>(&values);
+    return cells != nullptr ? cells->tissue.get() : nullptr;
+}
+
+std::shared_ptr<const TissueGround> StageState::ground() const {
+    const auto* const cells = std::get_if<TissueState>(&values);
+    return cells != nullptr ? cells->ground : nullptr;
+}
+
+std::vector<Field>& StageState::species() {
+    Tissue* const cells = tissue();
+    return cells != nullptr ? cells->species : fields().species;
+}
+
+const std::vector<Field>& StageState::species() const {
+    const Tissue* const cells = tissue();
+    return cells != nullptr ? cells->species : fields().species;
 }
 
 const Field& StageState::field(ItemId item) const {
-    const auto id = species_of_item[item];
-    if (tissue) return id ? tissue->species[id->index()] : tissue->kept[item.index()];
-    return id ? species[id->index()] : fields[item];
+    if (const auto id = species_of_item[item]) return species()[id->index()];
+    const Tissue* const cells = tissue();
+    return cells != nullptr ? cells->kept[item.index()] : fields().parameters[item];
 }
 
-const Mask& StageState::frozen_cells() const { return tissue ? tissue->frozen() : frozen; }
+const Mask& StageState::frozen() const {
+    const Tissue* const cells = tissue();
+    return cells != nullptr ? cells->frozen() : fields().frozen;
+}
+
+std::span<const SideRules> StageState::sides() const {
+    const auto* const own = std::get_if<FieldState>(&values);
+    return own != nullptr ? std::span<const SideRules>(own->sides) : std::span<const SideRules>();
+}
 
 void StageState::go_to(std::int64_t complete, double time_then) {
     steps = complete;
     t = time_then;
-    if (changing_sides.empty()) return;
+    auto* const own = std::get_if<FieldState>(&values);
+    if (own == nullptr || own->changing_sides.empty()) return;
     const FlushDenormals environment;
-    const PlaneLayout& layout = species.front().layout();
-    const SpeciesPlanes present = planes_of(species);
-    for (const SpeciesId s : ids_below<SpeciesId>(sides.size())) {
-        set_side_values(changing_sides, s, {steps, t}, present, layout, {{0, layout.row_count()}},
-                        sides[s.index()]);
+    const PlaneLayout& layout = own->species.front().layout();
+    const SpeciesPlanes present = planes_of(own->species);
+    for (const SpeciesId s : ids_below<SpeciesId>(own->sides.size())) {
+        set_side_values(own->changing_sides, s, {steps, t}, present, layout,
+                        {{0, layout.row_count()}}, own->sides[s.index()]);
     }
 }
 
-void set_item(StageState& state, const System& system, ItemId item, Field values) {
-    const auto species = state.species_of_item[item];
-    const bool is_frozen = item == system.frozen_item();
-    if (Tissue* const tissue = state.tissue.get()) {
-        (species ? tissue->species[species->index()] : tissue->kept[item.index()]) =
-            std::move(values);
-        tissue->pad();
-        if (is_frozen) tissue->freeze_by(item.index());
-        return;
+void take_values(StageState& state, const Program& program, std::uint32_t stage,
+                 std::span<const ItemId> items, std::span<Field> planes) {
+    Tissue* const tissue = state.tissue();
+    for (std::size_t k = 0; k < items.size(); ++k) {
+        const ItemId item = items[k];
+        if (program.stages[stage].uniform[item]) {
+            state.numbers[item] = planes[k].number_at(0, 0);
+        } else if (const auto id = state.species_of_item[item]) {
+            state.species()[id->index()] = std::move(planes[k]);
+        } else {
+            (tissue != nullptr ? tissue->kept[item.index()] : state.fields().parameters[item]) =
+                std::move(planes[k]);
+        }
     }
-    CHECK(species || !state.fields[item].empty(), "only an item that varies has a field");
-    if (is_frozen) state.frozen = to_mask(values);
-    (species ? state.species[species->index()] : state.fields[item]) = std::move(values);
+    if (tissue != nullptr) tissue->pad();
+    const ItemId frozen = program.system_of(stage).frozen_item();
+    if (program.stages[stage].uniform[frozen]) return;
+    if (tissue != nullptr) tissue->freeze_by(frozen.index());
+    else state.fields().frozen = to_mask(state.field(frozen));
 }
 
 std::string describe_place(const Stage& stage, const StageState& state) {

@@ -1,5 +1,5 @@
-// Builds the problem of a step for the number of stages in use, and chooses steps by stability
-// bounds, error estimates and the forcing.
+// Builds the problem of a step for the number of stages in use. Chooses steps by stability bounds,
+// error estimates and the forcing.
 #include "run/stage/stage_time.h"
 
 #include "lang/calculus/derivative.h"
@@ -15,29 +15,34 @@ namespace cascade {
 
 namespace {
 
-/// If a stage has no known duration, steps of chosen length are limited to a part of this one.
+/// The duration assumed for a stage without a known one. Chosen steps are limited to a fraction of
+/// it.
 constexpr double usual_duration = 10000;
 constexpr double most_of_duration = 0.05, most_of_duration_without_bound = 0.001;
-/// The first step is this part of Euler's longest, because no error estimate precedes it.
+/// The first step is this fraction of Euler's longest, because no error estimate precedes it.
 constexpr double part_of_first_step = 0.25;
-/// Steps shorter than these parts of Euler's longest and of the duration gain nothing.
+/// Chosen steps are not shorter than these fractions of Euler's longest and of the duration,
+/// because shorter ones would gain nothing.
 constexpr double least_part = 0.01, least_of_duration = 1e-6;
-/// Explicit steps are cheap compared with the estimate of their error, which is made after at most
-/// this number of steps,
+/// Explicit steps cost little compared with the estimate of their error, so several steps are taken
+/// between two estimates. These are the largest numbers of such steps.
 constexpr std::int64_t most_stretch = 64, most_stretch_with_jumps = 8;
-/// and at least this often in the stage's time; more often if bounds or errors change.
+/// Errors are estimated at least this often during a stage, and more often if bounds or
+/// errors change.
 constexpr double stretches_of_duration = 50;
 constexpr double same_bounds = 1.25, small_error = 0.5;
-/// The number of stages changes only if that saves this part, because it means new temporaries.
+/// The number of stages changes only if that saves this factor of time, because new temporaries are
+/// needed.
 constexpr double worth_other_stages = 1.1;
-/// If it is unknown how much of a bound is reaction, most of it counts as diffusion.
+/// The part of a bound that counts as reaction if the real part is unknown. The rest of the bound
+/// counts as diffusion.
 constexpr double share_of_reaction = 0.02;
 
 }  // namespace
 
 bool steps_by_item(const Stage& stage) {
     return takes_speed_by_cell(stage.time.solver) && !stage.time.automatic_speed &&
-           !stage.time.has_duration();
+           !stage.time.has_duration() && !(stage.time.every > 0);
 }
 
 bool judges_all_steps(const Stage& stage) {
@@ -56,7 +61,7 @@ StageTimer::StageTimer(const Program& program, std::uint32_t stage, StageState& 
     : stage_(program.stages[stage]),
       state_(state),
       tools_(std::move(tools)),
-      species_(static_cast<std::uint32_t>(state.species.size())) {
+      species_(static_cast<std::uint32_t>(state.species().size())) {
     const System& system = program.system_of(stage);
     uniform_speed_ = stage_.uniform[system.speed_item()];
     speed_ = uniform_speed_ ? state.numbers[system.speed_item()] : 1;
@@ -72,7 +77,7 @@ StageTimer::StageTimer(const Program& program, std::uint32_t stage, StageState& 
     }
     if (stage_.time.chooses_steps()) forcing_ = forcing(program, stage);
     state_.time.clock.precision = program.domain.precision;
-    // A resumed stage goes on as it was.
+    // A resumed stage continues with its stored step control.
     if (state_.steps > 0 && state_.time.control.step > 0) return;
     begins_anew_ = state_.steps > 0;
     state_.time = {};
@@ -85,10 +90,10 @@ StageTimer::StageTimer(const Program& program, std::uint32_t stage, StageState& 
     if (chooses_by_error()) set_first_step();
     const bool is_finer = program.domain.detail > 1 || (stage_.size && stage_.size->factor > 1);
     if (program.domain.model || is_finer) state_.time.stages = substeps(program, stage);
-    if (stage_.time.steady) state_.watch.begin(state_.species);
+    if (stage_.time.steady) state_.watch.begin(state_.species());
 }
 
-/// Does the state of the species determine steps or stages?
+/// Whether the values of species determine the length of steps or the number of stages.
 bool StageTimer::chooses() const { return is_stabilised(stage_.time.solver) || chooses_by_error(); }
 
 bool StageTimer::chooses_by_error() const {
@@ -118,9 +123,9 @@ void StageTimer::set_first_step() {
     }
 }
 
-/// The links of a model's cells have different weights, and the largest decides which steps are
-/// stable; a script that is stable on the plane must be stable on a model, too, and with a larger
-/// size. Explicit Euler is stable up to 2 over the largest eigenvalue.
+/// The links of a model's cells have different weights, and the largest weight limits the stable
+/// step. A script that is stable on a plane should also be stable on a model and with a larger
+/// size. Explicit Euler is stable up to 2 / (largest eigenvalue).
 std::uint32_t StageTimer::substeps(const Program& program, std::uint32_t stage) const {
     constexpr double safety = 0.95;
     const bool is_split =
@@ -130,11 +135,13 @@ std::uint32_t StageTimer::substeps(const Program& program, std::uint32_t stage) 
     if (const auto bound = jacobian_bound(program, stage, tools_.model)) {
         const Formula* const formulas[] = {&bound->whole, &bound->reaction};
         const std::vector<double> bounds = tools_.numbers(formulas)();
-        // Where a pattern has grown, the reaction is fastest in other cells than diffusion, so that
-        // the difference would say too little.
+        // In a grown pattern, reaction and diffusion are fastest in different cells, so the
+        // difference of their bounds would be too small.
         decay = begins_anew_ ? bounds[0] : bounds[0] - bounds[1];
     } else {
-        decay = tools_.estimate();  // As of a direction that turns with a species.
+        // There is no bound by rule, for example because the direction of diffusion depends on
+        // a species.
+        decay = tools_.estimate();
     }
     if (!std::isfinite(decay)) return state_.time.stages;
     const double parts = std::ceil(speed_ * decay / (2 * safety));
@@ -145,7 +152,8 @@ const StepProblem& StageTimer::problem() {
     return problem_of(state_.time.stages, judges_all_steps(stage_));
 }
 
-/// Of first order, it generalises Euler's method. Three parts cost no more than three stages.
+/// Runge-Kutta-Legendre of first order generalises Euler's method. Up to three parts cost no more
+/// than three stages.
 std::uint32_t StageTimer::stages_for_parts(std::uint32_t parts) {
     constexpr std::uint32_t few = 3;
     const std::uint32_t stages = stages_for(Solver::rkl1, parts);
@@ -182,12 +190,12 @@ RateBounds StageTimer::bounds() const {
             return {bounds[0], bounds[1], jumps_};
     }
     const double whole = tools_.estimate();
-    // The explicit part may be as fast as the whole, because advection is not diffusion.
+    // The explicit part may be as fast as the whole, because it includes advection.
     if (is_partly_implicit(stage_.time.solver)) return {whole, whole, jumps_};
     return {whole, share_of_reaction * whole, jumps_};
 }
 
-/// The number of stages for steps of a given length.
+/// Chooses the number of stages for steps of a given length.
 StepChoice StageTimer::choose_stages_at(std::int64_t step, TimeState& time) {
     state_.go_to(step, time.clock.at(step));
     time.stages = choose_stages(stage_.time.solver, bounds(), speed_);
@@ -202,7 +210,7 @@ double StageTimer::longest_step(bool is_bounded) const {
     return (is_bounded ? most_of_duration : most_of_duration_without_bound) * expected_duration();
 }
 
-/// Bounds that are not finite count as unknown and are computed again in the next step.
+/// Bounds that are not finite count as unknown, and are computed again in the next step.
 void StageTimer::look_at_bounds(std::int64_t step, TimeState& time) {
     time.bounds = bounds();
     time.bounded_at = step;
@@ -239,7 +247,8 @@ StepChoice StageTimer::choose_by_error(std::int64_t step, TimeState& time, bool 
     }
     time.stages = safe.stages;
     time.least_step = least_of_duration * expected_duration();
-    // A fast reaction changes in a time that the bound of the other cells does not know.
+    // If a solver is implicit in each cell, the bound leaves out the local reaction, which may be
+    // faster. It then gives no least step.
     if (time.bounds.whole > 0 && !is_locally_implicit(solver))
         time.least_step = std::min(time.least_step, least_part * 2 / time.bounds.whole);
     time.stretch = is_long ? 1 : stretch_after(before, time, rejected, safe.length, by_time);
@@ -247,7 +256,7 @@ StepChoice StageTimer::choose_by_error(std::int64_t step, TimeState& time, bool 
     return {safe.length, &problem_of(time.stages, is_long), &problem_of(time.stages, true)};
 }
 
-/// The number of steps to the next error estimate.
+/// The number of steps until the next error estimate.
 std::int64_t StageTimer::stretch_after(const RateBounds& before, const TimeState& time,
                                        bool rejected, double length, double longest) const {
     if (rejected || time.bounded_at < 0) return 1;
@@ -265,9 +274,9 @@ std::int64_t StageTimer::stretch_after(const RateBounds& before, const TimeState
 bool StageTimer::has_ended(std::int64_t step, double t) {
     state_.go_to(step, t);
     if (stage_.time.until) return tools_.condition_holds();
-    // If steps differ from cell to cell, steps are counted instead of time.
+    // If `speed` varies, cells have no common time, so steps are counted instead.
     const double age = uniform_speed_ ? t : static_cast<double>(state_.steps);
-    return state_.watch.settled(state_.species, age, *stage_.time.steady, tools_.inside);
+    return state_.watch.settled(state_.species(), age, *stage_.time.steady, tools_.inside);
 }
 
 Schedule StageTimer::schedule(std::int64_t last_step, std::int64_t interval) {
@@ -278,6 +287,8 @@ Schedule StageTimer::schedule(std::int64_t last_step, std::int64_t interval) {
     schedule.begins_anew = begins_anew_;
     schedule.end_time = duration_;
     schedule.interval = interval;
+    schedule.every = stage_.time.every;
+    if (uniform_speed_ && !stage_.time.chooses_steps()) schedule.fixed_step = speed_;
     if (stage_.time.until || stage_.time.steady) {
         schedule.check = stage_.time.steps_between_looks();
         schedule.ends = [this](std::int64_t step, double t, std::span<const Field>) {

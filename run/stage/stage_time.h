@@ -1,4 +1,4 @@
-// The time of one stage in a run: the passes of its solver, the length of steps, and the end.
+// Decides how a stage advances in time: the passes of its solver, the length of steps, and the end.
 #pragma once
 
 #include "lang/program/models.h"
@@ -17,47 +17,48 @@
 
 namespace cascade {
 
-/// The largest number of parts into which a step on a model, or with a size, is split.
+/// A step on a model, or of a stage with a size, is divided into at most this number of parts.
 inline constexpr std::uint32_t most_substeps = 10000;
 
 /// Computes some numbers from the present values.
 using NumberSource = std::function<std::vector<double>()>;
 
-/// Queries of a stage's time to the simulation that it belongs to. All read the present values.
+/// The functions through which a stage's timer reads the simulation. All read the present values.
 struct StageTools {
     std::function<StepProblem(const Scheme&)> bind;
-    /// Makes a function that computes formulas that are the same in all cells, to be called
-    /// repeatedly.
+    /// Returns a function that computes uniform formulas. It may be called repeatedly.
     std::function<NumberSource(std::span<const Formula* const>)> numbers;
-    /// The values of a formula of constants and `t` alone.
+    /// Returns the values of a formula of constants and `t` alone.
     std::function<ValueAt(const Formula&)> at_time;
-    /// For a formula that also reads places: what Forcing::add_motion() takes.
+    /// Returns the argument of Forcing::add_motion() for a formula that also reads positions.
     std::function<std::vector<double>(const Formula&, double duration)> motion;
-    /// Does the condition of the stage's `until` hold?
+    /// Returns whether the condition of the stage's `until` is true.
     std::function<bool()> condition_holds;
-    /// Bounds the eigenvalues by a power iteration, if there is no bound by rule.
+    /// Bounds the eigenvalues by a power iteration. Used if there is no bound by rule.
     std::function<double()> estimate;
-    const Mask* inside = nullptr;       ///< The cells that count, with a mask or on a model.
+    const Mask* inside = nullptr;       ///< The cells that count. Null if all cells do.
     const ModelFacts* model = nullptr;  ///< Null on grids.
 };
 
 class StageTimer {
 public:
-    /// `state` is the stage's; a stage that has not taken a step begins its time here.
+    /// `state` is the state of the stage. The time of a stage without steps begins here.
     StageTimer(const Program& program, std::uint32_t stage, StageState& state, StageTools tools);
 
-    /// The number of parts of each step that make it stable on the cells of a model and with a
-    /// size.
+    /// The number of parts into which each step is divided so that it is stable on the cells of a
+    /// model or with a size.
     std::uint32_t substeps() const {
         return stage_.time.solver == Solver::euler ? state_.time.stages : 0;
     }
-    /// The number of stages of Runge-Kutta-Legendre that replace the parts of a step; 0: none do.
+    /// The number of stages of Runge-Kutta-Legendre that replace this number of parts. 0 if the
+    /// parts are not replaced.
     static std::uint32_t stages_for_parts(std::uint32_t parts);
-    /// A step of Euler that is split into parts, at least 2, or what stands for them.
+    /// The scheme of an Euler step that is divided into at least 2 parts, or of the stages that
+    /// replace them.
     static Scheme split_scheme(std::uint32_t species, std::uint32_t parts);
-    /// The passes of the first step.
+    /// The passes of the first step, bound to the stage's values.
     const StepProblem& problem();
-    /// A complete schedule except for its threads. `interval` as in Schedule.
+    /// A complete schedule except for its threads. Schedule explains `interval`.
     Schedule schedule(std::int64_t last_step, std::int64_t interval);
 
 private:
@@ -67,7 +68,7 @@ private:
     RateBounds bounds() const;
     Forcing forcing(const Program& program, std::uint32_t stage) const;
     void set_first_step();
-    double expected_duration() const;  ///< Finite, even if only `until` ends the stage.
+    double expected_duration() const;  ///< Finite even if only `until` ends the stage.
     double longest_step(bool is_bounded) const;
     void look_at_bounds(std::int64_t step, TimeState& time);
     StepChoice choose_stages_at(std::int64_t step, TimeState& time);
@@ -82,24 +83,26 @@ private:
     StageState& state_;
     StageTools tools_;
     std::uint32_t species_;
-    bool begins_anew_ = false;  ///< After other steps, such as of a changed script.
+    /// Whether the stage continues without the state of its step control, for example after an edit
+    /// of the script.
+    bool begins_anew_ = false;
     bool uniform_speed_;
-    double speed_;                 ///< The item's value; 1 if it varies by cell.
-    double duration_;              ///< Infinite if there is none.
-    Forcing forcing_;              ///< For steps of chosen length.
-    NumberSource bounds_by_rule_;  ///< Computes RateBounds; null if there is no rule.
-    bool jumps_ = false;           ///< Do rates jump at thresholds?
+    double speed_;                 ///< The value of `speed`. 1 if it varies.
+    double duration_;              ///< Infinite if the stage has no duration.
+    Forcing forcing_;              ///< Used if the solver chooses the length of steps.
+    NumberSource bounds_by_rule_;  ///< Computes RateBounds. Null if there is no rule for them.
+    bool jumps_ = false;           ///< Whether rates jump at thresholds.
     /// By the number of stages, and by whether the error of the step is estimated.
     std::map<std::pair<std::uint32_t, bool>, StepProblem> problems_;
 };
 
-/// Is the length of each step the item `speed`, which may vary by cell?
+/// Whether the item `speed`, which may vary, gives the length of each step.
 bool steps_by_item(const Stage& stage);
 
-/// Is the error of every step estimated?
+/// Whether the error of every step is estimated.
 bool judges_all_steps(const Stage& stage);
 
-/// The duration of a stage that has started; infinite if it has none.
+/// The duration of a started stage. Infinite if it has none.
 double duration_of(const Stage& stage, const System& system, const StageState& state);
 
 }  // namespace cascade

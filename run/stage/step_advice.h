@@ -1,4 +1,4 @@
-// Suggests what to write if a time step is too long.
+// Suggests settings if a time step is too long.
 #pragma once
 
 #include "ir/solver.h"
@@ -12,27 +12,29 @@ namespace cascade {
 
 /// How a stage takes its steps.
 struct StepInUse {
-    double speed = 0;  ///< The length of a step; NaN if it varies by cell.
+    double speed = 0;  ///< The length of a step. NaN if it varies by cell.
     Solver solver = Solver::euler;
-    bool is_chosen = false;       ///< By `speed: auto` or an adaptive solver.
-    std::int64_t iterations = 0;  ///< The number of steps after which the stage ends; 0 if its
-                                  ///< duration or `until` ends it.
-    /// Diffusion limits the step, not the reaction, so stages of Runge-Kutta-Legendre can be far
-    /// longer.
+    bool is_chosen = false;  ///< Whether `speed: auto` or an adaptive solver chooses the length.
+    /// The number of steps after which the stage ends. 0 if its duration or `until` ends it.
+    std::int64_t iterations = 0;
+    /// Whether diffusion rather than the reaction limits the step. Steps of the
+    /// Runge-Kutta-Legendre solvers can then be far longer.
     bool diffusion_limits = false;
 };
 
 /// The longest stable step of the solver in use, whose stability interval may be longer than that
-/// of explicit Euler. Empty if the estimate has no eigenvalue, if the solver has no such limit, and
-/// if the limit is less than 10⁻⁹ of the step in use, because the state is then spoiled already.
+/// of explicit Euler. Empty if the estimate has no eigenvalue or the solver has no such limit. Also
+/// empty if the limit is less than 10⁻⁹ of the step in use, because the state is then already
+/// meaningless.
 std::optional<double> longest_step(const StabilityEstimate& estimate, const StepInUse& use);
 
-/// Does the step exceed the limit by so much that this may have spoiled the run? If the step varies
-/// by cell, the answer is yes.
+/// Whether the step exceeds the limit by so much that this may have made the result wrong. True if
+/// the step varies by cell.
 bool is_too_long(const StepInUse& use, double limit);
 
-/// "the largest stable speed is about 0.83 and this stage's is 1; try 'speed: 0.75; iterations:
-/// 400'", which covers the same time, and the solver for long steps if it is worth it.
+/// Advice as text: "the largest stable speed is about 0.83 and this stage's is 1; try 'speed: 0.75;
+/// iterations: 400'", which covers the same time. Suggests the solver for long steps if that is
+/// worth it.
 std::string advise(double limit, const StepInUse& use);
 
 }  // namespace cascade

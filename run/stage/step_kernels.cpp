@@ -1,4 +1,4 @@
-// Reports kernels that are interpreted.
+// Warns of kernels that are interpreted.
 #include "run/stage/step_kernels.h"
 
 #include <fmt/format.h>

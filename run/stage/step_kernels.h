@@ -1,4 +1,4 @@
-// The kernels of a stage's steps, and the remarks on them.
+// The kernels of a stage's steps, and warnings about kernels that are interpreted.
 #pragma once
 
 #include "core/run_control.h"
@@ -19,29 +19,29 @@ public:
 
     void add(KernelPointer kernel) { kernels_.push_back(std::move(kernel)); }
 
-    /// Adds a kernel of the steps to the identity, whatever runs it.
+    /// Adds a kernel of the steps to the identity, whether it is compiled or interpreted.
     void identify(const CellKernel& kernel) {
         identity_ = 0x100000001b3 * (identity_ ^ hash(kernel));
     }
-    /// A hash of all of them so far.
+    /// A hash of all kernels that identify() has added so far.
     std::uint64_t identity() const { return identity_; }
 
-    /// Reports the kernels that are known to have failed to compile and are interpreted.
+    /// Warns of the kernels that could not be compiled and are interpreted.
     void warn_of_refused(RunControl& control) {
         for (const KernelPointer& kernel : kernels_) {
             if (const Failure* const refusal = kernel->refusal()) warn(*refusal, control);
         }
     }
-    /// May more of them fail yet?
+    /// Whether some kernels are still being compiled, which may fail later.
     bool is_provisional() const {
         return std::any_of(kernels_.begin(), kernels_.end(),
                            [](const KernelPointer& kernel) { return kernel->is_provisional(); });
     }
 
-    /// Is one interpreted because it could not be compiled?
+    /// Whether a kernel is interpreted because it could not be compiled.
     bool has_refused() const { return has_refused_; }
 
-    /// Reports that a kernel is interpreted; each reason is given once.
+    /// Warns that a kernel is interpreted. Each reason is given once.
     void warn(const Failure& refusal, RunControl& control);
 
 private:

@@ -1,4 +1,4 @@
-// What a step of a stage costs: operations, loads and stores, and bytes of memory traffic.
+// The cost of a step of a stage: operations, loads and stores, and bytes of memory traffic.
 #pragma once
 
 #include "ir/kernel_cost.h"
@@ -8,21 +8,22 @@
 
 namespace cascade {
 
-/// Per cell and step, unless stated otherwise.
+/// All numbers are per cell and step, unless stated otherwise.
 struct StepWork {
-    KernelCost cost;  ///< Of all passes and aggregates.
-    /// Each pass counts the planes that it reads and those that it writes once, wherever they are
-    /// stored, and the links of cells on no grid. Cache lines that are fetched before they are
-    /// written do not count.
+    KernelCost cost;  ///< The sum over all passes and aggregates.
+    /// Each pass counts the planes that it reads and the planes that it writes once each, wherever
+    /// they are stored, and the links of linked cells. Cache lines that are fetched only to be
+    /// overwritten do not count.
     double bytes = 0;
-    double working_set =
-        0;             ///< Bytes of all planes, masks and links that a step uses, in all cells.
-    double links = 0;  ///< Links of a cell, with the padding of slices; 0 on grids.
+    /// Bytes of all planes, masks and links that a step uses, over all cells.
+    double working_set = 0;
+    double links = 0;  ///< Links of a cell, including unused ones that fill up slices. 0 on grids.
     std::size_t passes = 0;  ///< Passes in a step.
-    bool has_waves = false;  ///< The step also filters waves, which is not counted.
+    /// Whether the step also filters waves. The work of filtering is not counted.
+    bool has_waves = false;
 };
 
-/// The work of a step, all of whose passes have a source.
+/// The work of a step. All its passes must have a source.
 StepWork work_of(const StepProblem& problem);
 
 }  // namespace cascade

@@ -1,22 +1,13 @@
-// A clock that is read whenever the scope changes; the time since the last change goes to the scope
-// that ends.
+// The clock is read whenever the scope changes. The time since the last change goes to the previous
+// scope.
 #include "run/stage/time_account.h"
 
-#include <ctime>
+#include "core/processor_time.h"
+
 #include <numeric>
 #include <utility>
 
 namespace cascade {
-
-namespace {
-
-double processor_seconds() {
-    timespec now = {};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-}  // namespace
 
 TimeAccount::TimeAccount() : before_(processor_seconds()), since_(Clock::now()) {}
 

@@ -1,7 +1,7 @@
-// Where the time of a run goes, for `--timing`.
+// Records how the time of a run is spent, for the option `--timing`.
 //
-// The thread that runs keeps the account. It does one thing at each moment, and a nested scope
-// takes over the time of the outer one. The parts therefore add up to the whole by construction.
+// Only the thread of the run records times. A nested scope pauses the outer one. So each moment is
+// counted once, and the parts add up to the whole.
 #pragma once
 
 #include "ir/backend.h"
@@ -23,13 +23,14 @@ inline double seconds_since(std::chrono::steady_clock::time_point moment) {
 
 /// The categories of time.
 enum class Spent : std::uint8_t {
-    reading,    ///< Scripts with the files they use, and the check.
-    cells,      ///< The cells of a model, and the values that formulas read from places on it.
-    starting,   ///< Starting values, masks and step-invariants.
-    compiling,  ///< From checked formulas to code.
+    reading,  ///< Reading and checking scripts and their files.
+    /// Making the cells of a model, and the values that formulas read at positions on it.
+    cells,
+    starting,   ///< Computing starting values, masks and step-invariants.
+    compiling,  ///< Compiling kernels: from checked formulas to code.
     stepping,
-    drawing,  ///< Pictures, frames, logs, files.
-    rest,     ///< The time that no other row accounts for.
+    drawing,  ///< Writing pictures, frames, logs and files.
+    rest,     ///< Everything else.
 };
 inline constexpr std::size_t spent_count = 7;
 
@@ -39,21 +40,24 @@ public:
 
     struct Stage {
         std::string name;
-        std::array<double, spent_count> seconds{};  ///< By Spent.
+        std::array<double, spent_count> seconds{};  ///< Indexed by Spent.
         std::int64_t steps = 0;
         std::int64_t cells = 0;
-        int threads = 1;           ///< The number of threads of its last steps.
-        Stepping stepping;         ///< How these steps passed through memory.
-        bool has_refused = false;  ///< Was a kernel interpreted because it failed to compile?
+        int threads = 1;    ///< The number of threads in the last steps.
+        Stepping stepping;  ///< How the last steps divided the planes into tiles and sweeps.
+        /// Whether a kernel was interpreted because it could not be compiled.
+        bool has_refused = false;
     };
 
-    /// Begins now, with `rest`.
+    /// Starts the clock, with the category `rest`.
     TimeAccount();
 
-    /// Charges time to one category while it lives; scopes nest. Does nothing without an account.
+    /// During its lifetime, adds the time to one category. Scopes may be nested. Does nothing if
+    /// the account is null.
     class Scope {
     public:
-        /// Of a stage, by number; without one, of the stage of the enclosing scope.
+        /// `stage` is the number of a stage. Without one, the time goes to the stage of the
+        /// enclosing scope.
         Scope(TimeAccount* account, Spent what, std::optional<std::uint32_t> stage = std::nullopt);
         Scope(TimeAccount& account, Spent what, std::optional<std::uint32_t> stage = std::nullopt)
             : Scope(&account, what, stage) {}
@@ -67,18 +71,19 @@ public:
         std::optional<std::uint32_t> stage_;
     };
 
-    /// The stage with this number, added if it is new.
+    /// The account of the stage with this number, which is added if it is new.
     Stage& stage(std::uint32_t number);
 
-    /// The origins of kernels, up to the last step.
+    /// How many kernels were compiled and how many were found on disk, up to the last step.
     KernelCounts kernels;
 
     const std::vector<Stage>& stages() const { return stages_; }
-    /// Seconds so far, in all stages and outside of them. Includes the current scope up to now.
+    /// Seconds of a category so far, in all stages and outside of them, including the present
+    /// scope.
     double seconds(Spent what);
-    /// Seconds since the account began: the sum of all parts.
+    /// Seconds since the account began, which is the sum of all categories.
     double seconds();
-    /// Processor time of the program before that, mostly for loading libraries.
+    /// Processor time of the process before the account began, mostly for loading libraries.
     double seconds_before() const { return before_; }
 
 private:
@@ -88,7 +93,7 @@ private:
     Clock::time_point since_;
     Spent what_ = Spent::rest;
     std::optional<std::uint32_t> stage_;
-    std::array<double, spent_count> outside_{};  ///< Outside of stages.
+    std::array<double, spent_count> outside_{};  ///< Seconds outside of stages, indexed by Spent.
     std::vector<Stage> stages_;
 };
 

@@ -1,4 +1,5 @@
-// The ground on which the cells of a script crawl: its model, plane or box, or a grown body.
+// The surface or space on which the cells of a script crawl: a model, a plane, a box, or a grown
+// body.
 #pragma once
 
 #include "run/stage/bound_kernel.h"
@@ -10,20 +11,21 @@
 
 namespace cascade {
 
-/// The surroundings of tissues, in script lengths.
+/// The surroundings of tissues. Lengths are in the script's unit.
 class TissueGround {
 public:
-    /// `model` is null on grids. Otherwise it must outlive the ground. Throws std::bad_alloc.
+    /// The ground of a domain. `model` is null on grids, and must outlive the ground.
+    /// Throws std::bad_alloc.
     TissueGround(const Grid& grid, const ModelCells* model);
-    /// On the surface of a body in the volume of a grid, in script lengths.
+    /// The surface of a body in the volume of a grid. Its lengths are in the script's unit.
     TissueGround(const Grid& grid, SurfaceMesh body);
 
     const std::shared_ptr<const Surroundings>& surroundings() const { return surroundings_; }
-    /// The surface of a body, in script lengths. Null without one.
+    /// The surface of a body, in the script's unit of length. Null if there is no body.
     std::shared_ptr<const SurfaceMesh> body() const { return model_ == nullptr ? mesh_ : nullptr; }
 
-    /// The value that a cell senses by the name of a plane. Values in the cells of the domain are
-    /// current, read through `fields`, which reads the domain's own planes.
+    /// A function that gives the value of a plane at a crawling cell. Planes of the domain are read
+    /// through `fields`, so their values are current.
     Sense sense_of(const PlaneSource& source, const BindingContext& fields) const;
 
 private:
@@ -32,13 +34,14 @@ private:
 
     Grid grid_;
     const ModelCells* model_;
-    std::shared_ptr<const SurfaceMesh> mesh_;  ///< The model's or the body's. Otherwise null.
-    /// The model's filter, made for the first value read in its cells.
+    /// The mesh of a model or of a body. Otherwise null.
+    std::shared_ptr<const SurfaceMesh> mesh_;
+    /// The filter that interpolates values of the model's cells. Made when it is first needed.
     mutable std::unique_ptr<CellFilter> filter_;
     std::shared_ptr<const Surroundings> surroundings_;
 };
 
-/// The planes that plans read and cells sense, each once.
+/// The planes of the domain that plans read at crawling cells. Each occurs once.
 std::vector<PlaneSource> sensed_by(std::span<const StepPlan* const> plans);
 
 }  // namespace cascade

@@ -1,4 +1,5 @@
-// An implicit surface by the values between the centres of the grid's cells.
+// Makes an implicit surface from values that are interpolated between the centres of the grid's
+// cells.
 #include "run/tissue/grown_body.h"
 
 #include "mesh/implicit_surface.h"

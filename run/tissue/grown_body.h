@@ -1,5 +1,5 @@
-// The body grown by a stage of fields in a volume, as a surface: cells crawl on it, pictures show
-// it.
+// Makes the surface of a body that a stage of fields has grown in a volume. Cells crawl on this
+// surface, and pictures show it.
 #pragma once
 
 #include "core/plane.h"
@@ -11,11 +11,12 @@
 
 namespace cascade {
 
-/// The closed surface around the cells of a grid with slices whose values are above 0, in script
-/// lengths: the level set of the values interpolated linearly between the centres of cells, and the
-/// sides of the box where the body reaches them. Its triangles have edges of about `edge` cells.
-/// Thinner parts may be lost (see implicit_surface()). Fails if no value is above 0, if one is not
-/// finite, if the grid is too large, and when `cancel` becomes true. Throws std::bad_alloc.
+/// The closed surface around those cells of a grid with slices whose values are above 0, in the
+/// script's unit of length. It is the level set of the values, interpolated linearly between the
+/// centres of cells. Where the body reaches the sides of the box, they belong to the surface. The
+/// edges of its triangles are about `edge` cells long. Thinner parts of the body may be lost (see
+/// implicit_surface()). Fails if no value is above 0, if a value is not finite, if the grid is too
+/// large, or if `cancel` becomes true. Throws std::bad_alloc.
 Result<SurfaceMesh> grown_body(const Field& values, Boundaries boundary,
                                const std::atomic<bool>& cancel, double edge = 1);
 

@@ -1,5 +1,5 @@
-// Each group of formulas is one plan. Its passes are rebound when the planes of the cells have
-// moved.
+// Each group of formulas is a plan. When the memory of the cells' planes has moved, the passes of
+// the plan are bound again.
 #include "run/tissue/script_rules.h"
 
 #include "core/check.h"
@@ -14,7 +14,8 @@ namespace cascade {
 
 namespace {
 
-/// Whether the passes read the time, the number of steps, or sums over all cells.
+/// Whether the passes read the time, the number of steps, or sums over all cells. These change even
+/// if the planes do not.
 bool changes(const StepProblem& problem) {
     return std::any_of(problem.passes.begin(), problem.passes.end(),
                        [](const StepProblem::Pass& pass) { return !pass.changing.empty(); });

@@ -1,4 +1,4 @@
-// The equations of a stage of crawling cells, for the time loop of a tissue.
+// Evaluates the equations of a stage of crawling cells for the time loop of a tissue.
 #pragma once
 
 #include "run/stage/stage_plans.h"
@@ -12,7 +12,7 @@
 
 namespace cascade {
 
-/// One component, 0 to 2, of a vector.
+/// The formula of a component of a vector. `number` is 0, 1 or 2 for x, y or z.
 Formula component_of(const Formula& vector, int number);
 
 /// Binds the plans of a stage to the planes of its tissue.
@@ -20,8 +20,8 @@ class ScriptRules : public TissueRules {
 public:
     struct Makers {
         StagePlans& plans;
-        Compile steps;   ///< For steps and rates.
-        Compile seldom;  ///< For formulas evaluated at divisions.
+        Compile steps;   ///< Used for steps and rates.
+        Compile seldom;  ///< Used for formulas that are evaluated at divisions.
     };
     ScriptRules(TissueStage stage, Makers makers, std::shared_ptr<NearTriangles> near);
 
@@ -33,7 +33,7 @@ public:
     Restarts restarts() override { return {values_of(restarts_, makers_.seldom), restarted_}; }
 
 private:
-    /// Values of formulas, bound on the first request.
+    /// The values of some formulas. Their plan is bound when they are first needed.
     struct Values {
         std::optional<StepPlan> plan;
         std::unique_ptr<StepProblem> problem;
@@ -48,12 +48,13 @@ private:
     TissueBinding binding_;
     Grid grid_;
     Values rates_, conditions_, along_, restarts_;
-    std::vector<std::size_t> restarted_;  ///< Species, then kept planes.
+    /// Indices of species, followed by indices of planes that are kept from step to step.
+    std::vector<std::size_t> restarted_;
     struct Step {
         std::unique_ptr<StepProblem> problem;
         std::vector<RegisterId> states;
     };
-    std::map<std::uint32_t, Step> steps_;  ///< By number of stages.
+    std::map<std::uint32_t, Step> steps_;  ///< By the number of stages of a step.
 };
 
 }  // namespace cascade

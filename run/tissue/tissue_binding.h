@@ -1,4 +1,5 @@
-// Data of crawling cells for the plans of their stage, and values of such plans.
+// Connects the plans of a stage of crawling cells to the data that they read, and evaluates such
+// plans.
 #pragma once
 
 #include "core/result.h"
@@ -13,12 +14,13 @@
 
 namespace cascade {
 
-/// A stage of crawling cells, and everything it shares with others.
+/// A stage of crawling cells, and everything that it shares with other stages.
 struct TissueStage {
     const Program& program;
     std::uint32_t stage = 0;
     const TissueGround& ground;
-    BindingContext fields;  ///< The stage without its tissue, for the cells' senses.
+    /// The context of the stage without its tissue. Crawling cells read planes through it.
+    BindingContext fields;
 
     const System& system() const { return program.system_of(stage); }
     const CellRules& rules() const { return *system().cells; }
@@ -27,19 +29,20 @@ struct TissueStage {
     }
 };
 
-/// The binding of plans to a tissue, without links. Values that cells sense are current.
+/// Binds plans to a tissue, without links. The values of planes at the cells are current.
 TissueBinding binding_of(const TissueStage& stage, const Tissue& tissue,
                          std::span<const StepPlan* const> plans,
                          std::shared_ptr<NearTriangles> near);
 
-/// Whether a plan reads other cells by links.
+/// Whether a plan reads other cells through links.
 bool reads_links(const StepPlan& plan);
 
-/// The rule of neighbours, given the distance of the widest `over near(d)`.
+/// The rule that decides which cells are neighbours. `near` is the largest distance d of any `over
+/// near(d)`.
 NeighbourRule neighbours_of(const TissueStage& stage, double near);
 
-/// The values of a plan in the cells of a tissue at its present state, in the order of memory.
-/// Fails if there are too many neighbours.
+/// Evaluates a plan in the cells of a tissue, in its present state. The values are in the order in
+/// which memory stores the cells. Fails if there are too many neighbours.
 Result<std::vector<Field>> evaluate_in(const Tissue& tissue, const StepPlan& plan,
                                        const TissueStage& stage, const NeighbourRule& rule,
                                        const Compile& compile, Team& team);

@@ -1,9 +1,10 @@
-// The part of FFTW's interface that Cascade uses, by the Fourier transform of Eigen (kissfft), a
-// header-only library. It is slower than FFTW, and agrees with it up to rounding.
+// The part of FFTW's interface that Cascade uses, implemented by the Fourier transform of Eigen
+// (kissfft), a header-only library. It is slower than FFTW, and its results differ only by
+// rounding.
 //
-// Definitions of the real transforms: FFTW's manual, section 4.8. Cosine transforms of types II and
-// III use one complex transform of the same length (J. Makhoul, "A Fast Cosine Transform in One and
-// Two Dimensions", 1980).
+// FFTW's manual, section 4.8, defines the real transforms. Cosine transforms of types II and III
+// use one complex transform of the same length (J. Makhoul, "A Fast Cosine Transform in One and Two
+// Dimensions", 1980).
 #include "core/check.h"
 #include "core/late_library.h"
 
@@ -25,12 +26,13 @@ using std::numbers::pi;
 
 enum class Transform : std::uint8_t { real, forward, backward, to_half, from_half };
 
-/// The number of elements from one number of a line to the next, and from one line to the next.
+/// The layout of lines in memory: the number of elements from one number of a line to the next
+/// (`stride`), and from one line to the next (`distance`).
 struct Lines {
     int stride, distance;
 };
 
-/// Transforms lines of n values, or of n pairs for complex numbers.
+/// Transforms lines of n numbers. For complex transforms, a number is a pair of numbers.
 struct Pass {
     Transform transform;
     fftw_r2r_kind kind;  ///< For a real transform.
@@ -40,7 +42,8 @@ struct Pass {
 
 struct Plan {
     Pass pass;
-    // For fftw_plan_r2r(), whose lines lie along several axes, the slowest first.
+    // The sizes and kinds for fftw_plan_r2r(), which transforms along several axes, the slowest
+    // first.
     std::vector<int> sizes = {};
     std::vector<fftw_r2r_kind> kinds = {};
     double* values = nullptr;
@@ -48,7 +51,7 @@ struct Plan {
 
 Complex turned(double angle) { return std::polar(1.0, angle); }
 
-/// The unnormalised transform.
+/// The transform without normalisation.
 std::vector<Complex> transformed(const std::vector<Complex>& from, bool is_backward) {
     static Eigen::FFT<double> fft(Eigen::FFT<double>::impl_type(), Eigen::FFT<double>::Unscaled);
     std::vector<Complex> to;
@@ -82,7 +85,8 @@ std::vector<double> real_of_half_complex(const std::vector<double>& x) {
     return y;
 }
 
-/// The index of number k if even ones in order precede odd ones in reverse.
+/// The index of number k after reordering: first the numbers with even k in ascending order, then
+/// the numbers with odd k in descending order.
 std::size_t folded(std::size_t k, std::size_t n) { return k % 2 == 0 ? k / 2 : n - 1 - k / 2; }
 
 std::vector<double> cosine_2(const std::vector<double>& x) {
@@ -186,7 +190,7 @@ void run(const void* plan, const Number* from, Number* to) {
     }
 }
 
-// FFTW's functions. Plans of both precisions are the same.
+// FFTW's functions. Plans of single and double precision are the same type.
 
 void* plan_many(Pass pass) { return new Plan{pass}; }
 

@@ -1,4 +1,4 @@
-// Files in memory: the files that the page carries, and files written meanwhile.
+// Files in memory: the files that the page carries and the files that the session writes.
 #include "tab/files.h"
 
 #include "core/file.h"

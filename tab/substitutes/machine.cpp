@@ -1,5 +1,5 @@
-// The machine in a tab: one thread, memory without pages, no file system, and arithmetic with
-// denormal numbers.
+// Functions of core/ that depend on the machine, for a browser's tab. A tab has one thread, memory
+// without pages, no file system, and arithmetic with denormal numbers.
 #include "core/cache_sizes.h"
 #include "core/enough_memory.h"
 #include "core/floating_point.h"
@@ -25,7 +25,7 @@ int Team::size() const { return 1; }
 void Team::run(const std::function<void(int index)>& work) { work(0); }
 void Team::run(const std::function<void(int index)>& work, int) { work(0); }
 void Team::barrier() {}
-// The only thread checks for requests between steps, so no work is abandoned.
+// Never called, because the only thread checks for requests between steps.
 void abandon_work() { __builtin_trap(); }
 bool complete(const std::function<void()>& work) {
     work();
@@ -54,7 +54,7 @@ std::size_t bytes_of_planes = 0;
 
 }  // namespace
 
-/// The line before a plane holds its size.
+/// The cache line before a plane stores the plane's size.
 void* allocate_plane(std::size_t bytes) {
     const std::size_t size = cache_line + (bytes + cache_line - 1) / cache_line * cache_line;
     char* const block = static_cast<char*>(std::aligned_alloc(cache_line, size));
@@ -74,11 +74,11 @@ void free_plane(void* plane) {
     std::free(block);
 }
 
-/// Pages keep no planes.
+/// Always false: in a tab nothing shares the memory of a plane.
 bool has_several_owners(const void*) { return false; }
 
-/// Addresses have 32 bits, so browsers give a module at most 4 GiB, in which freed blocks may leave
-/// gaps. 1 if memory is full, since 0 means that the amount is unknown.
+/// Addresses have 32 bits, so a module has at most 4 GiB of memory, in which freed blocks may leave
+/// gaps. Returns 1 if memory is full, because 0 means that the amount is unknown.
 std::uint64_t available_memory(const std::filesystem::path&) {
     constexpr std::uint64_t most = std::uint64_t{3} << 30;
     return most - std::min<std::uint64_t>(most - 1, bytes_of_planes);

@@ -1,5 +1,6 @@
 // Replaces functions that need OpenMesh, tinygltf or Embree, which exist only as native code. A
-// page with a model carries its cells, too, so that only another model needs these.
+// page with a model also carries the model's cells, so these functions would be needed only for
+// another model.
 #include "core/check.h"
 #include "mesh/coarse_copy.h"
 #include "mesh/flat_triangles.h"
@@ -32,7 +33,7 @@ Result<PolygonSoup> read_gltf(std::string_view, const GrantedFiles&) {
     return needs_program(cells);
 }
 
-// Without a ray caster, no picture is ray traced.
+// Without Embree, pictures are not ray traced.
 struct RayCaster::Tree {};
 RayCaster::RayCaster(const Scene& scene) : scene_(scene) {
     CHECK(is_available(), "pictures of surfaces are refused before they are drawn");

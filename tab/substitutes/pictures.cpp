@@ -1,5 +1,5 @@
-// Pictures without libpng and libdeflate. The page carries the pixels of pictures that a script
-// reads (picture/pixel_file.h), and PNG files are written without compression.
+// Reads and writes pictures without libpng and libdeflate. The page carries the pixels of pictures
+// that a script reads (picture/pixel_file.h). PNG files are written without compression.
 #include "picture/deflate.h"
 #include "picture/grey_picture.h"
 #include "picture/image.h"
@@ -16,7 +16,7 @@ void append_number(std::string& bytes, std::uint32_t number, int count) {
     for (int k = 0; k < count; ++k) bytes += static_cast<char>(number >> 8 * k);
 }
 
-/// The checksum of zlib: RFC 1950, section 8.2.
+/// The Adler-32 checksum of zlib (RFC 1950, section 8.2).
 std::uint32_t adler32(std::string_view bytes) {
     std::uint32_t a = 1, b = 0;
     for (const char byte : bytes) {
@@ -36,7 +36,7 @@ Result<PngTexts> parse_png_texts(std::string_view) {
     return failure("a page without the program cannot read pictures", "'cascade view' can");
 }
 
-/// Stored blocks: RFC 1951, section 3.2.4.
+/// Stores the bytes in uncompressed blocks (RFC 1951, section 3.2.4).
 std::string deflated(std::string_view bytes, int) {
     std::string out = "\x78\x01";
     for (std::size_t begin = 0; begin == 0 || begin < bytes.size(); begin += longest_block) {
@@ -51,7 +51,7 @@ std::string deflated(std::string_view bytes, int) {
     return out;
 }
 
-/// W3C, "Portable Network Graphics (PNG) Specification (Second Edition)", annex D.
+/// The CRC of PNG (W3C, "Portable Network Graphics (PNG) Specification (Second Edition)", annex D).
 std::uint32_t crc32_of(std::string_view bytes) {
     std::uint32_t rest = ~std::uint32_t{0};
     for (const char byte : bytes) {

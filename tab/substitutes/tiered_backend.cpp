@@ -1,4 +1,5 @@
-// Without threads, a kernel is compiled on request, which takes a browser milliseconds.
+// A tab has no threads, so a kernel is compiled when it is requested, which takes a browser
+// milliseconds.
 #include "ir/tiered_backend.h"
 
 #include "tab/module_backend.h"
@@ -9,7 +10,7 @@ class TieredBackend::Worker {};
 
 namespace {
 
-/// A kernel that is interpreted for good.
+/// A kernel that could not be compiled and is always interpreted.
 class RefusedKernel final : public Kernel {
 public:
     RefusedKernel(KernelPointer interpreted, Failure why)

@@ -1,7 +1,8 @@
-// Whole scripts, interpreted and compiled, on one thread and several, and on grids in parts: the
-// same bits.
+// Whole scripts give the same bits interpreted and compiled, on one thread and on several, and on
+// grids in parts.
 
 #include "random_scripts.h"
+#include "script_outcome.h"
 
 #include "core/file.h"
 #include "core/parallel.h"
@@ -31,46 +32,12 @@
 namespace cascade {
 namespace {
 
+using test::expect_same;
 using test::OperationCounts;
+using test::Outcome;
 using test::random_script;
+using test::run_script;
 using test::same_bits;
-
-/// What a run leaves: the fields of all stages, and the words of a failure.
-struct Outcome {
-    std::vector<Field> fields;
-    std::string failure;
-};
-
-Outcome run_script(const std::string& name, const std::string& text, Overrides overrides,
-                   const SimulationOptions& options) {
-    Outcome outcome;
-    const auto folder = std::filesystem::path(CASCADE_SOURCE_DIR) / "examples";
-    Script script = load_script(name, text, folder, std::move(overrides));
-    EXPECT_TRUE(script.program) << text << script.messages(false);
-    if (!script.program) return outcome;
-    auto simulation = Simulation::create(script, options);
-    EXPECT_TRUE(simulation) << (simulation ? "" : simulation.error().message);
-    if (!simulation) return outcome;
-    RunControl control;
-    for (std::uint32_t k = 0; k < script.stage_count() && outcome.failure.empty(); ++k) {
-        if (auto started = (*simulation)->start_stage(k); !started) {
-            outcome.failure = started.error().message;
-            break;
-        }
-        auto end =
-            (*simulation)->advance_stage(k, script.program->stages[k].iterations, control, {});
-        if (!end) outcome.failure = end.error().message + end.error().hint;
-        for (const Field& field : (*simulation)->state(k).species) {
-            outcome.fields.push_back(field.clone());
-        }
-    }
-    return outcome;
-}
-
-void expect_same(const Outcome& expected, const Outcome& found, const std::string& what) {
-    EXPECT_EQ(expected.failure, found.failure) << what;
-    EXPECT_EQ(same_bits(expected.fields, found.fields), "") << what;
-}
 
 SimulationOptions interpreted() { return {"interp", 0, 1}; }
 SimulationOptions compiled(int lanes, int threads) { return {"jit", lanes, threads}; }
@@ -78,7 +45,7 @@ SimulationOptions compiled_in_parts(int lanes, int parts) {
     return {"jit", lanes, 1, in_parts(parts)};
 }
 
-/// In 2, 3 or 5 parts if `number` is odd, else on 1, 2 or 3 threads.
+/// A configuration: 2, 3 or 5 parts if `number` is odd, else 1, 2 or 3 threads.
 SimulationOptions compiled_some_way(std::uint64_t number) {
     constexpr std::array<int, 3> parts{2, 3, 5};
     const int lanes = 4 << (number % 3), some = static_cast<int>(number / 2 % 3);
@@ -108,7 +75,7 @@ void compare_random_scripts(Precision precision, int scripts) {
             }
         }
     }
-    // Most scripts must get through to the end, or little was compared.
+    // Most scripts must run to their end, otherwise little would be compared.
     EXPECT_LT(failed, scripts * 7 / 10);
     std::printf("%s%d of %d scripts ended in values that are not finite\n", counts.report().c_str(),
                 failed, scripts);
@@ -118,8 +85,8 @@ void compare_random_scripts(Precision precision, int scripts) {
 TEST(Agreement, RandomScripts) { compare_random_scripts(Precision::single, 1000); }
 TEST(Agreement, RandomScriptsInDouble) { compare_random_scripts(Precision::binary64, 250); }
 
-/// The same of scripts that were never tried before, interpreted and compiled, in tiles of several
-/// steps and step by step.
+/// Scripts from new seeds give the same bits interpreted and compiled, in tiles of several steps
+/// and step by step.
 TEST(Agreement, NewRandomScripts) {
     constexpr std::uint64_t scripts = 500;
     constexpr std::array<Tiling, 4> tilings = {Tiling{}, Tiling{7, 2}, Tiling{3, 1},
@@ -141,7 +108,7 @@ TEST(Agreement, NewRandomScripts) {
     }
 }
 
-/// What operators need at neighbours may be computed there again or read from a plane.
+/// Operands at neighbours may be computed again or read from a plane.
 TEST(Agreement, HoweverOperandsComeToNeighbours) {
     Team team(2);
     const InputFiles no_files;
@@ -182,7 +149,7 @@ TEST(Agreement, HoweverOperandsComeToNeighbours) {
     EXPECT_GT(passes_differ, 50);
 }
 
-/// What no step changes may be computed in each of them or once.
+/// Step-invariants may be computed in each step or once.
 TEST(Agreement, HoweverStepsArePlanned) {
     std::size_t kept = 0;
     for (int seed = 0; seed < 500; ++seed) {
@@ -204,8 +171,8 @@ TEST(Agreement, HoweverStepsArePlanned) {
     EXPECT_GT(kept, 100u);
 }
 
-/// The same with fewer roundings: a run computes it once, a compiled stage in each step; and
-/// whatever is in planes.
+/// All plans of a step give the same bits with `--fast`: runs compute step-invariants once,
+/// compiled stages in each step, and any operands may be in planes.
 TEST(Agreement, HoweverFastStepsArePlanned) {
     Overrides overrides;
     overrides.fast = true;
@@ -224,8 +191,8 @@ TEST(Agreement, HoweverFastStepsArePlanned) {
     }
 }
 
-// Whether x is computed once decides whether the Laplacian reads a plane: sixfold values are
-// rounded.
+// The Laplacian reads a plane only if x is computed once. Products by 6 are rounded, so fusing them
+// would change bits.
 TEST(Agreement, FastLaplaciansInSpaceAreThoseOfPlanes) {
     Overrides overrides;
     overrides.fast = true;
@@ -268,7 +235,7 @@ TEST(Agreement, RandomScriptsOnModels) {
                      fmt::format("domain {{ surface: sphere; {}; seed: {} }}",
                                  domains[seed % domains.size()], seed));
         overrides.precision = seed % 3 == 0 ? Precision::binary64 : Precision::single;
-        // Scripts without a meaning on models are refused; of the others, those that read
+        // Scripts that have no meaning on models are refused. Of the others only scripts that read
         // neighbours are run.
         if (!load_script("random", text, ".", overrides).program) continue;
         const bool reads_neighbours =

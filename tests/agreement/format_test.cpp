@@ -1,5 +1,5 @@
-// Formatting over whole scripts: the examples, the built-in systems, and random scripts whose
-// blanks and lines are random too. The meaning stays, and a second run changes nothing.
+// Formats whole scripts: the examples, the built-in systems, and random scripts with random blanks
+// and lines. Formatting must keep the meaning, and formatting again must change nothing.
 #include "random_scripts.h"
 
 #include "core/file.h"
@@ -32,7 +32,7 @@ TEST(Formatting, KeepsTheMeaningOfExamplesAndSystems) {
     }
 }
 
-/// The script with other blanks, line ends and comments wherever some were.
+/// The script with other blanks, line ends and comments in place of its own.
 std::string disarranged(const std::string& script, std::uint64_t seed) {
     test::RandomStream random(seed);
     std::string text;
@@ -64,7 +64,7 @@ TEST(Formatting, KeepsTheMeaningOfRandomScripts) {
     }
 }
 
-/// The script with a few characters taken out, doubled, exchanged or put in.
+/// The script with a few characters removed, doubled, exchanged or inserted.
 std::string damaged(std::string script, test::RandomStream& random) {
     static constexpr std::string_view put_in = "()[]{};:,.#'\n\r\t +-*/^=<>1a\"";
     static constexpr std::string_view signs[] = {"∇",   "∇²", "∇·", "√", "²", "⁻¹", "β", "∂",

@@ -19,8 +19,8 @@ struct FunctionRow {
     Contexts places;
 };
 
-/// All functions but those of cells that crawl, of which no script here is, and those that only
-/// lowering makes.
+/// All functions except those of cells that crawl, which these scripts do not contain, and those
+/// that only lowering makes.
 std::vector<FunctionRow> functions_of_fields() {
     std::vector<FunctionRow> rows;
     const auto add = [&](Function function, const FunctionRow& row) {
@@ -72,7 +72,7 @@ private:
         std::vector<std::string> species, parameters;
     };
 
-    /// In every third script. The first cell is always inside.
+    /// A mask, in every third script. The first cell is always inside.
     std::string mask() {
         static constexpr std::array<std::string_view, 5> masks = {
             "random(0, 1) > -0.3 or sx + sy < 0.76", "disc(0.4, 0.1, 0.3) or sx + sy < 0.76",
@@ -82,7 +82,7 @@ private:
         return fmt::format("; mask: {}", mask_stream_.pick<std::string_view>(masks));
     }
 
-    /// In every third script without a mask.
+    /// A stencil, in every third script without a mask.
     std::string stencil() {
         if (has_mask_ || !stencil_stream_.chance(33)) return "";
         is_fourth_ = stencil_stream_.chance(50);
@@ -110,11 +110,11 @@ private:
         return number();
     }
 
-    /// Above −0.1, if that is known here: in functions a name may have any value.
+    /// An expression above −0.1 where this is known. In functions a name may have any value.
     std::string scale(Place place) { return function_count_ < 2 ? number() : leaf(place); }
 
     std::string call(const FunctionRow& row, Place place, int depth) {
-        // A literal 0 cannot divide; a number that varies can.
+        // A literal divisor of 0 is an error; a divisor that varies is not.
         if (row.spelling == "/") {
             return fmt::format("({}) / (0.75 + {})", expression(place, depth - 1), leaf(place));
         }
@@ -138,7 +138,7 @@ private:
                                stream_.pick<std::string_view>(components));
         }
         if (row.spelling == "convolve") {
-            // Few cells are summed directly, more by transforms.
+            // The sum over few cells is direct, over more by transforms.
             return fmt::format("convolve(1 - 0.2 * distance, {}, {})", expression(place, depth - 1),
                                1 + stream_.below(4));
         }
@@ -170,7 +170,7 @@ private:
         return std::find(stencils.begin(), stencils.end(), spelling) != stencils.end();
     }
 
-    /// An expression that is certainly not constant: derivatives of constants are refused.
+    /// An expression that is not constant, since derivatives of constants are refused.
     std::string varying(Place place, int depth) {
         return fmt::format("(x * {} + {})", leaf(place), expression(place, depth));
     }
@@ -223,7 +223,7 @@ private:
     }
 
     bool fits(const FunctionRow& row, Place place) const {
-        // In fluxes, and of points that are known.
+        // Functions that are allowed in fluxes only, or with constant points only.
         static constexpr std::array<std::string_view, 9> only_elsewhere = {
             "grad", "vector", "tensor", "symmetric", "cross", "unit", "curl", "distance", "keys"};
         if (std::find(only_elsewhere.begin(), only_elsewhere.end(), row.spelling) !=
@@ -300,7 +300,7 @@ private:
             text_ += fmt::format("  u{}' = {}\n", k, expression(Place::rate, 4));
             if (stream_.chance(30))
                 text_ += fmt::format("  u{}' += {}\n", k, expression(Place::rate, 2));
-            // Later rates may read earlier ones; a circle cannot come about.
+            // Only later rates read earlier ones, so there is no cycle.
             readable_.push_back(fmt::format("u{}'", k));
         }
         if (has_family) write_rates_of_family();
@@ -310,7 +310,7 @@ private:
         systems_.push_back(names);
     }
 
-    /// w[1] to w[n], which neighbours read in a circle.
+    /// A family w[1] to w[n], in which each member reads the next in a ring.
     void write_family(SystemNames& names) {
         const std::uint32_t members = 1 + stream_.below(3);
         text_ +=
@@ -336,7 +336,7 @@ private:
         const SystemNames& names = systems_[system];
         text_ += fmt::format("stage g{}: s{} {{ iterations: {}; speed: {}\n", k, system,
                              stream_.below(6), stream_.chance(70) ? "0.125" : "0.1 + 0.05 * x");
-        // Bare names read the previous stage, which may be of the other system; [p] is this one's.
+        // Bare names read the previous stage, which may run the other system. [p] reads this stage.
         readable_.clear();
         species_.clear();
         for (const std::string& name : previous_) readable_.push_back(name);
@@ -357,7 +357,7 @@ private:
         if (k == 0) previous_.push_back("g0.u0");
     }
 
-    /// Of species u0, as its sides.
+    /// The border of species u0, by the rules of sides.
     void write_border() {
         static constexpr std::array<std::string_view, 4> rules = {"fixed(0.5)", "slope(0.01 * sx)",
                                                                   "slope(0.5 * sin([u0] - t))",
@@ -365,14 +365,14 @@ private:
         text_ += fmt::format("  u0.border: {}\n", mask_stream_.pick<std::string_view>(rules));
     }
 
-    /// Of species u0, which every system has.
+    /// The sides of species u0, which every system has.
     void write_sides() {
         static constexpr std::array<std::string_view, 2> all = {"noflux", "periodic"};
         text_ +=
             fmt::format("  u0.sides: {}\n",
                         stream_.chance(50) ? "fixed(0.5)" : stream_.pick<std::string_view>(all));
         if (!stream_.chance(50)) return;
-        // Operators, which expressions have, read no species at a side.
+        // Operators in these expressions cannot read species at a side.
         std::erase_if(readable_, [](const std::string& name) {
             return name.starts_with("[") && name != "[frozen]";
         });
@@ -382,8 +382,8 @@ private:
     }
 
     RandomStream stream_, mask_stream_, stencil_stream_;
-    bool has_mask_ = false;   ///< Then species have the sides of the domain,
-    bool is_fourth_ = false;  ///< and with this stencil.
+    bool has_mask_ = false;   ///< With a mask, species have the sides of the domain.
+    bool is_fourth_ = false;  ///< With this stencil, too.
     std::string text_;
     std::vector<std::string> readable_, species_, previous_;
     std::vector<SystemNames> systems_;

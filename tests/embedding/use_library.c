@@ -18,7 +18,8 @@ static void *library;
     X(species_count) X(species_name) X(parameter_count) X(parameter_at) X(step)       \
     X(run) X(cancel) X(set) X(set_number) X(set_script) X(paint) X(begin_next_stage)  \
     X(undo) X(redo) X(view_open) X(view_data) X(view_close) X(values) X(feature)      \
-    X(remarks) X(analyze) X(picture) X(write_picture) X(session) X(save)
+    X(remarks) X(analyze) X(picture) X(write_picture) X(session) X(save) X(set_values) \
+    X(write) X(film) X(page) X(get_model)
 #define DECLARE(name) __typeof__(cascade_##name) *name;
 static struct {
     EACH(DECLARE)
@@ -319,6 +320,78 @@ static void is_stopped_and_changed(const char *folder) {
     c.free(pattern);
 }
 
+static char *in(const char *folder, const char *name) {
+    static char path[1024];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return path;
+}
+static int begins_with(const char *path, const char *bytes) {
+    char read[16] = {0};
+    FILE *const file = fopen(path, "rb");
+    if (!file) return 0;
+    const size_t count = fread(read, 1, sizeof read - 1, file);
+    fclose(file);
+    return count >= strlen(bytes) && memcmp(read, bytes, strlen(bytes)) == 0;
+}
+static int32_t cancel_at_once(const cascade_progress *progress, void *user) {
+    (void)progress;
+    ++*(int *)user;
+    return 0;
+}
+
+static void takes_values_and_writes_files(const char *folder) {
+    static double given[40 * 24], found[40 * 24];
+    for (int k = 0; k < 40 * 24; ++k) given[k] = k;
+    cascade_pattern *const pattern = made(script);
+    CHECK(c.set_values(pattern, "u", given, 40 * 24) == CASCADE_OK);
+    CHECK(c.values(pattern, "u", found, 40 * 24) == CASCADE_OK);
+    CHECK(memcmp(given, found, sizeof given) == 0);
+    CHECK(c.set_values(pattern, "u", given, 7) == CASCADE_REFUSED && strstr(error_of().message, "960"));
+    CHECK(c.set_values(pattern, "rate", given, 40 * 24) == CASCADE_REFUSED);
+    CHECK(c.set_values(pattern, "u", NULL, 40 * 24) == CASCADE_BAD_ARGUMENT);
+    given[5] = NAN;
+    CHECK(c.set_values(pattern, "u", given, 40 * 24) == CASCADE_REFUSED);
+
+    CHECK(c.write(pattern, in(folder, "c.svg"), "{\"palette\": \"viridis\"}") == CASCADE_OK);
+    CHECK(begins_with(in(folder, "c.svg"), "<svg"));
+    CHECK(c.write(pattern, in(folder, "c.svg"), "{\"pallete\": 1}") == CASCADE_REFUSED);
+    CHECK(strstr(error_of().message, "pallete") && strstr(error_of().hint, "palette"));
+    CHECK(c.write(pattern, in(folder, "c.svg"), "nonsense") == CASCADE_REFUSED);
+    CHECK(c.write(pattern, in(folder, "c.tiff"), NULL) == CASCADE_REFUSED);
+    CHECK(c.write(pattern, NULL, NULL) == CASCADE_BAD_ARGUMENT);
+
+    int calls = 0;
+    cascade_pattern *const endless =
+        made("system s { u: x; u' = 0.1 * lap(u) }\nstage one: s { iterations: 1000000000 }\n");
+    CHECK(c.film(endless, in(folder, "never.gif"), 1000, NULL, cancel_at_once, &calls) == CASCADE_CANCELLED);
+    CHECK(calls > 0 && !begins_with(in(folder, "never.gif"), "GIF"));
+    c.free(endless);
+    CHECK(c.film(pattern, in(folder, "c.gif"), 10, "{\"show\": \"u\"}", NULL, NULL) == CASCADE_OK);
+    CHECK(begins_with(in(folder, "c.gif"), "GIF89a"));
+
+    const char *html = NULL;
+    const cascade_status status = c.page(pattern, &html);
+    CHECK(status == CASCADE_OK ? strstr(html, "<html") != NULL : strstr(error_of().message, "engine.wasm") != NULL);
+    cascade_model model = {0};
+    model.size = sizeof model;
+    CHECK(c.get_model(pattern, &model) == CASCADE_REFUSED && strstr(error_of().message, "grid"));
+    c.free(pattern);
+
+    cascade_pattern *const ball =
+        made("domain { surface: sphere; cells: 200 }\nstage one: turing_spots {}\n");
+    CHECK(c.get_model(ball, &model) == CASCADE_OK && model.cell_count == 200);
+    CHECK(model.link_count > 300 && model.triangle_count > 100 && model.vertex_count > 50);
+    double area = 0;
+    for (size_t k = 0; k < model.cell_count; ++k) area += model.areas[k];
+    CHECK(fabs(area - 3.14159) < 0.1 && model.points[0] >= 0 && model.points[0] <= 1);
+    for (size_t k = 0; k < model.link_count; ++k) {
+        CHECK(model.links[2 * k] < model.links[2 * k + 1] && model.links[2 * k + 1] < 200);
+        CHECK(model.weights[k] > 0);
+    }
+    for (size_t k = 0; k < 3 * model.triangle_count; ++k) CHECK(model.triangles[k] < model.vertex_count);
+    c.free(ball);
+}
+
 static void *use(void *handle) {
     for (int k = 0; k < 200; ++k) {
         const char *name = NULL;
@@ -367,6 +440,7 @@ int main(int argc, char **argv) {
     tells_what_is_there();
     shows_values_without_a_copy();
     is_stopped_and_changed(argv[2]);
+    takes_values_and_writes_files(argv[2]);
     takes_calls_of_several_threads();
     puts("the library can be used from C");
     return 0;

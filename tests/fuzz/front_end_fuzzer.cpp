@@ -1,7 +1,7 @@
-// A fuzzer of the whole front end: any bytes are lexed, parsed, formatted, checked, and, where a
-// program comes out, lowered and verified; all messages are drawn. Found is what crashes, hangs,
-// leaks, or breaks a CHECK. Built with clang, libFuzzer and sanitizers; the commands are in
-// README.md here.
+// A fuzzer of the whole front end: bytes are lexed, parsed, formatted, checked, and, if they are a
+// program, lowered and verified. All messages are rendered. It finds crashes, hangs, leaks and
+// failed CHECKs. It is built with clang, libFuzzer and sanitizers; README.md in this folder has the
+// commands.
 #include "core/check.h"
 #include "lang/check/check.h"
 #include "lang/format/format_script.h"
@@ -59,7 +59,7 @@ void run_front_end(const std::string& text) {
     render(diagnostics, sources, {.colour = true});
 }
 
-/// Whatever can be read can be formatted, and then stays as it is.
+/// Every text that can be parsed can be formatted, and formatting again changes nothing.
 void run_formatter(const std::string& text) {
     Sources sources;
     Diagnostics diagnostics;

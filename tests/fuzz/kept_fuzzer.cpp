@@ -1,6 +1,6 @@
-// A fuzzer of files that the program keeps for itself: cells of a model, compiled kernels. The
-// first byte chooses the reader and whether the checksum is made right, so that what lies after it
-// is reached as well.
+// A fuzzer of the program's own cache files: cells of a model, compiled kernels. The first byte
+// chooses the reader, and whether the checksum is corrected, so that the data after the checksum is
+// also read.
 #include "core/check.h"
 #include "core/hash.h"
 #include "core/parallel.h"
@@ -19,14 +19,14 @@ namespace cascade {
 
 namespace {
 
-constexpr int mend_checksum = 2;  // A bit of the first byte.
+constexpr int mend_checksum = 2;  // The bit of the first byte for correcting the checksum.
 
 std::string content_of(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// Cells of a small torus, and the file that keeps them.
+/// Cells of a small torus, and their cache file.
 class Cells {
 public:
     Cells() {
@@ -61,7 +61,7 @@ private:
     std::string bytes_;
 };
 
-/// A kernel that is kept, and its file.
+/// A compiled kernel and its cache file.
 class Kernel {
 public:
     Kernel() {
@@ -74,7 +74,8 @@ public:
     const std::string& bytes() const { return bytes_; }
 
     void read(std::string bytes, bool is_mended) {
-        constexpr std::size_t begin = 16;  // Of what the sum is taken, see core/kept_files.cpp.
+        constexpr std::size_t begin =
+            16;  // Where the data of the checksum begins, see core/kept_files.cpp.
         if (is_mended && bytes.size() >= begin) {
             const std::uint64_t sum = fnv1a(std::string_view(bytes).substr(begin));
             std::memcpy(bytes.data() + 8, &sum, 8);

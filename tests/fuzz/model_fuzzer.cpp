@@ -1,7 +1,7 @@
 // A fuzzer of the readers of models: the first byte chooses the format, the others are the file.
-// What is read is made into a surface, whose links are followed. Found is what crashes, hangs,
-// leaks, or makes a surface that does not fit together. Built with clang, libFuzzer and sanitizers;
-// the commands are in README.md here.
+// The model is made into a surface, whose neighbours are checked. It finds crashes, hangs, leaks
+// and inconsistent surfaces. It is built with clang, libFuzzer and sanitizers; README.md in this
+// folder has the commands.
 #include "core/check.h"
 #include "mesh/model_file.h"
 #include "tests/support/model_faults.h"
@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::array endings = {"ply", "obj", "off", "stl", "gltf", "glb"};
 
-/// Begins a folder of inputs with a small valid file of each kind.
+/// Writes a small valid file of each kind to a folder of inputs.
 void write_seeds(const std::filesystem::path& folder) {
     for (const test::SmallModel& model : test::small_models()) {
         const auto format = std::find(endings.begin(), endings.end(), model.ending);

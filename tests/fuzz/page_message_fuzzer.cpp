@@ -1,4 +1,4 @@
-// A fuzzer of what pages say to the local server.
+// A fuzzer of the messages that pages send to the local server.
 #include "core/check.h"
 #include "tests/fuzz/seeds.h"
 #include "view/page_message.h"
@@ -7,7 +7,7 @@
 #include <cstdint>
 
 extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
-    // The first byte of a seed stands alone in its table; here it is part of the text.
+    // Seeds have their first byte separately; here it is part of the text.
     cascade::fuzz::write_seeds(
         *count, *arguments,
         {{"text", '{', R"("id": 1, "do": "text", "text": "stage one: turing_spots { }"})"},

@@ -1,5 +1,5 @@
 // A fuzzer of the readers of pictures and arrays: the first byte chooses the reader, the others are
-// the file. A text that a picture carries goes on to what reads it in run/ (saved_run_fuzzer.cpp).
+// the file. saved_run_fuzzer.cpp passes the texts of pictures to their readers in run/.
 #include "core/check.h"
 #include "picture/grey_picture.h"
 #include "picture/image.h"

@@ -1,5 +1,6 @@
 // A fuzzer of the prompt: lines are typed into a session, and the last one is completed. Lines that
-// would read or write files or take steps are left out; all others do what they do at a terminal.
+// would read or write files or take steps are left out. All other lines have the same effect as in
+// a terminal.
 #include "app/prompt_session.h"
 #include "app/prompt_text.h"
 

@@ -10,14 +10,14 @@
 set -eu
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 minutes=${1:?how many minutes?}
-read -ra fuzzers <<<"${FUZZERS-front_end model picture saved_run kept prompt page_message}"
+read -ra fuzzers <<<"${FUZZERS-front_end model picture saved_run kept prompt page_message lsp}"
 read -ra sanitizers <<<"${SANITIZERS-sanitize thread}"
 jobs=${JOBS:-$(nproc)}
 failed=()
 
-# Inputs that take a minute or two on one core.
+# The number of inputs for one or two minutes on one core.
 declare -A inputs=([front_end]=20000 [model]=500000 [picture]=2000000 [saved_run]=60000 [kept]=500000 [prompt]=5000
-    [page_message]=500000)
+    [page_message]=500000 [lsp]=20000)
 
 note() { printf '\n== %s\n' "$*"; }
 
@@ -26,7 +26,7 @@ if [ ${#fuzzers[@]} -gt 0 ]; then
     cmake --preset fuzz >/dev/null
     cmake --build --preset fuzz -j "$jobs" --target "${fuzzers[@]/%/_fuzzer}"
     seconds=$((minutes * 60 / ${#fuzzers[@]}))
-    # Scripts alone: the pictures beside them are large, and slow to complain about.
+    # Only scripts, since the pictures beside them are large and their messages slow.
     scripts=build/corpora/scripts
     mkdir -p "$scripts"
     find examples lang/systems -name '*.cascade' | while read -r path; do

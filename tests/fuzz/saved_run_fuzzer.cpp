@@ -1,6 +1,6 @@
-// A fuzzer of what a picture or a saved run says in words, and of the texts of options: the first
-// byte chooses the reader. A manifest is read from a folder that has the arrays of a small run;
-// what it describes is restored, but no step is taken.
+// A fuzzer of the texts in pictures and saved runs, and of the texts of options. The first byte
+// chooses the reader. A manifest is read from a folder with the arrays of a small run. The run that
+// it describes is restored, but no step is taken.
 #include "core/check.h"
 #include "run/commands/run.h"
 #include "run/commands/variation.h"
@@ -86,7 +86,7 @@ void read(char reader, const std::string& text) {
         case 1: {
             const auto overrides = overrides_from_json(text);
             CHECK(has_reason(overrides), "changes that are refused have a message");
-            // What is read can be written, and is then the same.
+            // Writing and reading again gives the same.
             if (overrides) {
                 const std::string written = overrides_to_json(*overrides);
                 CHECK(overrides_to_json(overrides_from_json(written).value()) == written,

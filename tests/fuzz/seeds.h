@@ -1,4 +1,4 @@
-// What fuzzers share: a corpus that begins by itself, and a folder of their own for files.
+// Functions for all fuzzers: writing seeds to the corpus, and a temporary folder for files.
 #pragma once
 
 #include <unistd.h>
@@ -11,7 +11,7 @@
 
 namespace cascade::fuzz {
 
-/// An input to begin with: the byte that chooses a reader, and what that reads.
+/// An initial input: the byte that chooses a reader, and the data for this reader.
 struct Seed {
     std::string name;
     char choice = 0;
@@ -33,7 +33,7 @@ inline void write_seeds(int count, char** arguments, const std::vector<Seed>& se
     }
 }
 
-/// A folder in memory, gone with the process.
+/// A folder in memory, removed at the end of the process.
 class ScratchFolder {
 public:
     ScratchFolder() {

@@ -1,4 +1,4 @@
 #!/usr/bin/env bash
-# All tests but the heavy ones pass under the sanitizers of addresses, undefined behaviour and threads.
+# All tests except the heavy ones pass with the address, undefined behaviour and thread sanitizers.
 set -eu
 FUZZERS='' exec "$SOURCE/tests/fuzz/run_all.sh" 1

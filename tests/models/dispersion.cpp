@@ -44,7 +44,7 @@ double largest_entry(const Matrix& matrix) {
     return largest;
 }
 
-/// Solves matrix · x = right by elimination with pivots.
+/// Solves matrix · x = right by elimination with pivoting.
 State solve(Matrix matrix, State right) {
     const std::size_t count = right.size();
     for (std::size_t column = 0; column < count; ++column) {
@@ -77,8 +77,8 @@ State flat_state(const ReactionDiffusion& system, State guess) {
     return guess;
 }
 
-/// The logarithm of |exp(A t)| grows as the real part asked for; exp by its series near 0 and then
-/// squaring, with the size taken out each time so that nothing overflows.
+/// log |exp(A t)| grows in proportion to the wanted real part. exp is computed by its series near 0
+/// and repeated squaring. The norm is divided out after each squaring so that nothing overflows.
 double growth_rate(const ReactionDiffusion& system, const State& flat, double square_of_k) {
     Matrix matrix = jacobian(system, flat);
     const std::size_t count = flat.size();

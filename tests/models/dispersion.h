@@ -1,5 +1,6 @@
-// Linear stability of a flat state: how fast each wave grows. Written apart from the language, in
-// double precision: the reaction is a C++ function, its Jacobian comes from differences.
+// Linear stability of a flat state: how fast each wave grows. It shares no code with the language
+// and computes in double precision: the reaction is a C++ function, and its Jacobian is computed by
+// differences.
 #pragma once
 
 #include <functional>
@@ -11,10 +12,10 @@ using State = std::vector<double>;
 
 struct ReactionDiffusion {
     std::function<State(const State&)> reaction;
-    State diffusion;  ///< Of each species.
+    State diffusion;  ///< The diffusion coefficient of each species.
 };
 
-/// A root of the reaction, by Newton's method from a guess.
+/// A zero of the reaction, found by Newton's method from a guess.
 State flat_state(const ReactionDiffusion& system, State guess);
 
 /// The largest real part of the eigenvalues of J − k² D.

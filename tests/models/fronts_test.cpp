@@ -1,4 +1,4 @@
-// Fronts and waves of the library's systems move at the speeds that theory gives.
+// Fronts and waves of the library's systems move with the speeds from theory.
 #include "tests/models/model.h"
 
 #include <gtest/gtest.h>
@@ -20,8 +20,8 @@ double front_speed(Model& model, const std::string& species, double level, doubl
     return (end - start) / (time_step * static_cast<double>(last - first));
 }
 
-/// R. A. Fisher 1937: 2 √(r D), reached slowly: x(t) = 2 t − 3/2 ln t + … in units of r = D = 1
-/// (M. Bramson, Memoirs of the AMS 285, 1983).
+/// The speed is 2 √(r D) (R. A. Fisher 1937). It is reached slowly: x(t) = 2 t − 3/2 ln t + … in
+/// units of r = D = 1 (M. Bramson, Memoirs of the AMS 285, 1983).
 TEST(Fronts, FisherKpp) {
     Model model("fisher_kpp", "grid: 1200; boundary: noflux",
                 "speed: 0.01; growth: 1; diffusion: 9; u: x < 0.05");
@@ -31,7 +31,7 @@ TEST(Fronts, FisherKpp) {
     EXPECT_NEAR(speed / (2 * std::sqrt(9.0)), 1, 0.02);
 }
 
-/// √(D/2) (1 − 2 a): H. P. McKean, Advances in Mathematics 4, 1970.
+/// The speed is √(D/2) (1 − 2 a) (H. P. McKean, Advances in Mathematics 4, 1970).
 TEST(Fronts, Nagumo) {
     for (const double threshold : {0.1, 0.3}) {
         Model model("nagumo", "grid: 400; boundary: noflux",
@@ -42,7 +42,7 @@ TEST(Fronts, Nagumo) {
     }
 }
 
-/// A threshold above ½ turns the front round.
+/// With a threshold above ½ the front moves backwards.
 TEST(Fronts, NagumoRetreats) {
     Model model("nagumo", "grid: 400; boundary: noflux",
                 "speed: 0.02; diffusion: 8; u: x < 0.7; threshold: 0.7");
@@ -50,7 +50,7 @@ TEST(Fronts, NagumoRetreats) {
     EXPECT_NEAR(speed / (std::sqrt(8.0 / 2) * (1 - 1.4)), 1, 0.015);
 }
 
-/// With a recovery that does not move, the voltage's front is Nagumo's.
+/// With a constant recovery, the front of the voltage is Nagumo's.
 TEST(Fronts, FitzhughNagumo) {
     Model model("fitzhugh_nagumo", "grid: 400; boundary: noflux",
                 "speed: 0.02; diffusion: 8; slowness: 0; voltage: x < 0.2; recovery: 0");
@@ -58,8 +58,9 @@ TEST(Fronts, FitzhughNagumo) {
     EXPECT_NEAR(speed / (std::sqrt(8.0 / 2) * (1 - 2 * 0.1)), 1, 0.015);
 }
 
-/// The wave of susceptibles s runs at 2 √(D (β s − γ)) (J. V. Noble, Nature 250, 1974), pulled like
-/// Fisher's, with the same slow approach in units of r = β s − γ.
+/// With s susceptibles, the wave moves with the speed 2 √(D (β s − γ)) (J. V. Noble, Nature 250,
+/// 1974). It is pulled like Fisher's wave and approaches its speed as slowly, in units of r = β s −
+/// γ.
 TEST(Fronts, Sir) {
     Model model("sir", "grid: 1000; boundary: noflux",
                 "speed: 0.01; contact: 1; recovery: 0.4; diffusion: 9; susceptible: 1\n"
@@ -82,7 +83,7 @@ TEST(Fronts, AllenCahnDiscShrinks) {
     EXPECT_NEAR(rate / (-2 * std::numbers::pi * 4), 1, 0.02);
 }
 
-/// A spiral of Barkley's model turns at one pace, and hardly faster on a finer grid.
+/// A spiral of Barkley's model turns uniformly, and hardly faster on a finer grid.
 TEST(Fronts, BarkleySpiralTurns) {
     std::vector<double> periods;
     for (const double diffusion : {4.0, 9.0}) {
@@ -110,7 +111,7 @@ TEST(Fronts, BarkleySpiralTurns) {
     EXPECT_NEAR(periods[1] / periods[0], 1, 0.05);
 }
 
-/// R. P. Munafo 2014: a skate glides along its axis at one pace and keeps its shape.
+/// A skate glides uniformly along its axis and keeps its shape (R. P. Munafo 2014).
 TEST(Fronts, GrayScottSkatesGlide) {
     Model model("gray_scott_gliders", "grid: 192, 192", "");
     const std::string dent = "(v < 0.15) * (y < 0.4)", other = "(v < 0.15) * (abs(y - 0.5) < 0.1)";
@@ -133,8 +134,8 @@ TEST(Fronts, GrayScottSkatesGlide) {
     EXPECT_NEAR(size[3] / size[1], 1, 0.1);
 }
 
-/// A = √(1 − q²) exp(i (q x − ω t)) with ω = β + (α − β) q² (I. S. Aranson, L. Kramer, Reviews of
-/// Modern Physics 74, 2002).
+/// The plane wave is A = √(1 − q²) exp(i (q x − ω t)) with ω = β + (α − β) q² (I. S. Aranson, L.
+/// Kramer, Reviews of Modern Physics 74, 2002).
 TEST(Fronts, ComplexGinzburgLandauPlaneWave) {
     constexpr int cells = 128, mode = 3;
     constexpr double alpha = 0.5, beta = 1.2, diffusion = 2;
@@ -142,7 +143,7 @@ TEST(Fronts, ComplexGinzburgLandauPlaneWave) {
                 "speed: 0.001; alpha: 0.5; beta: 1.2; diffusion: 2\n"
                 "re: 0.9 * cos(6 * pi * x); im: 0.9 * sin(6 * pi * x)");
     const double step = 2 * std::sin(std::numbers::pi * mode / cells);
-    const double square = diffusion * step * step;  // q², as the grid sees it.
+    const double square = diffusion * step * step;  // q² on the grid.
     const double omega = beta + (alpha - beta) * square;
     model.step(20000);
     const double early = std::atan2(model.at("im", 0), model.at("re", 0));

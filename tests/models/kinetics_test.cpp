@@ -1,5 +1,5 @@
-// The reactions of the library's systems without space: swings that grow or fade. Steady states,
-// thresholds and what is conserved are in tests/scripts/library.
+// The reactions of the library's systems without space: oscillations that grow or fade.
+// tests/scripts/library has steady states, thresholds and conserved sums.
 #include "tests/models/model.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,8 @@ namespace {
 
 constexpr const char* two_cells = "grid: 2";
 
-/// Growth rate of a swing about a level, from its extremes over two stretches of `steps`.
+/// The growth rate of an oscillation about a level, from its extremes in two intervals of `steps`
+/// steps.
 double swing_growth(Model& model, const std::string& species, double level, double time_step,
                     std::int64_t steps) {
     const auto swing = [&] {
@@ -27,8 +28,8 @@ double swing_growth(Model& model, const std::string& species, double level, doub
     return std::log(second / first) / (time_step * static_cast<double>(steps));
 }
 
-/// I. Prigogine, R. Lefever 1968: the flat state becomes a clock at B = 1 + A²; near it a swing
-/// grows at (B − 1 − A²) / 2. Euler's rule adds ω² dt / 2 with ω = A.
+/// The flat state begins to oscillate at B = 1 + A², and near this value oscillations grow at the
+/// rate (B − 1 − A²) / 2 (I. Prigogine, R. Lefever 1968). Euler's rule adds ω² dt / 2 with ω = A.
 TEST(Kinetics, BrusselatorHopf) {
     for (const double excess : {-0.1, 0.1}) {
         const double decay = 2 + excess, step = 0.002;
@@ -40,7 +41,7 @@ TEST(Kinetics, BrusselatorHopf) {
     }
 }
 
-/// E. E. Sel'kov 1968: the flat state swings where supply² lies between (1 − 2a ∓ √(1 − 8a)) / 2.
+/// The flat state oscillates if supply² lies between (1 − 2a ∓ √(1 − 8a)) / 2 (E. E. Sel'kov 1968).
 TEST(Kinetics, SelkovSwingsBetweenTwoSupplies) {
     const double leak = 0.06;
     const double root = std::sqrt(1 - 8 * leak);
@@ -58,8 +59,8 @@ TEST(Kinetics, SelkovSwingsBetweenTwoSupplies) {
     }
 }
 
-/// The peak of the prey's nullcline is at (1 − half) / 2: the flat state is steady right of it and
-/// swings left of it (M. L. Rosenzweig, Science 171, 1971).
+/// The maximum of the prey's nullcline is at (1 − half) / 2. The flat state is stable to the right
+/// of the maximum and oscillates to the left (M. L. Rosenzweig, Science 171, 1971).
 TEST(Kinetics, RosenzweigMacarthurParadoxOfEnrichment) {
     for (const double shift : {-0.05, 0.05}) {
         const double half = 0.4, prey = (1 - half) / 2 + shift, gain = 2;
@@ -74,8 +75,9 @@ TEST(Kinetics, RosenzweigMacarthurParadoxOfEnrichment) {
     }
 }
 
-/// E. Frey, Physica A 389, 2010: about a = b = c = μ / (3 μ + σ) a swing grows at
-/// μ σ / (2 (3 μ + σ)) and turns at √3/2 · μ σ / (3 μ + σ); Euler's rule adds ω² dt / 2.
+/// About a = b = c = μ / (3 μ + σ) oscillations grow at the rate μ σ / (2 (3 μ + σ)) with the
+/// angular frequency √3/2 · μ σ / (3 μ + σ) (E. Frey, Physica A 389, 2010). Euler's method adds ω²
+/// dt / 2 to the rate.
 TEST(Kinetics, RockScissorsPaperSpiralsOutward) {
     Model model("rock_scissors_paper", two_cells,
                 "speed: 0.01; a: 0.253; b: 0.25; c: 0.247; growth: 1; defeat: 1");

@@ -1,4 +1,4 @@
-// A system of the library in a stage of a test's own, run step by step through the public library.
+// Runs a system of the library in a test's own stage, step by step, by the public library.
 #pragma once
 
 #include "include/cascade/cascade.h"
@@ -11,19 +11,20 @@ namespace cascade::models {
 
 class Model {
 public:
-    /// A whole script. Faults fail the test that made it.
+    /// Loads a whole script. Errors make the test fail.
     explicit Model(const std::string& script);
-    /// One stage of a library's system: `domain` and `stage` are the sentences of these blocks.
+    /// One stage of a system of the library. `domain` and `stage` are the statements of these
+    /// blocks.
     Model(const std::string& system, const std::string& domain, const std::string& stage);
 
-    /// Takes steps; a run that fails or ends too early fails the test.
+    /// Takes steps. If the run fails or ends too early, the test fails.
     void step(std::int64_t count);
     /// Takes all steps of all stages.
     void finish();
 
     bool ok() const { return pattern_.ok() && pattern_.error().empty(); }
     std::int64_t width() const { return pattern_.width(); }
-    /// Row by row.
+    /// The values of an expression in all cells, row by row.
     std::vector<double> values(const std::string& expression) const;
     double at(const std::string& expression, std::size_t cell) const;
     double mean(const std::string& expression) const;
@@ -36,8 +37,8 @@ private:
     mutable Pattern pattern_;
 };
 
-/// The place, in cells from the left, where a row of values falls below a level for the last time;
-/// linear between the cells' centres.
+/// The position, in cells from the left, at which a row of values falls below a level for the last
+/// time, interpolated linearly between the centres of cells.
 double front_position(const std::vector<double>& row, double level);
 
 /// The amplitude of the wave cos(2 π mode x + phase) in a periodic row.

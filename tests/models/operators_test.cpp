@@ -1,5 +1,5 @@
-// Systems of the library with operators of their own: a wavelength, a front, bands that climb, a
-// limit of the time step. What they conserve and how they grow is in tests/scripts/library.
+// Systems of the library with special operators: a wavelength, a front, moving bands, a limit of
+// the step. tests/scripts/library tests what they conserve and how they grow.
 #include "tests/models/model.h"
 
 #include "measure/features.h"
@@ -15,21 +15,22 @@ namespace {
 
 using std::numbers::pi;
 
-/// J. Swift, P. C. Hohenberg 1977: rolls of wavelength 2 π / kc grow at r.
+/// Rolls of the wavelength 2 π / kc grow at the rate r (J. Swift, P. C. Hohenberg 1977).
 TEST(Operators, SwiftHohenberg) {
     Model model("swift_hohenberg", "grid: 128, 128", "kc: 0.6; r: 0.2; speed: 0.015");
     model.step(6000);
     measure::Samples samples;
     samples.cells = {128, 128, 1};
     samples.values = model.values("u");
-    const double predicted = pi / std::asin(0.6 / 2);  // 2 π / kc, seen through the grid.
+    const double predicted = pi / std::asin(0.6 / 2);  // 2 π / kc on the grid.
     EXPECT_NEAR(measure::measure(samples).wavelength / predicted, 1, 0.03);
     EXPECT_NEAR(predicted / (2 * pi / 0.6), 1, 0.02);
     // The amplitude of a roll, √(4 r / 3).
     EXPECT_NEAR(model.largest("u"), std::sqrt(4 * 0.2 / 3), 0.15);
 }
 
-/// A step from 1 to 0 runs at the mean of both; its slope is (Δu)² / (8 ν) in the middle.
+/// A shock from 1 to 0 moves with the mean of both as its speed. Its slope in the middle is (Δu)² /
+/// (8 ν).
 TEST(Operators, BurgersShock) {
     Model model("burgers", "grid: 300; boundary: noflux",
                 "speed: 0.05; viscosity: 2; u: (1 - tanh((300 * x - 60) / 8)) / 2");
@@ -44,7 +45,7 @@ TEST(Operators, BurgersShock) {
     EXPECT_NEAR(slope / (1.0 / (8 * 2)), 1, 0.05);
 }
 
-/// Bands of bush climb: against the water, which runs towards x = 0.
+/// Bands of bushes move uphill, against the water, which flows towards x = 0.
 TEST(Operators, KlausmeierBandsClimb) {
     Model model("klausmeier", "grid: 128; spacing: 1", "");
     model.step(20000);
@@ -67,7 +68,7 @@ TEST(Operators, KlausmeierBandsClimb) {
     EXPECT_GT(ahead, behind);
 }
 
-/// A. Witkin, M. Kass 1991, their zebra: Euler's limit is 2 / (4 (a11 + a22) + b) = 0.0769.
+/// Euler's limit for the zebra of A. Witkin and M. Kass (1991) is 2 / (4 (a11 + a22) + b) = 0.0769.
 TEST(Operators, ZebraHasItsLimitOfTheTimeStep) {
     const std::string zebra =
         "domain {{ grid: 64, 64 }}\n"

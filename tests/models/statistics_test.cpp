@@ -1,7 +1,7 @@
 // The default run of every system of the library, on a smaller grid: mean, deviation and wavelength
-// of what it shows, against stored numbers. Their tolerances come from several seeds, so that a
-// pattern of another kind fails and another instance of the same pattern does not.
-// CASCADE_UPDATE=1 in the environment measures again what is missing or does not hold.
+// of the shown number are compared with stored numbers. Tolerances are from several seeds, so that
+// another kind of pattern fails, but not the same pattern with other random numbers. With
+// CASCADE_UPDATE=1 in the environment, missing or wrong numbers are measured again.
 #include "tests/oracle/test_run.h"
 
 #include "core/file.h"
@@ -74,7 +74,7 @@ std::map<std::string, Row> stored_rows() {
     return rows;
 }
 
-/// The middle of several seeds; the tolerance is three times their scatter, and 3 % at least.
+/// The median over several seeds. The tolerance is three times their scatter, but at least 3 %.
 Row measured_row(const LibraryText& text) {
     constexpr int seeds = 5;
     std::array<Statistics, seeds> all;
@@ -107,7 +107,7 @@ bool holds(const Row& row, const Statistics& now) {
     return true;
 }
 
-/// Measures what is not in the table and what is not as the table has it.
+/// Measures rows that are missing in the table or no longer right.
 void rewrite_table() {
     const auto stored = stored_rows();
     std::string text =

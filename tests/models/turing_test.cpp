@@ -1,4 +1,4 @@
-// Turing's patterns appear where linear theory says, and at its wavelength.
+// Turing's patterns appear at the threshold and with the wavelength of linear theory.
 #include "tests/models/dispersion.h"
 #include "tests/models/model.h"
 
@@ -17,14 +17,14 @@ namespace {
 
 constexpr std::size_t turing_side = 192;
 
-/// A system of the library with its values, written once more as mathematics.
+/// A system of the library and its values, written in C++.
 struct Case {
     std::string system;
     ReactionDiffusion mathematics;
     State guess;  ///< Near the flat state.
     std::vector<std::string> species;
     double speed;
-    double tolerance = 0.03;  ///< Of the wavelength; more where many waves grow alike.
+    double tolerance = 0.03;  ///< Of the wavelength; larger if many waves grow at similar rates.
 };
 
 std::vector<Case> cases() {
@@ -132,7 +132,8 @@ std::vector<Case> cases() {
     };
 }
 
-/// The fastest wave, in cells, that `cascade analyze` finds for the library's own values.
+/// The length in cells of the wave that grows fastest, by `cascade analyze` with the library's
+/// values.
 double analysed_wavelength(const std::string& system) {
     const Script script =
         load_script("test", fmt::format("stage only: {} {{ iterations: 1 }}", system), ".");
@@ -144,8 +145,8 @@ double analysed_wavelength(const std::string& system) {
 
 class TuringTest : public testing::TestWithParam<Case> {};
 
-/// From weak noise, while the pattern is small: the wave that has grown most is the one that grows
-/// fastest. The Laplacian of the grid sees k² as (2 sin(k/2))².
+/// While a pattern from weak noise is small, its strongest wave is the one that grows fastest. On
+/// the grid k² becomes (2 sin(k/2))².
 TEST_P(TuringTest, WavelengthIsThatOfTheDispersionRelation) {
     const Case& each = GetParam();
     const State flat = flat_state(each.mathematics, each.guess);
@@ -185,7 +186,7 @@ TEST(Turing, BrusselatorThreshold) {
     constexpr int cells = 64, mode = 6;
     constexpr double feed = 2, diff_u = 4;
     const double step = 2 * std::sin(std::numbers::pi * mode / cells);
-    // kc² = A / √(Du Dv) is made to be this wave's.
+    // Chosen so that kc² = A / √(Du Dv) is that of this wave.
     const double diff_v = feed * feed / (diff_u * step * step * step * step);
     const double ratio = 1 + feed * std::sqrt(diff_u / diff_v);
     const double threshold = ratio * ratio;

@@ -1,4 +1,4 @@
-// Systems of the library that keep something for ever, with solvers that keep it.
+// Systems of the library that conserve a quantity, with solvers that also conserve it.
 #include "tests/models/dispersion.h"
 #include "tests/models/model.h"
 
@@ -11,7 +11,8 @@
 namespace cascade::models {
 namespace {
 
-/// Symplectic steps keep an energy that differs from the true one by a bounded part of the step.
+/// Symplectic steps conserve an energy whose difference from the true energy is bounded in
+/// proportion to the step.
 TEST(Waves, WaveKeepsItsEnergy) {
     Model model("wave", "grid: 64; boundary: periodic",
                 "speed: 0.2; height: cos(8 * pi * x) + 0.3 * cos(20 * pi * x); velocity: 0");
@@ -40,7 +41,7 @@ TEST(Waves, SchroedingerKeepsItsParticle) {
     EXPECT_NEAR(model.mean("re^2 + im^2") / start, 1, 0.01);
 }
 
-/// D. J. Korteweg, G. de Vries 1895: u = c/2 sech²(√c/2 (x − c t)) keeps its shape and speed c.
+/// u = c/2 sech²(√c/2 (x − c t)) keeps its shape and speed c (D. J. Korteweg, G. de Vries 1895).
 TEST(Waves, KdvSoliton) {
     Model model("kdv", "grid: 256; spacing: 0.25",
                 "speed: 0.008; length: 64; c2: 0.0001; c1: 0.6; u: [c1] / 2 / "
@@ -60,7 +61,7 @@ TEST(Waves, KdvSoliton) {
     EXPECT_NEAR(model.largest("u"), 0.3, 0.006);
 }
 
-/// The frequency of a wave on the grid, ω = 2 sin(k/2): after a whole period it is back.
+/// After a whole period a wave has its initial form; its frequency on the grid is ω = 2 sin(k/2).
 TEST(Waves, WaveComesBack) {
     const double omega = 2 * std::sin(std::numbers::pi * 4 / 64);
     const double time_step = 2 * std::numbers::pi / omega / 1000;
@@ -71,7 +72,7 @@ TEST(Waves, WaveComesBack) {
     EXPECT_NEAR(model.largest("abs(velocity)"), 0, 3e-3);
 }
 
-/// V. Volterra 1926: gain prey − death ln prey + bite predator − birth ln predator.
+/// gain prey − death ln prey + bite predator − birth ln predator is conserved (V. Volterra 1926).
 TEST(Waves, LotkaVolterraKeepsVolterrasQuantity) {
     Model model("lotka_volterra", "grid: 2", "solver: rk4; speed: 0.02; prey: 2; predator: 0.7");
     const auto quantity = [&] { return model.mean("prey - log(prey) + predator - log(predator)"); };
@@ -86,7 +87,8 @@ TEST(Waves, LotkaVolterraKeepsVolterrasQuantity) {
     EXPECT_GT(most - least, 1) << "it goes round";
 }
 
-/// Long waves of a pond run at √(gravity · depth); the central differences see k as sin k.
+/// Long waves in a pond have the speed √(gravity · depth). With central differences k becomes sin
+/// k.
 TEST(Waves, ShallowWaterSwings) {
     const double omega = std::sqrt(2.0) * std::sin(2 * std::numbers::pi * 4 / 64);
     const double time_step = 2 * std::numbers::pi / omega / 1000;
@@ -101,7 +103,7 @@ TEST(Waves, ShallowWaterSwings) {
     EXPECT_NEAR(model.largest("abs(east)") / before, 0, 0.02);
 }
 
-/// No water leaves the pond, however its waves cross.
+/// The amount of water in the pond is conserved.
 TEST(Waves, ShallowWaterStaysInThePond) {
     Model model("shallow_water", "grid: 96, 96; boundary: noflux",
                 "east.left: fixed(0); east.right: fixed(0)\n"
@@ -113,7 +115,7 @@ TEST(Waves, ShallowWaterStaysInThePond) {
 }
 
 /// With p = u' the linear system of a wave of wave number k is u' = p, inertia · p' = (J − k² D) u
-/// − p: its eigenvalues say whether the waves of the hyperbolic Brusselator grow, and how fast.
+/// − p: its eigenvalues give the growth rates of waves in the hyperbolic Brusselator.
 TEST(Waves, HyperbolicBrusselatorGrowsAsTheorySays) {
     constexpr int cells = 64, mode = 3;
     const double step = 2 * std::sin(std::numbers::pi * mode / cells);
@@ -133,7 +135,7 @@ TEST(Waves, HyperbolicBrusselatorGrowsAsTheorySays) {
         Model model("hyperbolic_brusselator", "grid: 64",
                     "speed: 0.002; u: 2 + 0.01 * cos(6 * pi * x); v: 1; inertia: " +
                         std::to_string(inertia));
-        // The wave swings: its largest swing in a stretch of some periods is taken.
+        // The wave oscillates, so its largest amplitude during some periods is taken.
         const auto swing = [&] {
             double most = 0;
             for (int k = 0; k < 100; ++k) {

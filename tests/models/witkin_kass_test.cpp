@@ -1,5 +1,6 @@
-// Witkin and Kass's patterns in numbers: how much reacts, how wide, which way. The expected values
-// come from an independent reference program in double precision (three seeds, 192 × 192).
+// Witkin and Kass's patterns in numbers: the reacting area, the wavelength and the direction. The
+// expected values are from an independent reference program in double precision (three seeds, 192 ×
+// 192).
 #include "tests/models/model.h"
 
 #include "core/file.h"
@@ -30,7 +31,7 @@ measure::Features features_of(const Model& model, const std::string& expression)
     return measure::measure(samples);
 }
 
-/// 2 π s √d across the stripes, wider where they are oblique to the grid.
+/// The wavelength is 2 π s √d across the stripes, and larger for stripes oblique to the grid.
 TEST(WitkinKass, Zebra) {
     Model model(button("zebra"));
     model.finish();
@@ -45,7 +46,7 @@ TEST(WitkinKass, Zebra) {
     EXPECT_NEAR(model.largest("plus[1] - minus[1]"), 0.12, 0.03);
 }
 
-/// "Difference of abs's" knows no difference between on and off.
+/// "Difference of abs's" treats on and off alike.
 TEST(WitkinKass, MazeIsBalanced) {
     Model model(button("maze"));
     model.finish();
@@ -65,7 +66,7 @@ TEST(WitkinKass, WeaveGoesBothWays) {
     EXPECT_NEAR(across.angle, 90, 15);
 }
 
-/// One patch at each seed, about two fifths of all cells react.
+/// There is one patch at each seed, and about two fifths of all cells react.
 TEST(WitkinKass, GiraffeHasAPatchForEachSeed) {
     Model model(button("giraffe"));
     model.finish();

@@ -53,7 +53,7 @@ protected:
         return grid;
     }
 
-    /// An array of a .vti file by its number.
+    /// The array of a .vti file with this index.
     template <typename Number>
     std::vector<Number> vti_array(const std::string& file, std::size_t number, std::size_t count) {
         const std::string data = read_file(path(file), 1 << 24).value_or("");
@@ -65,7 +65,8 @@ protected:
         return values;
     }
 
-    /// Are all values those of the array, at its places? Values outside count as NaN.
+    /// Does the grid have the values of the array at the same positions? Values outside count as
+    /// NaN.
     template <typename Grid>
     void expect_same(const std::string& name, const std::string& species, std::size_t number) {
         using Number = typename Grid::ValueType;

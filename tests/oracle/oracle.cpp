@@ -29,7 +29,7 @@ public:
         for (const std::size_t other : of_[cell]) total += values[other];
         return total;
     }
-    /// The 4 of the listings.
+    /// The number of neighbours, 4 in the listings.
     double count() const { return static_cast<double>(of_[0].size()); }
 
 private:

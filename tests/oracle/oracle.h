@@ -17,7 +17,7 @@ namespace cascade::oracle {
 struct Surface {
     std::size_t width = 1;
     std::size_t height = 1;
-    bool periodic = true;  ///< Else a cell at the side sees itself beyond it.
+    bool periodic = true;  ///< If false, the value beyond a side is that of the cell at the side.
 
     std::size_t cells() const { return width * height; }
 };

@@ -1,5 +1,6 @@
-// The program against the oracle: a hundred steps of every system from the program's own starting
-// values, on planes and lines, with both kinds of sides, with varying parameters and frozen cells.
+// Compares the program with the oracle: a hundred steps of every system from the program's own
+// starting values, on planes and lines, with both kinds of sides, with varying parameters and
+// frozen cells.
 #include "tests/oracle/oracle.h"
 #include "tests/oracle/test_run.h"
 
@@ -13,7 +14,7 @@ namespace {
 
 using Solver = void (*)(const oracle::Surface&, oracle::State&, int);
 
-/// How the oracle knows a system.
+/// A system of the oracle.
 struct KnownSystem {
     const char* name;
     Solver solve;
@@ -41,23 +42,25 @@ oracle::State state_of(const TestRun& run, std::uint32_t stage) {
     return state;
 }
 
-/// The largest difference over the range of the expected values. A field that is nearly flat still
-/// has rounding errors of its own size: a tenth of its largest magnitude counts as its range then.
+/// The largest difference divided by the range of the expected values. The rounding errors of a
+/// nearly flat field are in proportion to its values, so the range counts as at least a tenth of
+/// the largest magnitude.
 double relative_difference(const std::vector<double>& actual, const std::vector<double>& expected) {
     double largest = 0, magnitude = 0;
     for (std::size_t cell = 0; cell < expected.size(); ++cell) {
         const double difference = std::abs(actual[cell] - expected[cell]);
-        if (!(difference <= largest)) largest = difference;  // NaN comes through.
+        if (!(difference <= largest)) largest = difference;  // NaN is returned.
         magnitude = std::max(magnitude, std::abs(expected[cell]));
     }
     const auto [low, high] = std::minmax_element(expected.begin(), expected.end());
     return largest / std::max(*high - *low, 0.1 * magnitude);
 }
 
-/// The oracle computes in binary64: in the other format the program rounds a hundred times.
+/// The oracle computes in binary64. In single precision the program rounds in each of the hundred
+/// steps.
 double tolerance(Precision precision) { return precision == Precision::single ? 1e-4 : 1e-12; }
 
-/// Starts and finishes a stage, and compares it with what the oracle makes of the same start.
+/// Starts and finishes a stage, and compares it with the oracle's result for the same start.
 void compare_stage(TestRun& run, std::uint32_t stage, const std::string& what) {
     run.start(stage);
     ASSERT_TRUE(run.ok()) << what;

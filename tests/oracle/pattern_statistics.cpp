@@ -13,7 +13,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Discrete Fourier transform of `count` numbers that lie `stride` apart, by its definition.
+/// The discrete Fourier transform of `count` numbers with the distance `stride`, by its definition.
 void transform(std::vector<Complex>& values, std::size_t first, std::size_t count,
                std::size_t stride, const std::vector<Complex>& roots) {
     std::vector<Complex> result(count);
@@ -36,7 +36,7 @@ std::vector<Complex> roots_of_unity(std::size_t count) {
     return roots;
 }
 
-/// |DFT|², the mean taken away.
+/// |DFT|² after subtraction of the mean.
 std::vector<double> power_spectrum(const Pattern2d& pattern) {
     const double mean = moments(pattern).mean;
     std::vector<Complex> values;

@@ -1,6 +1,6 @@
-// Numbers that say what a pattern looks like: spots, area, wavelength, direction.
+// Numbers that describe a pattern: spots, area, wavelength, direction.
 //
-// All take a picture of width × height values, row by row, on a periodic plane.
+// All functions take a picture of width × height values, row by row, on a periodic plane.
 #pragma once
 
 #include <cstddef>
@@ -20,8 +20,8 @@ using Predicate = std::function<bool(double)>;
 /// Part of the cells whose value fulfils the predicate, 0 … 1.
 double area_fraction(const Pattern2d& pattern, const Predicate& predicate);
 
-/// How many connected regions (by sides, across the periodic borders) of at least `smallest` cells
-/// the cells that fulfil the predicate make.
+/// The number of connected regions of at least `smallest` cells that fulfil the predicate. Cells
+/// are connected by sides, also across the periodic borders.
 std::size_t count_regions(const Pattern2d& pattern, const Predicate& predicate,
                           std::size_t smallest = 1);
 
@@ -35,13 +35,13 @@ Moments moments(const Pattern2d& pattern);
 /// Correlation coefficient of two pictures of one size, −1 … 1.
 double correlation(const Pattern2d& a, const Pattern2d& b);
 
-/// What the power spectrum |DFT|² of the picture without its mean says.
+/// Properties of the power spectrum |DFT|² of the picture without its mean.
 struct SpectrumSummary {
     /// Wavelength in cells at the centre of the spectrum's peak: with power summed over rings of
     /// the integer wave number round(|k|), k in waves per `width`, the power-weighted mean of |k|
-    /// over the rings from half to one and a half times that of the strongest.
+    /// over the rings from 0.5 to 1.5 times the strongest ring.
     double peak_wavelength = 0;
-    /// The same over all rings.
+    /// The wavelength of the power-weighted mean of |k| over all rings.
     double mean_wavelength = 0;
     /// |Σ P e^(2iθ)| / Σ P with θ the direction of k: 0 for no preferred direction, 1 for straight
     /// parallel stripes.

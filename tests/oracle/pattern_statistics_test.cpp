@@ -1,4 +1,4 @@
-// The statistics of patterns that can be counted by hand.
+// The statistics of patterns that can be computed by hand.
 #include "tests/oracle/pattern_statistics.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The table of looks.
+// The table of expected looks.
 #include "tests/oracle/recipe_looks.h"
 
 #include <array>
@@ -20,12 +20,12 @@ constexpr auto looks = std::to_array<Look>({
     {"figure_3_4_irregular_spots", 1, "b", regions_below, 4, {7, 11}, {32, 41}},
     {"figure_3_4_irregular_spots", 1, "b", deviation, 0, {1.84, 2.0}, {1.84, 2.0}},
 
-    // Cheetah: big spots stay, small ones come between them.
+    // Cheetah: large spots remain, and small spots grow between them.
     {"cheetah", 1, "b", regions_below, 4, {14, 17}, {55, 63}},
     {"cheetah", 2, "b", regions_below, 4, {38, 50}, {155, 180}},
     {"cheetah", 2, "b", area_below, 4, {.36, .41}, {.37, .40}},
 
-    // Leopard: the frozen discs are grey, and some three small spots go with each.
+    // Leopard: the frozen discs are grey, and each has about three small spots.
     {"leopard", 1, "b", regions_below, 4, {8, 10}, {34, 40}},
     {"leopard", 2, "b", regions_below, 4, {22, 31}, {94, 113}},
     {"leopard", 2, "b", peak_wavelength, 0, {9.2, 10}, {9.2, 10}},
@@ -46,7 +46,7 @@ constexpr auto looks = std::to_array<Look>({
     {"thin_lines", 2, "b", area_below, 4, {.24, .28}, {.24, .28}},
     {"thin_lines", 2, "b", regions_below, 4, {1, 6}, {4, 22}},
 
-    // Reticulation: a spot with a seam around it is a plate, and a web keeps most plates apart.
+    // Reticulation: a spot with a seam around it is a plate, and a web separates most plates.
     {"figure_3_4_reticulation", 2, "a", area_below, .75, {.45, .49}, {.45, .49}},
     {"figure_3_4_reticulation", 2, "a", regions_below, .75, {2, 8}, {16, 23}},
     {"figure_3_4_reticulation", 2, "a", regions_above, .75, {6, 10}, {21, 28}},

@@ -1,8 +1,8 @@
-// What the recipes of Turk's thesis look like, in numbers.
+// Numbers for the looks of the recipes of Turk's thesis.
 //
-// Found for every printed recipe with an independent program (double precision, other random
-// numbers, 64 × 64 and 128 × 128, several seeds); where only a description is known the range is
-// wide. Areas, wavelengths and deviations are the same on both grids, counts are not.
+// They were found for every printed recipe with an independent program (double precision, other
+// random numbers, 64 × 64 and 128 × 128, several seeds). If only a description is known, the range
+// is wide. Areas, wavelengths and deviations are the same on both grids, but counts are not.
 #pragma once
 
 #include <span>
@@ -12,11 +12,11 @@ namespace cascade {
 
 enum class Measure {
     regions_below,  ///< Connected regions with values below `level`.
-    regions_above,  ///< The same above.
-    bumps,          ///< The same above the middle of the smallest and the largest value.
-    area_below,     ///< Part of the cells.
+    regions_above,  ///< Connected regions with values above `level`.
+    bumps,          ///< Connected regions above the middle of the smallest and largest value.
+    area_below,     ///< Part of the cells with values below `level`.
     area_above,
-    peak_wavelength,  ///< In cells; `level` means nothing for these.
+    peak_wavelength,  ///< In cells; from here on `level` is not used.
     mean_wavelength,
     anisotropy,
     deviation,
@@ -26,7 +26,7 @@ struct Range {
     double low = 0, high = 0;
 };
 
-/// One expectation: of a species at the end of a stage.
+/// One expectation about a species at the end of a stage.
 struct Look {
     std::string_view script;
     int stage = 1;

@@ -1,4 +1,4 @@
-// Every recipe looks as it should, on both grids, for three seeds.
+// Every recipe has the expected look on both grids, with three seeds.
 #include "tests/oracle/pattern_statistics.h"
 #include "tests/oracle/recipe_looks.h"
 #include "tests/oracle/test_run.h"
@@ -70,7 +70,7 @@ protected:
 };
 
 TEST_P(RecipeTest, LooksAsItShould) {
-    // Without native code all of them would take minutes.
+    // Without native code the larger grid would take minutes.
     for (const int side : is_available("jit") ? std::vector{64, 128} : std::vector{64}) {
         for (std::uint32_t seed = 1; seed <= (is_available("jit") ? 3U : 1U); ++seed) {
             SCOPED_TRACE(std::to_string(side) + " cells, seed " + std::to_string(seed));
@@ -79,7 +79,7 @@ TEST_P(RecipeTest, LooksAsItShould) {
     }
 }
 
-/// Solvers that promise the pattern of Euler's method.
+/// Solvers that should give the pattern of Euler's method.
 TEST_P(RecipeTest, LooksTheSameWithOtherSolvers) {
     if (!is_available("jit")) GTEST_SKIP() << "without native code this would take minutes";
     for (const char* solver : {"symplectic", "rk2", "rk4", "rk23", "rk45", "rkl1", "rkl2"}) {
@@ -91,7 +91,7 @@ TEST_P(RecipeTest, LooksTheSameWithOtherSolvers) {
 INSTANTIATE_TEST_SUITE_P(Scripts, RecipeTest, testing::ValuesIn(scripts()),
                          [](const auto& parameter) { return parameter.param; });
 
-/// With noise as small as this the front from the right border arrives before stripes of its own.
+/// With such small noise the front from the right border arrives before the noise makes stripes.
 TEST(Squirrel, OnALargerGridNeedsLessNoise) {
     Overrides overrides;
     overrides.grid = {128, 128};
@@ -124,7 +124,7 @@ TEST(Figure32, HasSevenValleys) {
     }
 }
 
-/// Where the leopard's large spots are frozen, a and b are 4 and stay so.
+/// In the frozen large spots of the leopard, a and b remain 4.
 TEST(Leopard, HasGreyDiscs) {
     TestRun run("leopard", source_file("examples/leopard.cascade"), {}, on_fastest_backend());
     run.finish_all();
@@ -136,7 +136,7 @@ TEST(Leopard, HasGreyDiscs) {
     }
 }
 
-/// The spots of the first stage are frozen as they are.
+/// The spots of the first stage are frozen and do not change.
 TEST(Cheetah, KeepsItsLargeSpots) {
     TestRun run("cheetah", source_file("examples/cheetah.cascade"), {}, on_fastest_backend());
     run.finish_all();

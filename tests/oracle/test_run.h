@@ -1,4 +1,4 @@
-// Runs scripts for the tests of this folder, and hands out the fields.
+// Runs scripts for the tests of this folder and returns their fields.
 #pragma once
 
 #include "run/simulation/simulation.h"
@@ -10,14 +10,14 @@
 
 namespace cascade {
 
-/// A script and its simulation. Faults of either, warnings of the run and remarks on its stages
-/// fail the test that made it.
+/// A script and its simulation. Errors of either, warnings of the run and remarks on its stages
+/// make the test fail.
 class TestRun {
 public:
     TestRun(std::string name, std::string text, Overrides overrides, SimulationOptions options);
     TestRun(const TestRun&) = delete;  // The simulation points to the script.
 
-    /// False after a fault; the test has been told.
+    /// False after an error, which has already made the test fail.
     bool ok() const { return simulation_ != nullptr && !failed_; }
     /// Computes the starting values of a stage. Stages are started in their order.
     void start(std::uint32_t stage);
@@ -37,8 +37,8 @@ public:
 private:
     void check(const Result<void>& result);
 
-    bool is_cut_short_;     ///< It takes fewer steps than its script says.
-    bool is_other_solver_;  ///< It takes another solver than its script says.
+    bool is_cut_short_;     ///< The run takes fewer steps than its script says.
+    bool is_other_solver_;  ///< The run has another solver than its script says.
     Script script_;
     std::unique_ptr<Simulation> simulation_;
     bool failed_ = false;
@@ -47,7 +47,7 @@ private:
 /// The text of a file of the source tree; fails the test if it cannot be read.
 std::string source_file(const std::string& path);
 
-/// Native code where it is compiled in, else the interpreter, on one thread.
+/// Native code if Cascade was built with it, otherwise the interpreter, on one thread.
 SimulationOptions on_fastest_backend();
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Who cannot see the page, or has only a keyboard, can use it: axe-core finds nothing serious in what it shows, by
+// The page can be used without sight and with a keyboard alone: axe-core finds no serious problem in its states, with
 // `cascade view` and in an exported page, on a wide and on a narrow screen. Arguments: the browser, the program, and
 // the text of axe-core. spots.cascade, and spots.html if there is an engine, are in the current folder.
 import { existsSync, readFileSync } from "node:fs";
@@ -10,14 +10,13 @@ const [command, program, axe_file] = process.argv.slice(2);
 const axe = readFileSync(axe_file, "utf8");
 const { cascade, address } = await serve(program, "spots.cascade");
 const browser = await Browser.start(command, join(process.cwd(), "profile_of_access"));
-const end = ending(browser, 3, cascade);
+const end = ending(browser, cascade);
 
 const set = (code) => browser.evaluate(`{ ${code} }`);
 
 const controls = ["button", "checkbox", "combobox", "DisclosureTriangle", "link", "searchbox", "slider", "spinbutton", "textbox"];
 
-/// What axe-core finds wrong with the page as it is now, and controls without a name in the browser's own tree of what
-/// it tells to screen readers.
+/// Checks the present page with axe-core, and that every control has a name in the browser's accessibility tree.
 async function expect_access(state) {
     const { nodes } = await browser.call("Accessibility.getFullAXTree");
     const nameless = nodes.filter(({ ignored, role, name }) => !ignored && controls.includes(role.value) && !name?.value);
@@ -28,7 +27,7 @@ async function expect_access(state) {
     if (found.length > 0) throw new Error(`${state}: ${found.join("\n")}`);
 }
 
-/// What the page shows beside the pattern, by what opens and what closes it.
+/// States of the page, each with functions that open and close it.
 const states = {
     "first steps": [`document.getElementById("help_button").click(); document.querySelector("#help form button").click()`, `document.getElementById("tour_end").click()`],
     "keys": [`document.getElementById("help_button").click()`, `document.getElementById("help").close()`],
@@ -40,11 +39,10 @@ const states = {
 };
 
 async function look_at(engine, url, names) {
-    await browser.call("Page.navigate", { url: "about:blank" });
-    await browser.call("Page.navigate", { url });
+    await browser.open(url);
     await browser.until(`document.querySelectorAll("#stages li").length === 2 && document.querySelector("#controls [type=range]") !== null`);
     await set(`localStorage.was_taught = "yes"; document.getElementById("tour").hidden = true`);
-    // A wrong text has its messages.
+    // A text with errors shows its messages.
     await browser.evaluate(`document.getElementById("editor").shadowRoot.querySelector(".cm-content").focus()`);
     await browser.call("Input.insertText", { text: "}" });
     await browser.until(`document.getElementById("messages").textContent !== ""`);

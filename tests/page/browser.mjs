@@ -1,18 +1,25 @@
-// `cascade view`, and a headless Chromium that is driven through a pipe by the DevTools protocol, without packages.
+// Starts `cascade view` and a headless Chromium, which it controls through a pipe by the DevTools protocol, without
+// packages.
 import { spawn } from "node:child_process";
-import { writeFileSync } from "node:fs";
+import { existsSync, readFileSync, writeFileSync } from "node:fs";
 
 export function expect(condition, message) { if (!condition) throw new Error(message); }
 
-/// Gives a test so many minutes. The function that it returns ends the browser, the programs and this process: after an
-/// error with status 1, the error, a screenshot failed.png, and what the page said.
-export function ending(browser, minutes, ...programs) {
-    const limit = setTimeout(() => end(new Error(`it took more than ${minutes} minutes`)), 60000 * minutes);
+/// An expression in the page: whether the pattern grows.
+export const is_growing = `document.getElementById("run").ariaLabel === "Pause"`;
+
+const most_minutes = 12;
+
+/// Limits a test to twelve minutes, many times as long as it takes on an idle machine. The returned function ends the
+/// browser, the programs and this process. After an error the status is 1, and the error, a screenshot failed.png and
+/// messages of the page are left.
+export function ending(browser, ...programs) {
+    const limit = setTimeout(() => end(new Error(`it took more than ${most_minutes} minutes`)), 60000 * most_minutes);
     async function end(error) {
         clearTimeout(limit);
         if (error) {
             console.log(error.stack);
-            // A page that hangs draws no picture.
+            // A page that hangs gives no screenshot.
             const later = new Promise((resolve) => setTimeout(() => resolve(""), 10000));
             writeFileSync("failed.png", await Promise.race([browser.screenshot().catch(() => ""), later]));
             if (browser.heard.length > 0) console.log(browser.heard.join("\n"));
@@ -39,14 +46,14 @@ export async function serve(program, ...words) {
 export class Browser {
     static async start(command, profile) {
         const browser = new Browser();
-        // No sandbox: it does not work for root, who runs tests in containers.
+        // No sandbox, because it does not work for root, as whom tests run in containers.
         browser.shell = spawn(command, [
             "--headless", "--no-sandbox", "--disable-dev-shm-usage", "--use-angle=swiftshader",
             "--enable-unsafe-swiftshader", "--no-first-run", "--disable-background-networking",
             "--remote-debugging-pipe", `--user-data-dir=${profile}`, "about:blank",
         ], { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"], detached: true });
         browser.waiting = new Map();
-        browser.heard = [];  // What the page wrote to its console, and what its policy forbade.
+        browser.heard = [];  // Messages in the page's console, and violations of its policy.
         let rest = "";
         browser.shell.stdio[4].setEncoding("utf8").on("data", (part) => {
             const parts = (rest + part).split("\0");
@@ -58,9 +65,22 @@ export class Browser {
         const { sessionId } = await browser.call("Target.attachToTarget", { targetId, flatten: true });
         browser.session = sessionId;
         for (const domain of ["Page", "Runtime", "Log"]) await browser.call(`${domain}.enable`);
-        // As fast as it can, unless its user moves the slider.
-        await browser.call("Page.addScriptToEvaluateOnNewDocument", { source: `try { localStorage.speed ??= "5"; } catch { /* Not on the page. */ }` });
+        // Full speed and a pixel for each cell, unless a test says otherwise.
+        await browser.begin_with({ speed: "5", squares: "1" });
         return browser;
+    }
+
+    /// What pages find in localStorage while nothing else was stored. Nothing is stored here, because Chromium may give a
+    /// document that has just begun an empty localStorage, as if it were still the previous document.
+    async begin_with(values) {
+        const { identifier } = this.beginning ?? {};
+        if (identifier) await this.call("Page.removeScriptToEvaluateOnNewDocument", { identifier });
+        const all = { ...this.beginning?.values, ...values };
+        const made = await this.call("Page.addScriptToEvaluateOnNewDocument", { source: `{
+            const { getItem } = Storage.prototype, values = ${JSON.stringify(all)};
+            Storage.prototype.getItem = function (key) { return getItem.call(this, key) ?? values[key] ?? null; };
+        }` });
+        this.beginning = { values: all, identifier: made.identifier };
     }
 
     take({ id, result, error, method, params }) {
@@ -87,20 +107,64 @@ export class Browser {
         return result.value;
     }
 
-    /// Waits until an expression in the page is true.
-    async until(expression, seconds = 120) {
+    /// Waits until a function gives something, and returns it. `otherwise` makes the message if this never happens.
+    async eventually(happens, otherwise, seconds = 240) {
         for (const end = Date.now() + 1000 * seconds; Date.now() < end;) {
-            // A page that is just being left cannot answer; the next one can.
-            const is_true = await this.evaluate(expression).catch((error) => { if (!/navigated|context was destroyed/.test(error.message)) throw error; });
-            if (is_true) return;
+            const found = await happens();
+            if (found) return found;
             await new Promise((resolve) => setTimeout(resolve, 50));
         }
-        throw new Error(`never true: ${expression}`);
+        throw new Error(await otherwise());
+    }
+
+    /// Waits until an expression in the page is true. It is looked at every 50 ms, so it should stay true.
+    async until(expression, seconds = 240) {
+        // During navigation the old page cannot answer, but the next page can.
+        const look = () => this.evaluate(expression).catch((error) => { if (!/navigated|context was destroyed/.test(error.message)) throw error; });
+        await this.eventually(look, () => `never true: ${expression}`, seconds);
+    }
+
+    /// Opens a page anew, even if only the fragment of the address differs, and waits until it is loaded.
+    async open(url) {
+        await this.call("Page.navigate", { url: "about:blank" });
+        await this.until(`location.href === "about:blank"`);
+        await this.call("Page.navigate", { url });
+        await this.until(`location.protocol !== "about:" && document.readyState === "complete"`);
+    }
+
+    async reload() {
+        await this.evaluate("window.is_old = true");
+        await this.call("Page.reload");
+        await this.until(`!window.is_old && document.readyState === "complete"`);
+    }
+
+    /// Clicks what a selector finds, as soon as it is there and can be clicked.
+    async click(selector) {
+        await this.until(`((found) => found && !found.disabled && (found.click(), true))(document.querySelector(${JSON.stringify(selector)}))`);
+    }
+
+    /// Goes to the start of the first stage and stays there.
+    async restart() {
+        await this.evaluate(`${is_growing} && document.getElementById("run").click()`);
+        await this.until(`!(${is_growing})`);
+        // A new start has a new script number, while "step 0" may be what was shown before.
+        const script = `document.getElementById("view").dataset.script`;
+        const before = await this.evaluate(`document.getElementById("restart").click(), ${script}`);
+        await this.until(`${script} !== "${before}" && document.getElementById("place").textContent.startsWith("step 0")`);
+    }
+
+    /// Lets the pattern grow, unless it does so already.
+    async grow() { await this.evaluate(`${is_growing} || document.getElementById("run").click()`); }
+
+    /// The bytes of a file that is being saved.
+    async file(path) {
+        await this.eventually(() => existsSync(path), async () => `${path} is not saved: ${await this.evaluate(`document.getElementById("notice").textContent`)}`);
+        return readFileSync(path);
     }
 
     async screenshot() { return Buffer.from((await this.call("Page.captureScreenshot")).data, "base64"); }
 
-    /// Replaces the script as if it were typed, and waits until the page has read it, unless it is not to.
+    /// Replaces the script as if it were typed, and waits until the page has read it, if `waits`.
     async type_script(text, waits = true) {
         await this.evaluate(`document.getElementById("editor").shadowRoot.querySelector(".cm-content").focus()`);
         await this.call("Input.dispatchKeyEvent", { type: "keyDown", key: "a", modifiers: 2, windowsVirtualKeyCode: 65, commands: ["selectAll"] });
@@ -117,6 +181,8 @@ export class Browser {
         }
     }
 
+    async hover(x, y) { await this.call("Input.dispatchMouseEvent", { type: "mouseMoved", x, y }); }
+
     async drag(x, y, to_x, to_y, button = "left") {
         const send = (type, x, y) => this.call("Input.dispatchMouseEvent", { type, x, y, button, buttons: button === "left" ? 1 : 4, clickCount: 1 });
         await send("mousePressed", x, y);
@@ -127,7 +193,7 @@ export class Browser {
 
     async wheel(x, y, deltaY) { await this.call("Input.dispatchMouseEvent", { type: "mouseWheel", x, y, deltaX: 0, deltaY }); }
 
-    /// Fingers that move together from the first places to the last ones, each a list of [x, y].
+    /// Moves fingers together through `moments`, each a list of positions [x, y].
     async touch(...moments) {
         for (const [k, places] of moments.entries()) {
             const touchPoints = places.map(([x, y], id) => ({ x, y, id }));

@@ -1,5 +1,5 @@
-// Opens spots.html and ball.html, pages that carry their engine, from the disk and without a network. Argument: the
-// browser; what `cascade run` draws of the script is spots.png. Screenshots are left in the current folder.
+// Opens the exported pages spots.html and ball.html from the disk, without a network. Argument: the browser. spots.png
+// is the picture of the script by `cascade run`. Screenshots are left in the current folder.
 import { deflateSync } from "node:zlib";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -7,16 +7,13 @@ import { pathToFileURL } from "node:url";
 import { Browser, ending, expect } from "./browser.mjs";
 
 const browser = await Browser.start(process.argv[2], join(process.cwd(), "profile"));
-const end = ending(browser, 3);
+const end = ending(browser);
 
-const click = (id) => browser.evaluate(`document.getElementById("${id}").click()`);
+const click = (id) => browser.click(`#${id}`);
 const is_over = `document.querySelectorAll("#stages li").length > 0 && document.getElementById("step").disabled`;
 const text = () => browser.evaluate(`document.getElementById("editor").shadowRoot.querySelector(".cm-content").innerText`);
 
-async function open(page, fragment = "") {
-    await browser.call("Page.navigate", { url: "about:blank" });
-    await browser.call("Page.navigate", { url: pathToFileURL(page).href + fragment });
-}
+const open = (page, fragment = "") => browser.open(pathToFileURL(page).href + fragment);
 
 const pixels = (image) => browser.evaluate(`(async () => {
     const image = await (${image}), copy = document.createElement("canvas");
@@ -25,10 +22,10 @@ const pixels = (image) => browser.evaluate(`(async () => {
     return [image.width, image.height, ...copy.getContext("2d").getImageData(0, 0, image.width, image.height).data];
 })()`);
 
-/// Light gets better for some pictures, and the program's is finer.
+/// The light is refined during some pictures, and the program's light is more exact.
 async function expect_likeness(name, most = 2.5) {
     let mean;
-    for (let k = 0; k < 40; ++k) {
+    const is_like = async () => {
         mean = await browser.evaluate(`(async () => {
             const wanted = new Image();
             await new Promise((resolve) => { wanted.onload = resolve; wanted.src = "data:image/png;base64,${readFileSync(`${name}.png`).toString("base64")}"; });
@@ -43,13 +40,12 @@ async function expect_likeness(name, most = 2.5) {
             const a = levels(document.getElementById("solid")), b = levels(wanted);
             return a.reduce((sum, level, k) => sum + Math.abs(level - b[k]), 0) / a.length;
         })()`);
-        if (mean < most) return;
-        await new Promise((resolve) => setTimeout(resolve, 200));
-    }
-    throw new Error(`what is seen differs from ${name}.png by ${mean} levels`);
+        return mean < most;
+    };
+    await browser.eventually(is_like, () => `what is seen differs from ${name}.png by ${mean} levels`);
 }
 
-/// As large as pictures of `cascade run`.
+/// Makes the canvas as large as pictures of `cascade run`.
 async function enlarge() {
     await browser.evaluate(`Object.assign(document.getElementById("solid").style, { position: "fixed", left: 0, top: 0, width: "800px", height: "600px" })`);
     await browser.until(`document.getElementById("solid").width === 800`);
@@ -76,21 +72,20 @@ try {
     expect(await browser.evaluate(`document.getElementById("load").hidden`), "a page without the program offers to load models");
     writeFileSync("exported.png", await browser.screenshot());
 
-    // A slider, a stroke and undo, as with the program.
+    // A slider, a stroke and undo, as in `cascade view`.
     await browser.evaluate(`{ const slider = document.querySelector("#controls [type=range]"); slider.value = 0.06; slider.dispatchEvent(new Event("input")); slider.dispatchEvent(new Event("change")); }`);
     await browser.until(`!document.getElementById("undo").disabled`);
     await click("undo");
     await browser.until(`document.getElementById("undo").disabled`);
-    await click("restart");
-    await browser.until(`document.getElementById("place").textContent.startsWith("step 0")`);
-    await click("run");
+    await browser.restart();
+    await browser.grow();
     await browser.until(is_over);
     await expect_the_picture("after undo");
     await click("systems");
     await browser.until(`document.querySelectorAll("#systems_list li, dialog[open] li").length > 50`);
     await browser.press("Escape");
 
-    // A script in the link, right and wrong.
+    // A script in the link, with and without errors.
     const packed = (script) => `#script=${deflateSync(script).toString("base64").replaceAll("+", "-").replaceAll("/", "_")}`;
     const linked = `domain { grid: 32, 32 }\nsystem linked { u: x; u' = lap(u) / 8 }\nstage only: linked { iterations: 20 }\n`;
     await open("spots.html", packed(linked));
@@ -99,12 +94,10 @@ try {
     const wrong = [[packed("system wrong {"), "line 1: "], ["#script=AAAA", "the link was cut off"], [packed("#".repeat(2 ** 21)), "1 MiB"]];
     for (const [link, why] of wrong) {
         await open("spots.html", link);
-        await browser.until(`document.querySelectorAll("#stages li").length === 2`);
+        await browser.until(`document.querySelectorAll("#stages li").length === 2 && document.getElementById("notice").textContent.includes("${why}")`);
         expect((await text()).includes("system spots"), "the page's own script is not there after a wrong link");
-        const notice = await browser.evaluate(`document.getElementById("notice").textContent`);
-        expect(notice.includes(why), `of a wrong link it says: ${notice}`);
     }
-    // Another link in the same tab: the page is loaded again, which ends what it is asked.
+    // Another link in the same tab: the page is loaded again, so this request gets no answer.
     await browser.evaluate(`location.hash = "${packed(linked)}"; new Promise(() => {})`).catch(() => {});
     await browser.until(`document.querySelectorAll("#stages li").length === 1 && ${is_over}`);
 
@@ -112,7 +105,7 @@ try {
     await browser.until(is_over);
     await expect_the_picture("a slice of a volume", "volume");
 
-    // A model comes with its cells, and looks as the program draws it.
+    // The page contains the cells of a model and draws it as the program does.
     await browser.call("Emulation.setDeviceMetricsOverride", { width: 1280, height: 800, deviceScaleFactor: 1, mobile: false });
     await open("ball.html");
     await browser.until(is_over);
@@ -122,7 +115,7 @@ try {
     writeFileSync("exported_ball.png", await browser.screenshot());
     const shown = await browser.evaluate(`!document.getElementById("solid").hidden && document.getElementById("place").textContent`);
     expect(shown.startsWith?.("step 80"), `the model shows ${shown}`);
-    // A linked script has these cells if it is about the same model, and no others.
+    // A linked script can use these cells if it has the same model, and no other cells.
     const shown_at_end = async (script) => {
         await open("ball.html", packed(script));
         await browser.until(`${is_over} || document.getElementById("notice")?.textContent`);
@@ -134,7 +127,7 @@ try {
     const other = await shown_at_end(of_model('"other.off"'));
     expect(other.includes("other.off"), `with another model it shows ${other}`);
 
-    // Cells that crawl. Of the light between them the page knows less than pictures.
+    // Cells that crawl. The light between them is less exact than in pictures.
     await open("crawling.html");
     await browser.until(is_over);
     await enlarge();

@@ -1,6 +1,6 @@
-// Links that carry a script: of an exported page on a server, of one on a disk, and of `cascade view`. What the code to
-// scan says is read by jsQR. Arguments: the browser, the program and the folder of jsQR; spots.cascade, and spots.html if
-// there is an engine, are in the current folder. Screenshots are left there.
+// Links with a script: of an exported page on a server, of an exported page on a disk, and of `cascade view`. jsQR
+// reads the QR code. Arguments: the browser, the program and the folder of jsQR; spots.cascade, and spots.html if there
+// is an engine, are in the current folder. Screenshots are left there.
 import { existsSync, readFileSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
@@ -11,21 +11,17 @@ const [command, program, modules] = process.argv.slice(2);
 const read_code = createRequire(import.meta.url)(join(process.cwd(), modules, "jsqr"));
 const { cascade, address } = await serve(program, "spots.cascade");
 const browser = await Browser.start(command, join(process.cwd(), "profile_of_link"));
-const end = ending(browser, 3, cascade);
+const end = ending(browser, cascade);
 
 const own = readFileSync("spots.cascade", "utf8");
 const text = `document.getElementById("editor").shadowRoot.querySelector(".cm-content").innerText`;
 const has_stages = (count) => browser.until(`document.querySelectorAll("#stages li").length === ${count} && document.getElementById("place").textContent !== ""`);
 const another = `# µ: 🙂 "x" + y / z?\ndomain { grid: 16, 16 }\nsystem still { u: x; u' = 0 }\nstage only: still { iterations: 3 }\n`;
 
-async function open(url) {
-    await browser.call("Page.navigate", { url: "about:blank" });
-    await browser.call("Page.navigate", { url });
-}
-
+const open = (url) => browser.open(url);
 const type_script = (text) => browser.type_script(text);
 
-/// The link, what is said beside it, and the code if there is one.
+/// The link, the text beside it, and the content of the QR code if there is one.
 async function link(screenshot) {
     await browser.evaluate(`document.querySelector("#link_dialog p").textContent = "", document.getElementById("link").click()`);
     await browser.until(`document.getElementById("link_dialog").open && document.querySelector("#link_dialog p").textContent !== ""`);
@@ -68,7 +64,7 @@ async function of_the_program() {
 }
 
 async function of_an_exported_page() {
-    // On a disk others have no use for a code.
+    // For a page on a disk there is no QR code, since other devices cannot open it.
     await open(pathToFileURL("spots.html").href);
     await has_stages(2);
     const on_disk = await link();

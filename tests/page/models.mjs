@@ -1,5 +1,5 @@
-// Models from files on the page of `cascade view spots.cascade`: by the button, by a drop, hostile ones. Arguments: the
-// browser, the program and the folder of the sources. Screenshots are left in the current folder.
+// Models from files on the page of `cascade view spots.cascade`: by the button, by dropping a file, and from hostile
+// files. Arguments: the browser, the program and the folder of the sources. Screenshots are left in the current folder.
 import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { Browser, ending, expect, serve } from "./browser.mjs";
@@ -10,7 +10,7 @@ rmSync(process.env.TMPDIR, { recursive: true, force: true });
 mkdirSync(process.env.TMPDIR);
 const { cascade, address } = await serve(program, "spots.cascade");
 const browser = await Browser.start(command, join(process.cwd(), "profile_of_models"));
-const end = ending(browser, 3, cascade);
+const end = ending(browser, cascade);
 
 const text = `document.getElementById("editor").shadowRoot.querySelector(".cm-content").innerText`;
 const notice = `document.getElementById("notice").textContent`;
@@ -26,23 +26,23 @@ const drop = (name, bytes) => browser.evaluate(`{
     for (const kind of ["dragover", "drop"]) document.getElementById("frame").dispatchEvent(new DragEvent(kind, { dataTransfer, bubbles: true, cancelable: true }));
 }`);
 
-/// A ball of triangles with so many comments that it comes in several parts.
+/// A ball of triangles with so many comments that it is sent in several parts.
 const octahedron = readFileSync(join(source, "tests/support/octahedron.off"), "utf8");
 const large = octahedron + "# a comment\n".repeat(100000);
 
 async function load() {
     await browser.call("Emulation.setDeviceMetricsOverride", { width: 1000, height: 640, deviceScaleFactor: 1, mobile: false });
-    await browser.call("Page.navigate", { url: address });
+    await browser.open(address);
     await browser.until(`document.querySelectorAll("#stages li").length === 2 && document.getElementById("step").disabled`);
 
-    // The page says what is being done until the model is there, and nothing after it.
+    // Until the model is ready the page says what is being done, and afterwards nothing.
     await browser.evaluate(`{
         window.said = [];
         new MutationObserver(() => window.said.push(document.getElementById("preparing").textContent)).observe(document.getElementById("preparing"), { childList: true });
     }`);
 
-    // By the button: the file becomes the domain in place of the grid, and the pattern grows on it.
-    // Another file of its name lies beside the script.
+    // By the button: the file becomes the domain in place of the grid, and the pattern grows on it. Another file with
+    // this name is beside the script.
     writeFileSync("ball.off", "not this one");
     mkdirSync("elsewhere", { recursive: true });
     writeFileSync("elsewhere/ball.off", large);
@@ -52,10 +52,11 @@ async function load() {
     await browser.until(`${text}.includes('domain { mesh: "ball-2.off"; cells: 20000 }') && ${is_read} && ${is_solid}`);
     await browser.until(`document.getElementById("step").disabled`);
     const said = await browser.evaluate(`window.said`);
-    expect(said.some((words) => words.startsWith("spreading 20,000 cells …")) && said.at(-1) === "", `while it prepares the model, it says ${said}`);
+    const parts = said.map((words) => Number(words.match(/^spreading 20,000 cells … (\d+) %$/)?.[1])).filter((part) => part >= 0);
+    expect(parts.length > 2 && parts.every((part, k) => k === 0 || part >= parts[k - 1]) && said.at(-1) === "", `while it prepares the model, it says ${said}`);
     writeFileSync("loaded.png", await browser.screenshot());
 
-    // By a drop, in the place of what is the domain, whatever the comments say.
+    // By dropping a file: it replaces the domain, whatever comments contain.
     const of = (domain) => readFileSync("spots.cascade", "utf8").replace("domain { grid: 48, 32 }", domain);
     const cases = [
         ['domain { surface: sphere; cells: 500 }', 'domain { mesh: "b_c.off"; cells: 500 }'],
@@ -72,15 +73,14 @@ async function load() {
     }
     await browser.until(is_solid);
 
-    // Also where no step follows that would show it.
-    await browser.evaluate(`document.getElementById("restart").click()`);
-    await browser.until(`document.getElementById("place").textContent.startsWith("step 0")`);
+    // The model is also shown if no step follows.
+    await browser.restart();
     await type_script(of("domain { surface: box(1, 1, 2); cells: 300 }"));
     await browser.until(`${is_solid} && document.getElementById("preparing").textContent === ""`);
 
-    // What cannot be read is told in one message, and the text stays.
+    // A file that cannot be read gets one message, and the text does not change.
     const kept = await browser.evaluate(text);
-    for (const [name, bytes, why] of [["notes.pdf", "%PDF", "is no model"], ["broken.ply", "ply\nformat ascii 1.0\nelement vertex 4000000000\n", "'broken.ply'"],
+    for (const [name, bytes, why] of [["notes.pdf", "%PDF", "is not a model"], ["broken.ply", "ply\nformat ascii 1.0\nelement vertex 4000000000\n", "'broken.ply'"],
         ["cut.glb", Buffer.from("676c5446020000000c000000", "hex"), "'cut.glb'"], ["empty.stl", "", "'empty.stl'"]]) {
         await drop(name, bytes);
         await browser.until(`${notice}.includes(${JSON.stringify(why)})`);
@@ -92,11 +92,10 @@ async function load() {
     const complaints = browser.heard.filter((words) => !words.startsWith("Applying inline style"));
     expect(complaints.length === 0, `the page complains: ${complaints.join("\n")}`);
 
-    // The folder goes with the program.
+    // The folder is removed when the program ends.
     cascade.kill("SIGINT");
     await browser.until(`${notice} === "Cascade has ended."`);
-    for (let k = 0; k < 100 && existsSync(join(process.env.TMPDIR, folders[0])); ++k) await new Promise((resolve) => setTimeout(resolve, 50));
-    expect(!existsSync(join(process.env.TMPDIR, folders[0])), "the models of an ended session are left");
+    await browser.eventually(() => !existsSync(join(process.env.TMPDIR, folders[0])), () => "the models of an ended session are left");
 }
 
 await load().then(() => end(), end);

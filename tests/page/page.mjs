@@ -1,35 +1,28 @@
-// Steers the page of `cascade view spots.cascade` as a user does. Arguments: the browser and the program;
-// spots.cascade, colours.cascade and what `cascade run` draws of them are in the current folder. Screenshots are left there.
+// Uses the page of `cascade view spots.cascade` as a user does. Arguments: the browser and the program. spots.cascade,
+// colours.cascade and their pictures by `cascade run` are in the current folder. Screenshots are left there.
 import { spawnSync } from "node:child_process";
-import { existsSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { Browser, ending, expect, serve } from "./browser.mjs";
+import { Browser, ending, expect, is_growing, serve } from "./browser.mjs";
 
 const [command, program] = process.argv.slice(2);
 const { cascade, address } = await serve(program, "spots.cascade");
 const start_page = await serve(program);
 const browser = await Browser.start(command, join(process.cwd(), "profile"));
-const end = ending(browser, 4, cascade, start_page.cascade);
+const end = ending(browser, cascade, start_page.cascade);
 
-const click = (id) => browser.evaluate(`document.getElementById("${id}").click()`);
+const click = (id) => browser.click(`#${id}`);
 const steps = () => browser.evaluate(`Number(document.getElementById("place").textContent.match(/[\\d,]+/)[0].replaceAll(",", ""))`);
 const until_steps = (count) => browser.until(`document.getElementById("place").textContent.startsWith("step ${count}")`);
 const is_over = `document.querySelectorAll("#stages progress").length === 2 && document.getElementById("step").disabled`;
 
-const is_growing = `document.getElementById("run").ariaLabel === "Pause"`;
-
-/// From the start of the first stage.
+/// Grows the pattern from the start of the first stage.
 async function grow() {
-    // What has ended goes on with a new text.
-    await browser.evaluate("new Promise((resolve) => setTimeout(resolve, 200))");
-    await browser.evaluate(`${is_growing} && document.getElementById("run").click()`);
-    await browser.until(`!(${is_growing})`);
-    await click("restart");
-    await until_steps("0");
-    await click("run");
+    await browser.restart();
+    await browser.grow();
 }
 
-/// The pixels of a canvas or an image, by an expression in the page.
+/// The pixels of a canvas or an image, which is given by an expression in the page.
 const pixels = (image) => browser.evaluate(`(async () => {
     const image = await (${image}), copy = document.createElement("canvas");
     [copy.width, copy.height] = [image.width, image.height];
@@ -50,10 +43,10 @@ async function expect_the_picture(how, name = "spots") {
     expect(worst <= 1, `${how}: a level differs by ${worst} from the picture of cascade run`);
 }
 
-/// The same, as soon as what was asked for is drawn.
+/// Waits until the canvas has the pixels of a picture.
 async function until_picture(how, name) {
-    for (let k = 0; k < 100; ++k) if (await expect_the_picture(how, name).then(() => true, () => false)) return;
-    await expect_the_picture(how, name);
+    let why;
+    await browser.eventually(() => expect_the_picture(how, name).then(() => true, (error) => void (why = error.message)), () => why);
 }
 
 async function choose_leopard() {
@@ -64,20 +57,18 @@ const type_script = (text) => browser.type_script(text);
 
 async function steer() {
     await browser.call("Emulation.setDeviceMetricsOverride", { width: 1280, height: 800, deviceScaleFactor: 1, mobile: false });
-    await browser.call("Page.navigate", { url: address });
+    await browser.open(address);
     await browser.until(`document.querySelectorAll("#stages li").length === 2`);
     expect(!(await browser.evaluate("location.href")).includes("token"), "the token stays in the address");
     await browser.until(`document.getElementById("name").textContent === "spots.cascade"`);
     await choose_leopard();
 
-    // Growth starts with the page, but not again with its reload.
+    // Growth starts when the page opens, but not after a reload.
     await browser.until(is_over);
     await expect_the_picture("the canvas that nobody has touched");
-    await click("restart");
+    await browser.restart();
+    await browser.reload();
     await until_steps("0");
-    await browser.evaluate("window.is_old = true");
-    await browser.call("Page.reload");
-    await browser.until(`!window.is_old && document.getElementById("place")?.textContent.startsWith("step 0")`);
     await browser.until(`document.getElementById("paused").textContent === "paused"`);
     expect(await steps() === 0, "the reload has started what was not growing");
     await choose_leopard();
@@ -103,14 +94,14 @@ async function steer() {
     await until_picture("the canvas of an expression", "expression");
     await show("");
 
-    // A slider: one undo takes it back.
+    // A slider: one undo restores its value.
     await browser.evaluate(`document.querySelector("#controls [type=range]").focus()`);
     for (let k = 0; k < 3; ++k) await browser.press("ArrowRight");
     const value = `document.querySelector("#controls .slider input").value`;
     await browser.until(`${value} === "0.04" && !document.getElementById("undo").disabled`);
     const sliders = await browser.evaluate(`document.querySelectorAll("#controls [type=range]").length`);
     expect(sliders === 2, `${sliders} sliders instead of 2`);
-    // What had ended goes on: as many steps again as all stages have.
+    // A pattern that had ended continues for as many steps as all stages have.
     await until_steps("2,500");
     await browser.until(is_over);
 
@@ -126,7 +117,7 @@ async function steer() {
         if (before !== "0.04") await click("undo");
     }
 
-    // A typed value, be it a formula or beyond the slider; what is no number is refused, and each is undone by itself.
+    // A typed value may be a formula or beyond the slider. Other text is refused. Each value is undone separately.
     const type_value = (typed) => browser.evaluate(`{
         const [field] = document.querySelectorAll("#controls .slider input"), send = (kind) => field.dispatchEvent(new Event(kind));
         field.value = "${typed}", send("input"), send("change");
@@ -144,13 +135,13 @@ async function steer() {
         await browser.until(`${value} === "${before}" && !document.querySelector("#controls .wrong")`);
     }
 
-    // A wrong text: its place and message; the run stays as it is.
+    // A text with an error: its position and message are shown, and the run does not change.
     const text = readFileSync("spots.cascade", "utf8"), reached_before = await steps();
     await type_script(text.replace("- u * v^2 +", "- u * w^2 +"));
     await browser.until(`document.getElementById("messages").textContent.includes("line 8:")`);
     expect(await steps() === reached_before, "a wrong text has changed the run");
 
-    // The button beside a message writes what its hint tells, wherever that mends it.
+    // The button beside a message applies the hint, if this removes the error.
     await type_script(`# µ²🙂\n${text.replace("u * v^2 -", "u (v) -")}`);
     await browser.until(`document.querySelectorAll("#messages p").length > 0`);
     await browser.evaluate("new Promise((resolve) => setTimeout(resolve, 300))");
@@ -167,7 +158,7 @@ async function steer() {
     await type_script(text.replace("iterations: 500", "iterations: 600"));
     await browser.until(`document.getElementById("messages").textContent === ""`);
 
-    // Fine steps are rounded neither in what is shown nor in what is sent.
+    // Fine steps of a slider are not rounded, neither on the page nor in requests.
     await type_script(text.replace("kill: 0.06", "kill: 0.060001 in 0 .. 1 step 0.000001").replace("iterations: 500", "iterations: 600"));
     const fine = `document.querySelectorAll("#controls .slider")[1]?.querySelector("input")?.value`;
     await browser.until(`${fine} === "0.060001"`);
@@ -181,7 +172,7 @@ async function steer() {
     await click("undo");
     await browser.until(`document.querySelectorAll("#controls [type=range]").length === 2`);
 
-    // Without sliders the pattern does not move into their place.
+    // Without sliders the pattern keeps its position.
     await type_script(text.replace("in 0.01 .. 0.08 step 0.001", "").replace("iterations: 500", "iterations: 600"));
     await browser.until(`document.querySelectorAll("#controls [type=range]").length === 0`);
     const wide = await browser.evaluate(`document.getElementById("pattern").getBoundingClientRect().width`);
@@ -189,12 +180,12 @@ async function steer() {
     await click("undo");
     await browser.until(`document.querySelectorAll("#controls [type=range]").length === 2`);
 
-    // A stroke is seen where the pointer was.
+    // A stroke appears where the pointer was.
     const box_of_pattern = () => browser.evaluate(
         `(({ x, y, width, height }) => [x, y, width, height])(document.getElementById("pattern").getBoundingClientRect())`);
     const [x, y, width, height] = await box_of_pattern();
     let before = await canvas();
-    /// Columns and rows of cells that look different than before.
+    /// Columns and rows of the cells that have changed.
     const changed_cells = async () => {
         const after = await canvas(), cells = [];
         for (let k = 2; k < after.length; k += 4) {
@@ -204,10 +195,9 @@ async function steer() {
         return cells;
     };
     const until_changed = async (wanted, how) => {
-        for (let k = 0; k < 100; ++k) if (wanted(await changed_cells())) return;
-        throw new Error(`${how}: the cells ${(await changed_cells()).slice(0, 9).join(" ")} have changed`);
+        await browser.eventually(async () => wanted(await changed_cells()), async () => `${how}: the cells ${(await changed_cells()).slice(0, 9).join(" ")} have changed`);
     };
-    // A fast pointer, which comes to three places only, leaves no gaps between its discs.
+    // A fast pointer with events at three positions only leaves no gaps between discs.
     await browser.evaluate(`document.getElementById("amount").value = "5"`);
     await browser.drag(x + 0.1 * width, y + 0.2 * height, x + 0.9 * width, y + 0.8 * height);
     const unpainted = async () => {
@@ -215,15 +205,14 @@ async function steer() {
         const cells = Array.from({ length: 38 }, (_, k) => (k + 5) + 48 * Math.floor(32 * (0.2 + 0.6 * (k + 0.5) / 38.4)));
         return cells.filter((cell) => colour(cell) !== "247,228,187");
     };
-    for (let k = 0; k < 100 && (await unpainted()).length > 0; ++k);
-    expect((await unpainted()).length === 0, `a fast stroke misses the cells ${await unpainted()}`);
+    await browser.eventually(async () => (await unpainted()).length === 0, async () => `a fast stroke misses the cells ${await unpainted()}`);
     await click("undo");
     await until_changed((cells) => cells.length === 0, "undo of a stroke");
     await browser.evaluate(`document.getElementById("amount").value = ""`);
     await browser.drag(x + 0.2 * width, y + 0.5 * height, x + 0.3 * width, y + 0.5 * height);
     await until_changed((cells) => cells.includes("10,16") || cells.includes("12,16"), "a stroke");
 
-    // The wheel keeps the place under the pointer, the middle button moves it, and a stroke hits a single cell.
+    // The wheel zooms about the pointer, the middle button moves the picture, and a stroke reaches a single cell.
     const there = [Math.round(x + 30.5 / 48 * width), Math.round(y + 20.5 / 32 * height)];
     await browser.wheel(...there, -10000);
     await browser.until(`document.getElementById("pattern").getBoundingClientRect().width > ${4 * width}`);
@@ -245,13 +234,13 @@ async function steer() {
     await browser.press("0");
     expect((await box_of_pattern())[2] === width, "the key does not fit the pattern again");
 
-    // A small box that Escape closes gives the focus back to what has opened it.
+    // After Escape closes a small box, the element that opened the box has the focus again.
     await browser.evaluate(`document.getElementById("look").open = true, document.getElementById("every").focus()`);
     await browser.press("Escape");
     expect(await browser.evaluate(`!document.getElementById("look").open && document.activeElement.matches("#look > summary")`), "Escape loses the focus");
     await browser.evaluate("document.activeElement.blur()");
 
-    // Two fingers zoom, and paint nothing.
+    // Two fingers zoom without painting.
     await until_changed((cells) => cells.length === 0, "undo");
     const middle = [x + width / 2, y + height / 2];
     const fingers = (apart) => [[middle[0] - apart, middle[1]], [middle[0] + apart, middle[1]]];
@@ -262,13 +251,13 @@ async function steer() {
     expect((await changed_cells()).length === 0, "two fingers paint");
     await click("fit");
 
-    // Going to a stage starts it anew, with the values that the one before left.
+    // Going to a stage starts it again, from the final values of the previous stage.
     await browser.evaluate(`document.querySelectorAll("#stages button")[1].click()`);
     await until_steps("0");
     await browser.evaluate(`document.querySelectorAll("#stages button")[0].click()`);
     await browser.until(`document.querySelectorAll("#stages progress")[1].value === 0`);
 
-    // Values that are not finite stop the run, which says so and goes on once the text is mended.
+    // Non-finite values stop the run with a message. It continues when the text is corrected.
     await type_script(text.replace("0.16 * lap(u)", "16 * lap(u)"));
     await grow();
     await browser.until(`document.getElementById("failure").textContent.includes("finite")`);
@@ -282,12 +271,12 @@ async function steer() {
     await type_script(text);
     await browser.until(`document.querySelectorAll("#stages li").length === 2`);
 
-    // The button pauses what grows. The next stage starts here, and the log says so.
+    // The button pauses the run. The next stage starts at this step, which the log contains.
     await type_script(text.replace("iterations: 1500", "iterations: 100000000"));
     await grow();
     await browser.until(`${is_growing} && !document.getElementById("place").textContent.startsWith("step 0")`);
     await click("run");
-    await browser.until(`document.getElementById("run").ariaLabel === "Run"`);
+    await browser.until(`!(${is_growing})`);
     const reached = await steps();
     await browser.press("Escape");
     await browser.press("n");
@@ -295,13 +284,12 @@ async function steer() {
     rmSync("spots.session", { force: true });
     await browser.call("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: process.cwd() });
     await click("log");
-    for (let k = 0; k < 200 && !existsSync("spots.session"); ++k) await browser.evaluate("new Promise((resolve) => setTimeout(resolve, 50))");
-    expect(readFileSync("spots.session", "utf8").includes(`at 1 ${reached}\nnext\n`), "the log does not name the next stage");
+    expect(String(await browser.file("spots.session")).includes(`at 1 ${reached}\nnext\n`), "the log does not name the next stage");
     const { status, stderr } = spawnSync(program, ["repl", "spots.session"], { input: "", encoding: "utf8" });
     expect(status === 0 && stderr === "", `the log cannot be played: ${stderr}`);
     await type_script(text);
 
-    // Time runs downwards over a grid of one row, as in the picture of `--space-time`.
+    // For a grid of one row, time runs downwards, as in the picture of `--space-time`.
     await type_script(readFileSync("line.cascade", "utf8"));
     await grow();
     await until_picture("the canvas of a row", "line");
@@ -309,7 +297,7 @@ async function steer() {
     await type_script(text);
     await browser.until(`document.querySelectorAll("#stages li").length === 2`);
 
-    // A volume: every slice that is asked for, and a ball that is painted into one of them.
+    // A volume: all slices, and a ball painted in one of them.
     await type_script(readFileSync("volume.cascade", "utf8"));
     await grow();
     await until_steps("10");
@@ -332,26 +320,24 @@ async function steer() {
     await browser.until(`${place} === "8"`);
     await until_picture("the slice before the next one", "y");
     writeFileSync("volume_page.png", await browser.screenshot());
-    await click("restart");
-    await until_steps("0");
+    await browser.restart();
     before = await canvas();
     const [slice_x, slice_y, slice_wide, slice_high] = await box_of_pattern();
     const in_slice = [slice_x + 15.5 / 20 * slice_wide, slice_y + 9.5 / 12 * slice_high];
     await browser.drag(...in_slice, ...in_slice);
     const level = (image, column, row) => image.slice(2 + 4 * (row * image[0] + column), 5 + 4 * (row * image[0] + column)).join();
-    const highest = "247,228,187";  // Of this palette.
+    const highest = "247,228,187";  // The last colour of the palette.
     await until_changed((cells) => cells.includes("15,9"), "a ball");
     expect(!(await changed_cells()).includes("12,9"), "the ball is too large");
     await choose_slice("z", 9);
-    for (let k = 0; k < 100 && level(await canvas(), 15, 8) !== highest; ++k);
-    expect(level(await canvas(), 15, 8) === highest, `the middle of the ball is ${level(await canvas(), 15, 8)}`);
+    await browser.eventually(async () => level(await canvas(), 15, 8) === highest, async () => `the middle of the ball is ${level(await canvas(), 15, 8)}`);
     await click("undo");
     await type_script(text);
     await browser.until(`document.querySelectorAll("#stages li").length === 2`);
     expect(await browser.evaluate(`document.getElementById("slice").hidden`), "a plane has slices");
 
-    // The same without WebGL, after a reload, for which the tab keeps the token.
-    await browser.call("Page.navigate", { url: address.replace("/#", "/?2d#") });
+    // The page works without WebGL, too. It is reloaded with the token that the tab has stored.
+    await browser.open(address.replace("/#", "/?2d#"));
     await browser.until(`document.querySelectorAll("#stages li").length === 2`);
     await choose_leopard();
     await browser.until(`document.querySelector("#controls [type=range]") !== null`);
@@ -368,16 +354,17 @@ async function steer() {
         expect(overflow <= 0, `${name}: the page is ${overflow} pixels too wide`);
         writeFileSync(`${name}.png`, await browser.screenshot());
     }
-    // Without a script a start page offers the library and the examples with pictures. A click shows one, which grows.
+    // Without a script, the start page shows pictures of the library and the examples. A click opens one, and its
+    // pattern grows.
     await browser.call("Emulation.setDeviceMetricsOverride", { width: 1280, height: 800, deviceScaleFactor: 1, mobile: false });
-    await browser.call("Page.navigate", { url: start_page.address });
+    await browser.open(start_page.address);
     await browser.until(`document.getElementById("library")?.open && document.querySelectorAll("#library li").length > 50`);
     writeFileSync("start.png", await browser.screenshot());
     await browser.evaluate(`Promise.all([...document.querySelectorAll("#library img")].map((image) => image.decode()))`);
     const bare = await browser.evaluate(`[...document.querySelectorAll("#library li")].filter((item) => !item.querySelector("img")?.naturalWidth).map((item) => item.textContent)`);
     expect(bare.length === 0, `without a picture: ${bare}`);
     await browser.call("Emulation.setDeviceMetricsOverride", { width: 390, height: 800, deviceScaleFactor: 1, mobile: true });
-    expect(await browser.evaluate(`(({ scrollWidth, clientWidth }) => scrollWidth <= clientWidth)(document.querySelector("#library ul"))`), "the library is too wide for a phone");
+    expect(await browser.evaluate(`(({ scrollWidth, clientWidth }) => scrollWidth <= clientWidth)(document.querySelector("#library > div"))`), "the library is too wide for a phone");
     await browser.call("Emulation.setDeviceMetricsOverride", { width: 1280, height: 800, deviceScaleFactor: 1, mobile: false });
     expect(await steps() === 0, "a pattern grows under the start page");
     const offered = () => browser.evaluate(`[...document.querySelectorAll("#library li:not([hidden]) code")].map((name) => name.textContent)`);
@@ -386,19 +373,19 @@ async function steer() {
         const found = await offered();
         expect(found.length < 9 && found.includes(wanted), `a search for ${words} finds ${found}`);
     }
-    await browser.evaluate(`[...document.querySelectorAll("#library li button")].find((choice) => choice.querySelector("code").textContent === "gray_scott").click()`);
+    await browser.evaluate(`[...document.querySelectorAll("#library .card")].find((choice) => choice.querySelector("code").textContent === "gray_scott").click()`);
     await browser.until(`!document.getElementById("place").textContent.startsWith("step 0")`);
     const typed = `document.getElementById("editor").shadowRoot.querySelector(".cm-content").textContent`;
     expect((await browser.evaluate(typed)).includes("Gray-Scott"), "the script of the chosen system is missing");
     await click("systems");
-    await browser.evaluate(`[...document.querySelectorAll("#library li button")].find((choice) => choice.querySelector("b").textContent === "Fish").click()`);
+    await browser.evaluate(`[...document.querySelectorAll("#library .card")].find((choice) => choice.querySelector("b").textContent === "Fish").click()`);
     await browser.until(`${typed}.includes("fn fins(a, b)") && !document.getElementById("place").textContent.startsWith("step 0")`);
-    // What was chosen before leaves no values to a system with species of the same names.
+    // A newly chosen system takes no values from species of the same names in the old script.
     await click("systems");
-    await browser.evaluate(`[...document.querySelectorAll("#library li button")].find((choice) => choice.querySelector("code").textContent === "kdv").click()`);
+    await browser.evaluate(`[...document.querySelectorAll("#library .card")].find((choice) => choice.querySelector("code").textContent === "kdv").click()`);
     await browser.until(`document.getElementById("stages").textContent === "overtaking" && !document.getElementById("place").textContent.startsWith("step 0")`);
 
-    // As slowly as is asked for, on past the end, and again as fast as can be.
+    // The chosen slow speed, continuing after the end, and full speed again.
     const set_speed = (power) => browser.evaluate(`{ const input = document.getElementById("speed"); input.value = "${power}"; input.dispatchEvent(new Event("input")); }`);
     await set_speed(-1);
     await type_script("domain { grid: 64, 64 }\nstage slow: turing_spots { iterations: 4000 }\n");
@@ -406,7 +393,7 @@ async function steer() {
     await browser.until(`document.getElementById("place").textContent.endsWith("· 100 steps/s")`);
     expect(await steps() < 2000, "it does not grow slowly");
     await click("run");
-    await browser.until(`!(${is_growing})`);
+    await browser.until(`document.getElementById("paused").textContent === "paused"`);
     const paused_at = await steps();
     await browser.evaluate("new Promise((resolve) => setTimeout(resolve, 200))");
     expect(await steps() === paused_at, "it grows while it is paused");
@@ -421,11 +408,11 @@ async function steer() {
     await browser.until(`document.querySelectorAll("#stages button")[1]?.hasAttribute("aria-current")`);
     await until_steps("300");
 
-    // Chromium's own editing wants to style what replaces a selection, which the policy forbids.
+    // Chromium's editing tries to style text that replaces a selection, which the policy forbids.
     const complaints = browser.heard.filter((words) => !words.startsWith("Applying inline style"));
     expect(complaints.length === 0, `the page complains: ${complaints.join("\n")}`);
 
-    // The page says when Cascade has ended.
+    // The page says that Cascade has ended.
     start_page.cascade.kill("SIGINT");
     await browser.until(`document.getElementById("notice").textContent !== ""`);
 }

@@ -21,11 +21,10 @@ for (const page of pages) {
 expect(pages.length > 25 && links > 500, `there are only ${pages.length} pages with ${links} links`);
 
 const browser = await Browser.start(process.argv[2], join(process.cwd(), "profile"));
-const end = ending(browser, 3);
+const end = ending(browser);
 
-const open = (page) => browser.call("Page.navigate", { url: pathToFileURL(join("site", page)).href });
-const follow_link = (selector) => browser.evaluate(`document.querySelector(${JSON.stringify(selector)}).click()`);
-/// The page with the engine has the script that the link brings, and it grows.
+const open = (page) => browser.open(pathToFileURL(join("site", page)).href);
+/// The exported page has the script of the link, and its pattern grows.
 async function expect_growth(words) {
     await browser.until(`document.querySelectorAll("#stages li").length > 0`);
     await browser.until(`[...document.querySelectorAll("#stages progress")].some(({ value }) => value > 0)`);
@@ -41,7 +40,6 @@ try {
         await browser.call("Emulation.setEmulatedMedia", { features: [{ name: "prefers-color-scheme", value: scheme }] });
         for (const page of ["index.html", "tutorial.html", "systems.html", "spec/stages.html"]) {
             await open(page);
-            await browser.until(`document.readyState === "complete"`);
             const overflow = await browser.evaluate("document.documentElement.scrollWidth - innerWidth");
             expect(overflow <= 0, `${name}: ${page} is ${overflow} pixels too wide`);
             writeFileSync(`${name}_${page.replace("/", "_").replace("html", "png")}`, await browser.screenshot());
@@ -49,21 +47,25 @@ try {
     }
     await open("index.html");
     await browser.until(`document.querySelectorAll(".gallery img").length > 30`);
-    await follow_link(`.gallery a[href*="script="]`);
+    await browser.click(`.gallery a[href*="script="]`);
     await expect_growth("Appendix C");
     for (const [page, words] of [["tutorial.html", "the spots stay as they are"], ["spec/stages.html", "stage"]]) {
         await open(page);
-        await browser.until(`document.querySelector(".live .grow") !== null`);
-        await follow_link(".live .grow");
+        await browser.click(".live .grow");
         await expect_growth(words);
     }
     writeFileSync("grown.png", await browser.screenshot());
     await open("index.html");
     await browser.until(`document.querySelectorAll("#cells + .gallery img").length > 4`);
-    await follow_link(`#cells + .gallery a[href*="script="]`);
+    await browser.click(`#cells + .gallery a[href*="script="]`);
     await expect_growth("Fleischer et al. 1995");
     await browser.until(`/^step [\\d,]+ · [\\d,]+ cells/.test(document.getElementById("place").textContent)`);
     writeFileSync("cells.png", await browser.screenshot());
+    await open("index.html");
+    await browser.click(`#lessons + p a[href*="script="]`);
+    await expect_growth("# exercise: Spots that stay");
+    await browser.until(`!document.getElementById("lesson").hidden && document.querySelector("#lesson small").textContent.startsWith("now ")`);
+    writeFileSync("exercise.png", await browser.screenshot());
     await open("animal.html");
     await expect_growth("surface: leopard");
     await end();

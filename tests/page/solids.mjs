@@ -1,6 +1,6 @@
-// Models and surfaces on the page of `cascade view spots.cascade`: what is seen of them is what `cascade run` draws, and
-// pointers and keys turn, enlarge and paint them. Arguments: the browser and the program. Screenshots are left in the
-// current folder.
+// Models and surfaces on the page of `cascade view spots.cascade`: the page draws them like `cascade run`, and pointers
+// and keys turn, enlarge and paint them. Arguments: the browser and the program. Screenshots are left in the current
+// folder.
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { Browser, ending, expect, serve } from "./browser.mjs";
@@ -8,12 +8,12 @@ import { Browser, ending, expect, serve } from "./browser.mjs";
 const [command, program] = process.argv.slice(2);
 const { cascade, address } = await serve(program, "model.cascade");
 const browser = await Browser.start(command, join(process.cwd(), "profile_of_solids"));
-const end = ending(browser, 4, cascade);
+const end = ending(browser, cascade);
 
-const click = (id) => browser.evaluate(`document.getElementById("${id}").click()`);
+const click = (id) => browser.click(`#${id}`);
 const canvas = `document.getElementById("solid")`;
 
-/// The mean difference of levels between a canvas and a picture, and the part of them that differ by more than 24.
+/// The mean difference of levels between a canvas and a picture, and the part of levels that differ by more than 24.
 const difference = (id, name) => browser.evaluate(`(async () => {
     const wanted = new Image();
     await new Promise((resolve) => { wanted.onload = resolve; wanted.src = "data:image/png;base64,${readFileSync(`${name}.png`).toString("base64")}"; });
@@ -31,15 +31,11 @@ const difference = (id, name) => browser.evaluate(`(async () => {
     return [sum / a.length, far / a.length];
 })()`);
 
-/// Light gets better for some pictures.
+/// Waits until the canvas is like a picture, since the light is refined during several drawings.
 async function until_like(name, how, most = [2.5, 0.01]) {
     let last;
-    for (let k = 0; k < 60; ++k) {
-        last = await difference("solid", name);
-        if (last[0] <= most[0] && last[1] <= most[1]) return;
-        await new Promise((resolve) => setTimeout(resolve, 200));
-    }
-    throw new Error(`${how}: levels differ by ${last[0]}, and ${last[1]} of them by more than 24`);
+    const is_like = async () => (last = await difference("solid", name)).every((part, k) => part <= most[k]);
+    await browser.eventually(is_like, () => `${how}: levels differ by ${last[0]}, and ${last[1]} of them by more than 24`);
 }
 
 async function type_script(name) {
@@ -56,10 +52,9 @@ async function cell_at(x, y) {
     return { cell, value: Number(value) };
 }
 
-/// As large as pictures of `cascade run`, and without the colours of the page.
+/// Opens the page with a canvas as large as pictures of `cascade run`, and without the colours of the page.
 async function open(question) {
-    await browser.call("Page.navigate", { url: "about:blank" });  // Another fragment alone would not leave the page at once.
-    await browser.call("Page.navigate", { url: address.replace("/#", `/${question}#`) });
+    await browser.open(address.replace("/#", `/${question}#`));
     await browser.until(`document.querySelectorAll("#stages li").length === 1`);
     await browser.evaluate(`{ const choice = document.getElementById("palette"); choice.value = "zebra"; choice.dispatchEvent(new Event("change")); }`);
     await browser.evaluate(`Object.assign(${canvas}.style, { position: "fixed", left: 0, top: 0, width: "800px", height: "600px" })`);
@@ -71,7 +66,7 @@ async function steer() {
     await browser.until(`!${canvas}.hidden && ${canvas}.width === 800 && document.getElementById("step").disabled`);
     expect(await browser.evaluate(`document.getElementById("pattern").hidden`), "a model is shown as a plane");
     await until_like("model", "the model");
-    // The strip shows what is seen, not the rows of cells, and a cell is measured where it is pressed.
+    // The strip of stages shows the model, not the rows of cells, and a press chooses the cell to measure.
     const picture = await browser.evaluate(`(({ width, height, hidden }) => [width, height, hidden])(document.querySelector("#stages canvas"))`);
     expect(Math.min(...picture.slice(0, 2)) > 10 && !picture[2], `the picture of the stage is ${picture}`);
     await browser.evaluate(`document.getElementById("measure").open = true, document.getElementById("pick").click()`);
@@ -88,7 +83,7 @@ async function steer() {
     await browser.press("0");
     await until_like("model", "the model from the front");
 
-    // Beside it the pointer turns it, and enlarging keeps the cell under the pointer.
+    // Beside the model, the pointer turns it. Zooming keeps the cell under the pointer.
     await browser.drag(60, 60, 160, 40);
     await until_like("dragged", "the model after dragging");
     const there = [430, 330], before = await cell_at(...there);
@@ -104,54 +99,52 @@ async function steer() {
     expect((await cell_at(...there)).cell !== before.cell, "nothing has moved");
     await browser.press("0");
 
-    // A stroke changes the cells under it and no others, and one undo takes it back. After a reload it does not grow on.
+    // A stroke changes only the cells under it, and one undo restores them. After a reload the pattern does not
+    // continue.
     await until_like("model", "the model from the front again");
     await open("");
     await until_like("model", "the model after a reload");
     const far = [445, 530], old_far = await cell_at(...far), old = await cell_at(...there);
     await browser.evaluate(`document.getElementById("amount").value = "7"`);
     await browser.drag(there[0] - 40, there[1], there[0], there[1]);
-    for (let k = 0; k < 100 && (await cell_at(...there)).value !== 7; ++k);
-    expect((await cell_at(...there)).value === 7, `the painted cell is ${JSON.stringify(await cell_at(...there))}`);
+    const until_value = (wanted) => browser.eventually(async () => (await cell_at(...there)).value === wanted,
+        async () => `the cell is ${JSON.stringify(await cell_at(...there))} instead of ${wanted}`);
+    await until_value(7);
     expect((await cell_at(there[0] - 40, there[1])).value === 7, "the stroke has no beginning");
     expect((await cell_at(...far)).value === old_far.value, "a cell far from the stroke has changed");
     writeFileSync("model_page.png", await browser.screenshot());
     await click("undo");
-    for (let k = 0; k < 100 && (await cell_at(...there)).value !== old.value; ++k);
-    expect((await cell_at(...there)).value === old.value, "the stroke is not undone");
+    await until_value(old.value);
 
-    // Creases, a surface of parameters with a hole, and its plane.
+    // A model with creases, a surface given by formulas with a hole, and this surface as a plane.
     await type_script("box.cascade");
     await until_like("box", "the box");
     await type_script("hole.cascade");
     await browser.until(`!document.getElementById("flat").hidden`);
-    // What is seen through the hole gets its light from a few directions only.
+    // Parts visible through the hole get light from a few directions only.
     await until_like("hole", "the surface with a hole", [4, 0.03]);
     const [column, row] = (await cell_at(520, 330)).cell.split(", ").map(Number);
     expect(Math.abs(column - 115) < 16 && row > 14, `through the hole cell ${column}, ${row} is seen`);
     await click("flat");
     await browser.until(`${canvas}.hidden && !document.getElementById("pattern").hidden`);
-    for (let k = 0; k < 50 && (await difference("pattern", "flat"))[0] > 0.5; ++k);
-    const flat = await difference("pattern", "flat");
-    expect(flat[0] <= 0.5 && flat[1] === 0, `the plane differs by ${flat}`);
+    let flat;
+    await browser.eventually(async () => (flat = await difference("pattern", "flat"))[0] <= 0.5 && flat[1] === 0, () => `the plane differs by ${flat}`);
     await click("flat");
 
-    // Cells that crawl, on a model and on a plane. Of the light between them the page knows less than pictures.
+    // Cells that crawl on a model and on a plane. The light between them is less exact than in pictures.
     await type_script("crawling.cascade");
     await browser.until(`document.getElementById("place").textContent === "step 0 · 60 cells"`);
     const count = `Number(document.getElementById("place").textContent.match(/(\\d+) cells/)[1])`;
-    // The brushes of a script may come after its first picture.
+    // The brushes of a script may arrive after its first picture.
     await browser.until(`{ const brush = document.getElementById("brush"); brush.value = "remove"; brush.value === "remove" }`);
-    // What is pointed at may still be a cell of the grid before, "115, 20", or nothing.
-    for (const end = Date.now() + 120000; Date.now() < end && !/^\d+$/.test((await cell_at(430, 300)).cell);) {
-        await new Promise((resolve) => setTimeout(resolve, 50));
-    }
+    // At first the cell under the pointer may be that of the previous grid, "115, 20", or none.
+    await browser.eventually(async () => /^\d+$/.test((await cell_at(430, 300)).cell), () => "no cell is under the pointer");
     await browser.drag(270, 300, 430, 310);
     await browser.until(`${count} < 60`);
     expect(await browser.evaluate(count) > 50, `of 60 cells a stroke leaves ${await browser.evaluate(count)}`);
     await click("undo");
     await browser.until(`${count} === 60`);
-    await click("run");
+    await browser.grow();
     await browser.until(`document.getElementById("step").disabled`);
     await until_like("crawling", "the cells on a sphere", [7, 0.05]);
     writeFileSync("crawling_page.png", await browser.screenshot());

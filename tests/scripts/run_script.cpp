@@ -1,4 +1,4 @@
-// From a script with expectations to what is not as expected.
+// Runs a script with expectations and lists differences.
 #include "run/domain/domain_mask.h"
 #include "run/simulation/end_remarks.h"
 #include "run_script.h"
@@ -20,8 +20,8 @@ namespace cascade::test {
 
 namespace {
 
-/// One native backend for all runs with vectors of a width, so that equal kernels are compiled
-/// once.
+/// One native backend for all runs with the same width of vectors, so that equal kernels are
+/// compiled once.
 std::shared_ptr<TieredBackend> native_stepper(int lanes) {
     static std::map<int, std::shared_ptr<TieredBackend>> steppers;
     auto& stepper = steppers[lanes];
@@ -29,7 +29,7 @@ std::shared_ptr<TieredBackend> native_stepper(int lanes) {
     return stepper;
 }
 
-/// A script and what came of it.
+/// A script and the results of its run.
 struct Run {
     Script script;
     std::unique_ptr<Simulation> simulation;
@@ -53,7 +53,7 @@ Run load(const ScriptCase& script, const std::filesystem::path& folder,
 
 /// Runs every stage to its end, or to a failure.
 void Run::start(const Configuration& configuration) {
-    // Vectors of 4 cells on one thread, of 16 on several.
+    // Vectors of 4 cells on one thread, of 16 cells on several threads.
     const int lanes = configuration.threads == 1 ? 4 : 16;
     SimulationOptions options{configuration.backend, lanes, configuration.threads};
     if (configuration.backend == "jit") options.stepper = native_stepper(lanes);
@@ -81,7 +81,7 @@ void Run::start(const Configuration& configuration) {
     }
 }
 
-/// All that `cascade run` remarks on results.
+/// Collects all remarks of `cascade run` on the results.
 void Run::remark() {
     const auto add = [&](std::string remark) {
         if (!remark.empty()) remarks.push_back(std::move(remark));
@@ -117,7 +117,7 @@ std::vector<Message> messages_of(const Script& script) {
 
 using Errors = std::vector<std::string>;
 
-/// Each of `found` has one of `expected` and the other way round, in any order.
+/// Matches each of `found` with one of `expected`, in any order, and reports the rest of both.
 template <typename Found, typename Expected, typename Matches, typename Describe>
 void compare(std::vector<Found> found, const std::vector<Expected>& expected, Matches&& is_it,
              Describe&& describe, Errors& errors) {
@@ -152,7 +152,7 @@ void compare_words(const std::vector<std::string>& found, const std::vector<std:
         [&](const std::string& text) { return fmt::format("expect {}: {}", kind, text); }, errors);
 }
 
-/// The values of an expression over what the last stage left.
+/// The values of an expression after the last stage.
 std::optional<Field> value_of(Run& run, const std::string& text, Errors& errors) {
     Diagnostics wrong;
     Script& script = run.script;
@@ -223,7 +223,7 @@ void compare_value(Run& run, const ExpectedValue& expected, Errors& errors) {
 
 std::vector<Field> species_of(const Run& run) {
     std::vector<Field> copies;
-    for (const Field& each : run.simulation->state(run.last_stage()).species) {
+    for (const Field& each : run.simulation->state(run.last_stage()).species()) {
         copies.push_back(each.clone());
     }
     return copies;
@@ -235,7 +235,8 @@ void compare_bits(const Run& run, const Run& other, const std::string& name, Err
     if (!difference.empty()) errors.push_back("is not the same as " + name + ": " + difference);
 }
 
-/// A case leaves the same bits in all configurations of a precision: those of the first are kept.
+/// A case must give the same bits in all configurations of a precision. The bits of the first are
+/// stored and compared.
 void compare_with_first(const Run& run, const ScriptCase& script,
                         const Configuration& configuration, Errors& errors) {
     struct First {

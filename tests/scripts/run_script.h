@@ -1,4 +1,4 @@
-// Runs a script and holds it to what is expected of it.
+// Runs a script and compares it with its expectations.
 #pragma once
 
 #include "run/simulation/simulation.h"
@@ -10,7 +10,7 @@
 
 namespace cascade::test {
 
-/// What takes the steps. `precision` is that of a script that does not say its own otherwise.
+/// How steps are computed. `precision` applies if the script does not set its own.
 struct Configuration {
     std::string_view backend = "interp";
     Precision precision = Precision::single;
@@ -19,10 +19,11 @@ struct Configuration {
     std::string name() const;  ///< "interpreter/single/3".
 };
 
-/// All configurations that this build has and a case asks for.
+/// All configurations of this build in which a case is to run.
 std::vector<Configuration> configurations_of(const ScriptCase& script);
 
-/// What is not as expected, a sentence each. Files that the script reads are relative to `folder`.
+/// The differences from the expectations, one sentence for each. Files that the script reads are
+/// relative to `folder`.
 std::vector<std::string> check_script(const ScriptFile& file, const ScriptCase& script,
                                       const std::filesystem::path& folder,
                                       const Configuration& configuration);

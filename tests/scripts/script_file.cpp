@@ -18,7 +18,8 @@ std::string trimmed(std::string_view text) {
     return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
 }
 
-/// The only relation between blanks outside of brackets; npos where there is none or another one.
+/// The position of the only relation between blanks outside of brackets; npos if there is none or
+/// more than one.
 std::size_t find_relation(const std::string& text, std::string& relation) {
     std::size_t found = std::string::npos;
     int depth = 0;
@@ -36,7 +37,7 @@ std::size_t find_relation(const std::string& text, std::string& relation) {
     return found;
 }
 
-/// Reads one instruction after another into the case they belong to.
+/// Reads one instruction after another and adds it to its case.
 class Reader {
 public:
     explicit Reader(const std::string& text);
@@ -54,7 +55,7 @@ private:
 
     ScriptCase shared_;          ///< The lines before the first case.
     std::size_t line_ = 0;       ///< From 1.
-    std::size_t code_line_ = 1;  ///< The last line that holds more than comments.
+    std::size_t code_line_ = 1;  ///< The last line that contains more than comments.
 };
 
 Reader::Reader(const std::string& text) {

@@ -1,4 +1,4 @@
-// Scripts with expectations in their comments: how they are read. README.md describes the notation.
+// Reads scripts with expectations in their comments. README.md describes the notation.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace cascade::test {
 
-/// A message about the text of a script. Of an expected one `text` is a pattern.
+/// A message about the text of a script. In an expected message `text` is a pattern.
 struct Message {
     std::string kind;                  ///< error, warning or note.
     std::string source;                ///< "<--set>"; empty: the script itself.
@@ -18,7 +18,7 @@ struct Message {
     std::string text;                  ///< "message | hint".
 };
 
-/// "expect error 3:5: text", as the notation has it.
+/// The notation of an expected message: "expect error 3:5: text".
 std::string print(const Message& message);
 
 /// Two expressions and how they compare, in all cells or in one.
@@ -26,18 +26,18 @@ struct ExpectedValue {
     std::string left, relation, right;
     std::optional<double> tolerance;
     std::optional<std::array<std::int64_t, 3>> cell;
-    std::string written;  ///< All of it, for failures.
+    std::string written;  ///< The whole expectation, for messages of failures.
 };
 
-/// One script of a file and all that is said about it.
+/// One script of a file with all its expectations.
 struct ScriptCase {
-    std::string name;  ///< Empty where the file is one script.
-    std::string text;  ///< On the lines that it has in the file.
+    std::string name;  ///< Empty if the file has no cases.
+    std::string text;  ///< With the same line numbers as in the file.
     std::vector<std::string> sets;
     bool runs_once = false, is_single = true, is_double = true, is_interpreted = true;
-    std::vector<Message> messages;                    ///< About the text.
-    std::vector<std::string> warnings;                ///< Patterns, of the run.
-    std::optional<std::vector<std::string>> remarks;  ///< Patterns; none: nothing is expected.
+    std::vector<Message> messages;                    ///< Expected messages about the text.
+    std::vector<std::string> warnings;                ///< Patterns for warnings of the run.
+    std::optional<std::vector<std::string>> remarks;  ///< Patterns; nullopt: remarks are ignored.
     std::optional<std::string> failure;               ///< A pattern.
     std::vector<ExpectedValue> values;
     std::vector<std::string> same_as;  ///< Names of cases.
@@ -45,13 +45,13 @@ struct ScriptCase {
     bool is_quiet = false;             ///< `expect quiet`.
     std::size_t expectations = 0;
 
-    /// Is there nothing to be seen of a run?
+    /// True if the case expects nothing from a run.
     bool is_only_checked() const;
 };
 
 struct ScriptFile {
     std::vector<ScriptCase> cases;
-    std::vector<std::string> errors;  ///< Of the notation: "3: there is no …".
+    std::vector<std::string> errors;  ///< Errors in the notation: "3: there is no …".
     const ScriptCase* find(const std::string& name) const;
 };
 

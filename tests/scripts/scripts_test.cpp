@@ -1,5 +1,5 @@
-// Every script of the folders here is a test of each case and configuration; wrong/ holds what must
-// fail.
+// Every script in these folders gives a test for each case and configuration. wrong/ contains
+// scripts that must fail.
 #include "core/file.h"
 #include "run_script.h"
 
@@ -39,7 +39,7 @@ std::shared_ptr<const LoadedScripts> load(const fs::path& path) {
     return loaded;
 }
 
-/// One case in one configuration; without a case, the notation of a file.
+/// One case in one configuration, or, without a case, the check of a file's notation.
 class ScriptTest : public ::testing::Test {
 public:
     ScriptTest(std::shared_ptr<const LoadedScripts> scripts, const ScriptCase* script,
@@ -97,7 +97,7 @@ TEST(Scripts, AreThere) {
     EXPECT_GT(scripts_below(scripts_folder).size(), 10u);
 }
 
-/// The first line of each is the expected message, after "# ".
+/// The first line of each file is the expected message, after "# ".
 TEST(Scripts, ThatAreWrongFail) {
     const auto wrong = scripts_below(scripts_folder / "wrong");
     EXPECT_GT(wrong.size(), 10u);

@@ -5,7 +5,7 @@
 
 namespace cascade {
 
-/// Lowers everything that a checked script has; fails the test if a kernel is not sound.
+/// Lowers all formulas of a checked script. The test fails if a kernel is not sound.
 void expect_sound_kernels(const Program& program);
 
 }  // namespace cascade

@@ -1,4 +1,5 @@
-// The specification's code blocks are read by the program; its tables name what the program has.
+// The program reads the code blocks of the specification, and the tables of the specification are
+// complete.
 //
 // spec/README.md says what the words after the fences mean. CASCADE_UPDATE=1 rewrites the expected
 // messages.
@@ -120,7 +121,7 @@ TEST(CodeBlocks, AreFoundByTheirFences) {
     EXPECT_EQ(blocks[2].body, "last");
 }
 
-/// The cells of the rows of all tables of a page, without their blanks.
+/// The cells of all rows of all tables of a page, without blanks around them.
 std::vector<std::vector<std::string>> table_rows(const std::string& page) {
     std::vector<std::vector<std::string>> rows;
     std::istringstream lines(page);
@@ -150,8 +151,8 @@ std::string_view word_of(Contexts places) {
     return "";
 }
 
-/// How functions.md begins the row of a function: `a + b`, `not a`, `-a`, `name(`,
-/// `name(e over domain)`, `name(e over near(d))`.
+/// The beginning of the row of a function in functions.md: `a + b`, `not a`, `-a`, `name(`, `name(e
+/// over domain)`, `name(e over near(d))`.
 std::string beginning_of_row(Function function) {
     const FunctionInfo& row = info(function);
     const std::string spelling(row.spelling);

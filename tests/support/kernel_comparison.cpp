@@ -17,7 +17,7 @@
 namespace cascade::test {
 namespace {
 
-/// What results hold before a kernel writes them: a NaN with bits that no arithmetic makes.
+/// The content of results before a kernel writes them: a NaN with bits that no arithmetic gives.
 template <typename Number>
 constexpr WordOf<Number> untouched = 0x7fabcdef;
 template <>
@@ -40,7 +40,7 @@ Number hostile_number(RandomStream& stream) {
     }
 }
 
-/// In [−1, 1), with digits to the last.
+/// A number in [−1, 1) with all digits.
 template <typename Number>
 Number ordinary_number(RandomStream& stream) {
     const float rough = stream.symmetric();
@@ -51,7 +51,7 @@ Number ordinary_number(RandomStream& stream) {
 template <typename Number>
 Field hostile_field(RandomStream& stream, const Grid& grid) {
     Plane<Number> field = untouched_plane<Number>(PlaneLayout(grid));
-    // A field of trouble alone would make every laplacian NaN.
+    // A field of hostile numbers alone would make every Laplacian NaN.
     const int trouble_percent = stream.chance(50) ? 5 : 40;
     for (std::int64_t row = 0; row < field.layout().row_count(); ++row) {
         for (std::int64_t i = 0; i < grid.width; ++i) {
@@ -196,7 +196,7 @@ std::string stray_writes(const std::vector<Field>& results, const Patch& cells, 
         const std::int64_t halo = layout.has_halo_slices() ? 1 : 0;
         for (std::int64_t row = -layout.slice_rows() * halo - 1;
              row <= layout.slice_rows() * (layout.depth - 1 + halo) + layout.height; ++row) {
-            // Rows of memory, those of the halo among them.
+            // The loop goes over all rows of memory, including rows of the halo.
             const std::int64_t slice = (row + 1 + layout.slice_rows()) / layout.slice_rows() - 1;
             const std::int64_t j = row - slice * layout.slice_rows();
             const std::int64_t number = slice * layout.height + j;

@@ -1,4 +1,4 @@
-// Runs kernels on hostile inputs and compares what executors make of them.
+// Runs kernels on hostile inputs and compares the results of executors.
 #pragma once
 
 #include "core/links.h"
@@ -14,9 +14,9 @@
 namespace cascade::test {
 
 /// Arguments for a kernel on a grid, made from a seed: ordinary numbers, and among them NaN,
-/// infinities, zeros of both signs, denormals and huge numbers. Halos of fields are filled; memory
-/// that kernels have no business with holds NaN. Inputs of even seeds are said to be near. A linked
-/// grid gets random links, in which its last row may be filled up.
+/// infinities, zeros of both signs, denormals and huge numbers. Halos of fields are filled. Memory
+/// that kernels must not read contains NaN. With even seeds inputs count as near
+/// (KernelArgumentsOf::is_near). A linked grid gets random links, whose last row may be padded.
 class HostileInputs {
 public:
     HostileInputs(const CellKernel& kernel, const Grid& grid, std::uint64_t seed);
@@ -24,7 +24,7 @@ public:
     /// Runs a kernel on some or all cells, into new planes.
     std::vector<Field> run(const Kernel& kernel) const;
     std::vector<Field> run(const Kernel& kernel, const Patch& cells) const;
-    /// From now on kernels that can fill columns of the halo are told to.
+    /// From now on, kernels that can fill columns of the halo do so.
     void fill_columns(HaloColumns columns) { columns_ = columns; }
 
 private:
@@ -39,22 +39,22 @@ private:
     std::optional<HaloColumns> columns_;
     std::size_t result_count_;
     std::vector<Field> fields_;
-    Links links_;  ///< Of a linked grid.
+    Links links_;  ///< The links of a linked grid.
     std::vector<Mask> masks_;
-    std::vector<std::uint64_t> uniforms_;  ///< Words.
+    std::vector<std::uint64_t> uniforms_;  ///< The words of uniforms.
 };
 
 /// Compiles `kernel` with `backend` and runs it on the inputs that belong to `seed`.
 std::vector<Field> run_kernel(Backend& backend, const CellKernel& kernel, const Grid& grid,
                               std::uint64_t seed);
 
-/// Empty if both hold the same words in all cells, where all NaN are the same; else the first
-/// difference: result, cell, both words.
+/// Empty if both contain the same words in all cells, where all NaN count as equal. Otherwise the
+/// first difference: result, cell, both words.
 std::string same_bits(const std::vector<Field>& a, const std::vector<Field>& b);
 
-/// Empty if a run wrote only what backend.h allows: these cells, and after the last cell of a row
-/// up to the next multiple of row_pad, and, if they were to be filled, the columns of the halo
-/// beside them. Else the first place that was touched. Only for planes made by HostileInputs::run.
+/// Empty if a run wrote only what backend.h allows: these cells, after the last cell of a row up to
+/// the next multiple of row_pad, and the columns of the halo beside the cells if these were to be
+/// filled. Otherwise the first wrong position. Only for planes from HostileInputs::run.
 std::string stray_writes(const std::vector<Field>& results, const Patch& cells,
                          bool with_columns = false);
 

@@ -1,4 +1,4 @@
-// Names the script with which a test has crashed, where no message of the test can.
+// Names the script with which a test crashed, when the test itself cannot give a message.
 #pragma once
 
 #include <csignal>
@@ -8,7 +8,7 @@
 
 namespace cascade::test {
 
-/// While it exists, a crash prints the script that was told last.
+/// While this object exists, a crash prints the last script that was set.
 class LastScript {
 public:
     LastScript() {

@@ -6,7 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-// Of addresses or threads: g++ defines a macro, clang a feature.
+// Detects the address and thread sanitizers: g++ defines macros, clang has features.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define has_sanitizer 1
 #elif defined(__has_feature)

@@ -1,4 +1,4 @@
-// What something costs in memory: it is done in a child process that gets no more.
+// Tests how much memory an action needs: it runs in a child process with limited memory.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,9 @@
 
 namespace cascade::test {
 
-/// Runs `action` in a child process that may have `bytes` more than this one has, and returns its
-/// text; "died" where the child did. Sanitizers need more than any limit: then there is none.
+/// Runs `action` in a child process that may use `bytes` more than this process, and returns its
+/// text, or "died" if the child died. With sanitizers there is no limit, since they need more than
+/// any limit.
 std::string in_limited_memory(std::uint64_t bytes, const std::function<std::string()>& action);
 
 }  // namespace cascade::test

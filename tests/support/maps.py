@@ -88,7 +88,7 @@ def check_waves(name, _saved):
     assert shine["roughnessFactor"] == 1 and shine["metallicFactor"] == 1
     assert shine["metallicRoughnessTexture"] == glb.material["occlusionTexture"]
     assert glb.material["emissiveFactor"] == [1, 1, 1] and glb.material["alphaMode"] == "BLEND"
-    assert "samplers" not in glb.json  # It repeats.
+    assert "samplers" not in glb.json  # The default sampler repeats.
     colour, emission = glb.texture(shine["baseColorTexture"]), glb.texture(glb.material["emissiveTexture"])
     separate = {map: beside(name, map) for map in
                 ("color", "height", "normal", "occlusion", "roughness", "metalness", "emission", "opacity")}
@@ -96,7 +96,7 @@ def check_waves(name, _saved):
     for row in range(0, 256, 5):
         for column in range(0, 384, 3):
             x, y = (column + 0.5) / 384, (row + 0.5) / 256
-            # Cells have their places at (k + 0.5) / N, so the edge lies between columns 23 and 24.
+            # The centres of cells are at (k + 0.5) / N, so the edge lies between columns 23 and 24.
             if min(abs(x - edge) for edge in (0, 0.5, 1)) < 1.6 / 48:
                 continue
             at = lambda rows: rows[row][column]

@@ -7,7 +7,7 @@
 
 namespace cascade::test {
 
-/// What is wrong with it, or nullptr.
+/// The first fault of a mesh, or nullptr.
 inline const char* fault_of_soup(const PolygonSoup& soup) {
     for (const std::uint32_t corner : soup.corners) {
         if (corner >= soup.points.size()) return "a corner is no point";

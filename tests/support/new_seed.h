@@ -1,4 +1,4 @@
-// A seed that no run of the tests had before, so that random tests try something new each time.
+// A new seed in every run of the tests, so that random tests try something new each time.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace cascade::test {
 
-/// The number of the environment variable CASCADE_TEST_SEED, else a new one; printed, so that a
-/// failure can be repeated. Below 2³², that other numbers may be added.
+/// The number of the environment variable CASCADE_TEST_SEED, or else a new one. It is printed so
+/// that a failure can be repeated. It is below 2³², so that callers may add other numbers.
 inline std::uint64_t new_seed() {
     static const std::uint64_t seed = [] {
         const char* const given = std::getenv("CASCADE_TEST_SEED");

@@ -1,4 +1,4 @@
-// Numbers that are not finite, of the precision that kernels have by default.
+// Non-finite numbers in single precision, the default of kernels.
 #pragma once
 
 #include <limits>

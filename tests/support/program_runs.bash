@@ -17,3 +17,17 @@ run() {
 }
 # says FILE TEXT: the text is in the file.
 says() { grep -qF -- "$2" "$1" || fail "no '$2' in $1"; }
+# write_square: square.obj, a square with texture coordinates, which fill the texture.
+write_square() {
+    cat >square.obj <<'END'
+v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+vt 0 0
+vt 1 0
+vt 1 1
+vt 0 1
+f 1/1 2/2 3/3 4/4
+END
+}

@@ -42,7 +42,7 @@ constexpr std::uint64_t special_long_words[] = {
 
 struct Value {
     ValueId id;
-    bool is_exact = false;  ///< Its bits are determined, even if they read as NaN.
+    bool is_exact = false;  ///< All executors give the same bits, even if the value is NaN.
 };
 
 class Generator {
@@ -53,7 +53,7 @@ public:
     CellKernel generate() && {
         for (int k = 0; k < options_.operations; ++k) step();
         for (int k = 0; k < options_.results; ++k) {
-            // Most results are late values, so that much of the code is needed.
+            // Most results are late values, so that most of the code is needed.
             const std::size_t last = values_.size() - 1;
             const std::size_t span = stream_.chance(80) ? 6 : last + 1;
             const std::size_t back = stream_.below(span);
@@ -144,7 +144,8 @@ private:
         return builder_.field(builder_.field_slot(fmt::format("f{}", which)));
     }
 
-    /// Over links, of a value that is computed from some fields of theirs and other values.
+    /// A reduction over links of a value that is computed from fields at the neighbours and other
+    /// values.
     ValueId reduction(Op op) {
         constexpr Op operations[] = {Op::add,         Op::multiply, Op::divide,
                                      Op::absolute,    Op::less,     Op::square_root,
@@ -168,7 +169,7 @@ private:
                                                                      : hostile_long_word(stream_));
     }
 
-    /// A whole number that scaling takes: of −128 … 127, or in binary64 of −1024 … 1023.
+    /// A whole number by which scaling is defined: −128 … 127, in binary64 −1024 … 1023.
     ValueId power_of_two() {
         const std::uint64_t half = options_.precision == Precision::single ? 128 : 1024;
         const ValueId word =
@@ -232,7 +233,7 @@ private:
         return values_[from + stream_.below(values_.size() - from)];
     }
 
-    /// A value with a NaN replaced by 0, if it could be one.
+    /// A value in which NaN, if possible, is replaced by 0.
     ValueId exact_operand() {
         const Value value = operand();
         if (value.is_exact) return value.id;
@@ -270,7 +271,7 @@ std::uint64_t hostile_long_word(RandomStream& stream) {
         case 5: return std::bit_cast<std::uint64_t>(static_cast<double>(stream.symmetric()) * 100);
         case 6: return stream.next() >> 32;
         default: {
-            const double rough = stream.symmetric();  // Of fewer digits than there are.
+            const double rough = stream.symmetric();  // It has fewer digits than binary64.
             const double fine = rough + static_cast<double>(stream.symmetric()) * 0x1p-24;
             return std::bit_cast<std::uint64_t>(fine * 2);
         }

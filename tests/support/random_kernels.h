@@ -1,4 +1,4 @@
-// Random cell kernels, by which executors are compared.
+// Random cell kernels for comparing executors.
 #pragma once
 
 #include "ir/cell_kernel.h"
@@ -11,18 +11,18 @@
 namespace cascade::test {
 
 struct RandomKernelOptions {
-    int operations = 40;  ///< About how many instructions are asked for.
+    int operations = 40;  ///< The approximate number of instructions.
     int results = 4;
     Precision precision = Precision::single;
-    bool laplacians = true;  ///< And neighbours.
-    bool links = false;      ///< For linked cells: sums over links, and no neighbours.
+    bool laplacians = true;  ///< Laplacians and values of neighbours.
+    bool links = false;      ///< For linked cells: sums over links instead of neighbours.
     bool multiply_adds = has_multiply_add();
-    int composed_percent = 5;  ///< Share of elementary functions, clamps, random numbers.
+    int composed_percent = 5;  ///< Percentage of elementary functions, clamps and random numbers.
 };
 
 /// A valid kernel of random operations on random values, some of them constants that are likely to
-/// be trouble. A pure function of its arguments. The bits of a NaN have no meaning, so operations
-/// on words are given none that came out of arithmetic.
+/// cause trouble. A pure function of its arguments. The bits of a NaN have no meaning, so
+/// operations on words never get a NaN that is the result of arithmetic.
 CellKernel random_kernel(std::uint64_t seed, const RandomKernelOptions& options = {});
 
 /// How often each operation of the table occurred in kernels.
@@ -33,7 +33,7 @@ struct OperationCounts {
     /// Names of the operations that never occurred in kernels for a grid, or for linked cells,
     /// separated by spaces.
     std::string missing(bool links = false) const;
-    /// A line an operation: its count and its name.
+    /// A line for each operation with its count and name.
     std::string report() const;
 };
 

@@ -26,7 +26,7 @@ LinkList random_links(std::size_t cells, std::uint64_t seed, int trouble_percent
         }
         list.ends.push_back(list.neighbours.size());
     }
-    // Also where there is no link at all.
+    // There must be at least one link.
     if (list.neighbours.empty() && cells > 0) {
         list.neighbours.push_back(0);
         list.weights.push_back(1);

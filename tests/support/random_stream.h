@@ -33,10 +33,10 @@ private:
     std::uint64_t state_;
 };
 
-/// A word that is likely to be trouble: zeros of both signs, denormals, infinities, NaN, numbers at
-/// the ends of the range, small integers, ordinary numbers, or any word at all.
+/// A word that is likely to cause trouble: zeros of both signs, denormals, infinities, NaN, numbers
+/// at the ends of the range, small integers, ordinary numbers, or any word at all.
 std::uint32_t hostile_word(RandomStream& stream);
-/// The same of 64 bits.
+/// A word of 64 bits that is likely to cause trouble.
 std::uint64_t hostile_long_word(RandomStream& stream);
 
 }  // namespace cascade::test

@@ -1,4 +1,4 @@
-// Is a script still the same after formatting? Asked by the tests of examples, specification and
+// Checks that formatting keeps the meaning of a script. Used for examples, the specification and
 // random scripts.
 #pragma once
 
@@ -32,7 +32,7 @@ inline std::optional<std::string> formatted_in(ScriptNotation notation, const st
     return format_script(source, sources, diagnostics, notation);
 }
 
-/// Without blanks, line ends and `;`, which formatting may exchange.
+/// The text without blanks, line ends and `;`, which formatting may exchange.
 inline std::string without_layout(std::string text) {
     text.erase(std::remove_if(text.begin(), text.end(),
                               [](char c) { return c == ' ' || c == '\n' || c == ';'; }),
@@ -40,8 +40,9 @@ inline std::string without_layout(std::string text) {
     return text;
 }
 
-/// What is wrong with the formatted form of a script that can be read; empty if nothing is. Its
-/// forms in ASCII and in the notation of papers mean the same, and lead back to each other.
+/// Describes the first fault of the formatted form of a script without syntax errors; empty if
+/// there is none. The forms in ASCII and in the notation of papers must mean the same, and
+/// converting back must give the same.
 inline std::string fault_of_formatting(const std::string& text) {
     const std::string tree = tree_of(text);
     for (const ScriptNotation notation :

@@ -33,7 +33,7 @@ std::string base64_of(std::string_view data) {
     return text;
 }
 
-/// Places and indices of one triangle: 42 bytes.
+/// Positions and indices of one triangle: 42 bytes.
 std::string triangle_data() {
     std::string data;
     for (const float number : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F})
@@ -56,8 +56,8 @@ std::string gltf_with_buffer(std::string_view indices_accessor, std::string_view
            R"({"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}]})";
 }
 
-/// A skinned node and one with copies: sparse places, a morph target, a second set of texture
-/// coordinates that are transformed.
+/// A node with a skin and a node with copies: sparse positions, a morph target, and a second set of
+/// texture coordinates with a transform.
 std::string rich_glb() {
     constexpr std::string_view json =
         R"({"asset":{"version":"2.0"},"extensionsRequired":["EXT_mesh_gpu_instancing"],"scene":0,)"

@@ -1,5 +1,6 @@
-// Runs the scripts of tests/tab_agreement_test.sh natively, with denormal numbers kept as a browser
-// keeps them, and writes what a page needs to run them too, and the bits that it must get.
+// Runs the scripts of tests/tab_agreement_test.sh natively, without flushing denormal numbers, as
+// in a browser. Writes the data with which a page can run the scripts, and the bits that it must
+// get.
 //
 //   tab_states kept|exact FILE
 //
@@ -45,12 +46,12 @@ std::uint32_t hash_of(const Field& field) {
     return hash;
 }
 
-/// What a page carries, and what it must show after some steps of each stage; nothing if the run
-/// fails, as some random ones do.
+/// The script with its data for a page, and the expected bits after some steps of each stage; null
+/// if the run fails, as some random scripts do.
 Json state_of(Script script) {
     SimulationOptions options;
     options.threads = 1;
-    // Native code counts on denormal numbers being flushed, and may do so early.
+    // The interpreter, since native code relies on denormal numbers being flushed.
     options.backend = "interp";
     RunControl control;
     auto run = LiveRun::begin(std::move(script), options, control);
@@ -80,7 +81,7 @@ void write_states(const std::filesystem::path& path, bool is_exact) {
     const auto add = [&](Script script) {
         CHECK(script.program, "test: the script is right");
         const std::vector<Stage>& stages = script.program->stages;
-        // A page cannot make the surface of a grown body.
+        // A page cannot compute the surface of a grown body.
         const auto has_body = [](const Stage& stage) { return !stage.body.nodes.empty(); };
         if (stages.empty() || std::any_of(stages.begin(), stages.end(), has_body)) return;
         // The transforms of pages, and angles on models, agree with those of the program to

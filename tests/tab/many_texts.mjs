@@ -1,4 +1,4 @@
-// Many texts one after another: kernels of old ones are let go.
+// Runs many texts one after another: kernels of old texts must be released.
 //
 //   node many_texts.mjs ENGINE WORKER
 import {readFileSync} from 'node:fs';
@@ -7,7 +7,7 @@ import {pathToFileURL} from 'node:url';
 const [engine_file, worker] = process.argv.slice(2);
 const engine = new WebAssembly.Module(readFileSync(engine_file));
 
-// The kernels that the engine holds are those of its table that were added and not dropped.
+// Counts the kernels in the engine's table: those added and not yet dropped.
 let held = 0;
 const {set} = WebAssembly.Table.prototype;
 WebAssembly.Table.prototype.set = function (place, value) {

@@ -1,5 +1,5 @@
-// Runs in node the scripts that tests/tab/make_states.cpp has run natively, with the worker and the engine
-// of pages, and compares the bits of all species.
+// Runs the scripts of tests/tab/make_states.cpp in node, with the worker and the engine of exported pages, and compares
+// the bits of all species.
 //
 //   node run_states.mjs ENGINE WORKER STATES
 import {readFileSync} from 'node:fs';
@@ -9,7 +9,7 @@ const [engine_file, worker, states_file] = process.argv.slice(2);
 const engine = new WebAssembly.Module(readFileSync(engine_file));
 const states = JSON.parse(readFileSync(states_file, 'utf8'));
 
-// The worker has one engine, so each script gets a worker of its own: the module, with its page replaced.
+// A worker has one engine, so each script gets its own worker: the module with a substitute for its page.
 let heard;
 globalThis.self = {postMessage: (message) => setImmediate(() => heard(message))};
 let workers = 0;
@@ -31,7 +31,7 @@ function hashOf(words) {
   return hash >>> 0;
 }
 
-/// The hashes of the species after the run, or why there are none.
+/// The hashes of the species after the run, or the reason why there are none.
 async function run({name, text, overrides, is_exact, files, species}) {
   await start();
   const page = globalThis.self;

@@ -1,5 +1,5 @@
-// Writes the GLB files that tests/viewer_test.sh opens into the current folder. What is to be seen
-// in them is known: tests/viewer/view.mjs has it.
+// Writes GLB files into the current folder. tests/viewer_test.sh opens them, and
+// tests/viewer/view.mjs contains what they must look like.
 #include "export/bake.h"
 #include "export/instanced_model.h"
 #include "export/model_writer.h"
@@ -16,7 +16,7 @@
 namespace cascade {
 namespace {
 
-/// Red where the channel is 0, blue where it is 1.
+/// Red where the first channel is 0, blue where it is 1.
 Colour red_to_blue(std::span<const float> values, const SurfacePlace&) {
     const float blue = std::clamp(values[0], 0.0F, 1.0F);
     return {0.8F - 0.7F * blue, 0.2F, 0.1F + 0.8F * blue};
@@ -39,7 +39,8 @@ bool write_maps(const char* name, const SurfaceMesh& mesh, const CellFilter& fil
     return maps && report(cascade::write_maps(name, mesh, *maps, {}));
 }
 
-/// A sphere, red for x below 0 and blue above, as colours of points and as a texture.
+/// Writes a sphere that is red where x < 0 and blue elsewhere, with colours of points and with a
+/// texture.
 bool write_spheres(Team& team) {
     const SurfaceMesh mesh = test::sphere_with_texture(48);
     const SurfaceCells cells = test::cells_of(mesh, 4000);
@@ -56,7 +57,7 @@ bool write_spheres(Team& team) {
            write_maps("maps.glb", mesh, filter, look, team);
 }
 
-/// A white square with a hill in its middle, and the same with its texture mirrored.
+/// Writes a white square with a hill in its middle, and the same with mirrored texture coordinates.
 bool write_hills(Team& team) {
     SurfaceMesh mesh = test::flat_square(8);
     const SurfaceCells cells = test::cells_of(mesh, 4000);
@@ -74,8 +75,8 @@ bool write_hills(Team& team) {
     return write_maps("mirrored_hill.glb", mesh, filter, look, team);
 }
 
-/// A square of four bands, from the top: a hole, one that sees half of the sky, a plain one, and a
-/// metal. Its left half is black and glows, its right half is red.
+/// Writes a square of four bands, from the top: a hole, a band that sees half of the sky, a plain
+/// band, and a metal band. The left half of the square is black and glows, the right half is red.
 bool write_tile(Team& team) {
     const FlatCells cells{64, 64, 1.0 / 64, {false, false}};
     std::vector<float> colours;
@@ -103,8 +104,9 @@ bool write_tile(Team& team) {
                                       bake_plane(cells, look, texture_size(cells, 256), team), {}));
 }
 
-/// Copies of a ball before a square: a row of 64 at the bottom whose colours go from red to blue,
-/// and a tall green one, turned to lie from left to right, at the top. As instances, and merged.
+/// Writes copies of a ball in front of a square, as instances and merged: at the bottom a row of 64
+/// whose colours go from red to blue, and at the top a long green one that extends from left to
+/// right.
 bool write_copies() {
     const SurfaceMesh square = test::flat_square(2);
     const std::vector<Colour> colours(square.points.size(), Colour{0.2F, 0.2F, 0.2F});

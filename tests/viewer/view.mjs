@@ -1,9 +1,8 @@
 // Opens GLB files as a browser does. Arguments: the browser and the folder of the models; three.js and
 // the validator are found in node_modules of the current folder.
 //
-// Each file must be one in which the Khronos validator finds nothing wrong. Then three.js draws it in
-// the browser, without a window and without a graphics card, and the pixels must show what the model is known
-// to look like. Pictures are left in the current folder.
+// The Khronos validator must find no fault in a file. Then three.js draws the file in the browser, without a window and
+// without a graphics card, and the pixels must have the expected colours. The pictures are kept in the current folder.
 import { spawn } from "node:child_process";
 import { createServer } from "node:http";
 import { createRequire } from "node:module";
@@ -24,7 +23,8 @@ async function validate() {
     for (const file of files) {
         const report = await validator.validateBytes(
             new Uint8Array(readFileSync(join(models, file))),
-            // It does not know the extension of instances, and what only these use seems unused.
+            // The validator does not support the extension for instances, and takes objects that only instances use for
+            // unused.
             { maxIssues: 20, ignoredIssues: ["UNSUPPORTED_EXTENSION", "UNUSED_OBJECT"] });
         const { numErrors, numWarnings, messages } = report.issues;
         const is_valid = numErrors + numWarnings === 0;
@@ -34,7 +34,7 @@ async function validate() {
     }
 }
 
-// `frame` is the middle and half the side of what is seen, along z; x grows to the right, y up.
+// Views along z, with x to the right and y up. `frame` is the middle of the visible square and half of its side.
 const views = [
     { name: "points", model: "points.glb", ambient: 1, frame: [0, 0, 1.2] },
     { name: "maps", model: "maps.glb", ambient: 1, frame: [0, 0, 1.2] },
@@ -48,7 +48,7 @@ const views = [
         { name, model: `${name}.glb`, ambient: 1, frame: [0.5, 0.5, 0.5] })),
 ];
 
-/// The mean colour of 5 × 5 pixels of a view around a place, −1 … 1 to the right and up.
+/// The mean colour of 5 × 5 pixels of a view around a place. x and y go from −1 to 1, to the right and up.
 function colour(view, x, y) {
     const sum = [0, 0, 0];
     const column = Math.round(64 + 64 * x), row = Math.round(64 - 64 * y);
@@ -71,7 +71,7 @@ function look_at(seen, instances) {
     expect(instances.merged_copies === 0, "merged copies are no instances");
     for (const name of ["copies", "merged_copies"]) {
         expect_colour(seen, name, 0, 0, [51, 51, 51]);
-        // There are fewer materials than colours.
+        // Colours are rounded, as there are fewer materials than colours.
         for (const part of [0.1, 0.3, 0.5, 0.7, 0.9]) {
             expect_colour(seen, name, 2 * part - 1, -0.5,
                           [204 - 178 * part, 51, 26 + 204 * part].map(Math.round));
@@ -86,13 +86,13 @@ function look_at(seen, instances) {
             expect_colour(seen, name, 0.4, y, [26, 51, 230]);
         }
     }
-    // Holes show the background; metals have no colour without a sun or surroundings.
+    // Holes show the background, and metals are black without a sun or surroundings.
     for (const [y, right] of [[0.75, [0, 0, 0]], [0.25, [149, 35, 16]], [-0.25, [204, 51, 26]],
                               [-0.75, [0, 0, 0]]]) {
         expect_colour(seen, "tile", 0.5, y, right);
         expect_colour(seen, "tile", -0.5, y, y > 0.5 ? [0, 0, 0] : [51, 153, 102]);
     }
-    // Ridges: without them the light would change little along the way.
+    // The relief has ridges. Without them the light would change little along this line.
     const along = Array.from({ length: 40 }, (_, k) => colour(seen.relief, 0.3, 0.4 - k / 80)[2]);
     expect(Math.max(...along) - Math.min(...along) > 20, `no relief: ${along.map(Math.round)}`);
     for (const name of ["hill", "mirrored_hill"]) {
@@ -107,7 +107,7 @@ function look_at(seen, instances) {
     }
 }
 
-/// The pixels of all views, and their numbers of instances, by name.
+/// Draws all views. Returns their pixels and their numbers of instances, by the name of the view.
 function draw() {
     const seen = {}, instances = {};
     const types = { ".html": "text/html", ".js": "text/javascript", ".json": "application/json" };
@@ -149,7 +149,7 @@ function draw() {
         const limit = setTimeout(
             () => finish(() => reject(new Error("the browser drew nothing in 4 minutes"))), 240000);
         server.listen(0, "127.0.0.1", () => {
-            // No sandbox: it does not work for root, who runs tests in containers.
+            // The sandbox is off, because it does not work for root, the usual user in containers.
             shell = spawn(browser, [
                 "--headless", "--no-sandbox", "--disable-dev-shm-usage", "--use-angle=swiftshader",
                 "--enable-unsafe-swiftshader", "--no-first-run", "--disable-background-networking",
@@ -176,5 +176,5 @@ await validate();
 stop_at_faults();
 look_at(...await draw());
 stop_at_faults();
-// Something of the closed connections may still be waited for.
+// Exits at once, as closed connections might still keep the process waiting.
 process.exit(0);

@@ -30,7 +30,7 @@
 namespace cascade::test {
 namespace {
 
-/// A step of species that diffuse, each of which feeds on the next one.
+/// A step of diffusing species, each of which consumes the next one.
 CellKernel ring_of_species(std::size_t species, Precision precision) {
     KernelBuilder builder(precision);
     const auto slot = [&](std::size_t k) {
@@ -47,7 +47,7 @@ class Cases {
 public:
     Cases(CaseFile& file, bool is_exact) : file_(file), is_exact_(is_exact) {}
 
-    /// Adds a run of the kernel on all cells of a grid, and one on some of them.
+    /// Adds a run of the kernel on all cells of a grid, and a run on some of the cells.
     void add(const CellKernel& kernel, const Grid& grid, std::uint64_t seed,
              const std::string& name) {
         const Recording recording{name, is_exact_, seed % 3 == 0};
@@ -81,7 +81,7 @@ public:
         }
     }
 
-    /// Adds the kernels of a script that no earlier one has.
+    /// Adds the kernels of a script, except those that an earlier script had.
     void add_script(const Script& script) {
         const Program& program = *script.program;
         Grid cells_of_domain = program.domain.grid;
@@ -117,7 +117,7 @@ public:
         }
     }
 
-    /// Adds kernels of many instructions, and of more results than a function has.
+    /// Adds kernels with many instructions, and with more results than one function can have.
     void add_large() {
         for (const std::uint64_t seed : {1, 2}) {
             RandomKernelOptions options;
@@ -130,8 +130,8 @@ public:
         }
     }
 
-    /// Adds products and quotients next to the least normal number, of which some are below it only
-    /// if they are rounded to all digits.
+    /// Adds products and quotients close to the smallest normal number. Some of them are below it
+    /// only if they are rounded to the precision of normal numbers.
     template <typename Number>
     void add_nearly_denormal() {
         constexpr Precision precision = precision_of<Number>;
@@ -169,7 +169,7 @@ public:
             ->run({fields, {}, {}, results, layout}, {{0, layout.height}});
     }
 
-    /// The operations that no random kernel had.
+    /// The names of the operations that no random kernel has used.
     std::string missing(bool links) const { return tried_.missing(links); }
 
 private:
@@ -217,7 +217,7 @@ bool make_cases(bool is_exact, const std::string& path) {
     if (!is_exact) keep_denormals();
     CaseFile file(path);
     Cases grids(file, is_exact), links(file, is_exact);
-    const std::uint64_t seed = new_seed() + 10000;  // The others begin at 1.
+    const std::uint64_t seed = new_seed() + 10000;  // The other seeds begin at 1.
     for (const std::uint64_t first : {std::uint64_t{1}, seed}) {
         for (const Precision precision : {Precision::single, Precision::binary64}) {
             grids.add_random(first, 400, precision, false);

@@ -1,4 +1,4 @@
-// Lays out the memory of a kernel's call as a host of WebAssembly would.
+// Lays out the memory for a call of a kernel like a host of WebAssembly modules.
 #include "tests/wasm/recorded_kernel.h"
 
 #include "core/check.h"
@@ -13,7 +13,8 @@
 namespace cascade::test {
 namespace {
 
-/// Memory of a module while it is filled. Addresses are aligned to 64 bytes; 0 is none.
+/// The memory of a module while it is being filled. Addresses are multiples of 64 bytes, and 0
+/// means no address.
 class Image {
 public:
     template <typename T>
@@ -146,8 +147,8 @@ private:
         ++file_.cases;
     }
 
-    /// The arguments of all calls, as bytes: in space a call for each slice that has some of the
-    /// rows.
+    /// The arguments of all calls, as bytes. On a grid in space there is a call for each slice that
+    /// contains some of the rows.
     template <typename Number>
     std::vector<std::vector<std::uint8_t>> calls_of(const std::vector<std::uint32_t>& shared,
                                                     const KernelArgumentsOf<Number>& given,

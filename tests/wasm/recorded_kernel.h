@@ -1,5 +1,5 @@
-// A kernel that writes down what it is given and what it computes, with a WebAssembly module that
-// shall compute the same: a case for tests/wasm/run_cases.mjs.
+// A kernel that records its inputs and results, with a WebAssembly module that must compute the
+// same results: a case for tests/wasm/run_cases.mjs.
 #pragma once
 
 #include "ir/backend.h"

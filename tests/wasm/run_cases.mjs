@@ -1,5 +1,5 @@
-// Runs the cases that tests/wasm/recorded_kernel.h describes, and compares all bits; every NaN is
-// the same. Arguments: files of cases.
+// Runs the cases that tests/wasm/recorded_kernel.h describes, and compares all bits. All NaN count as equal. Arguments:
+// files of cases.
 import {readFileSync} from 'node:fs';
 
 const memory = new WebAssembly.Memory({initial: 1});
@@ -21,14 +21,14 @@ class Reader {
   }
 }
 
-// The numbers that the bytes hold, from an address that they are aligned to.
+// The numbers in the bytes, copied so that they are aligned.
 function numbers(bytes, numberBytes) {
   const copy = Uint8Array.from(bytes).buffer;
   return numberBytes === 4 ? {values: new Float32Array(copy), words: new Uint32Array(copy)}
                            : {values: new Float64Array(copy), words: new BigUint64Array(copy)};
 }
 
-// The first difference between two lists of numbers, or nothing.
+// The first difference between two lists of numbers, or undefined if there is none.
 function difference(found, expected, isFree) {
   for (let k = 0; k < expected.words.length; ++k) {
     if (found.words[k] === expected.words[k] || isFree[k] === 1) continue;

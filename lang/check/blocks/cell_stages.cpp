@@ -1,4 +1,4 @@
-// Founders, cells of earlier stages, ends.
+// Checks stages of cells that crawl: founders, cells of earlier stages, and the end of the stage.
 #include "lang/check/blocks/cell_stages.h"
 
 #include "lang/check/expressions/read_setting.h"
@@ -15,22 +15,22 @@ namespace cascade::checking {
 
 namespace {
 
-/// A hundredth of a radius. With a tenth of it twice as many steps are needed, and cells that
-/// divide are as many and cover as much.
+/// The tolerance of positions: a hundredth of a radius. A tenth of this tolerance would take twice
+/// as many steps, but after divisions the cells would be equally many and cover the same area.
 constexpr double usual_tolerance = 0.01;
 
 constexpr double most_founders = 100'000'000;
 constexpr double largest_coordinate = 1e15;
-/// A stage that ends by a condition gives up after this number of steps.
+/// A stage that ends by a condition stops after this number of steps if the condition never holds.
 constexpr std::int64_t most_steps_until = 1'000'000;
 
-/// The call keys(…) that an expression consists of, or null.
+/// The call of keys(…), if the expression is such a call; else null.
 const ast::Call* call_of_keys(const ast::Script& script, ast::Expression expression) {
     const auto* call = std::get_if<ast::Call>(&script.expressions[expression.root].node);
     return call != nullptr && call->function.text == "keys" ? call : nullptr;
 }
 
-/// keys(x, y, z, …)
+/// Checks keys(x, y, z, …).
 void check_places(Workspace& work, const ast::Script& script, ast::Expression expression,
                   const ast::Call& call, Founders& founders) {
     if (call.argument_count == 0 || call.argument_count % 3 != 0) {
@@ -66,7 +66,7 @@ void check_count_of_founders(Workspace& work, const ast::Script& script, ast::Ex
                                        most_founders));
 }
 
-/// `founders: n`, `founders: n, chance` or `founders: keys(x, y, z, …)`.
+/// Checks `founders: n`, `founders: n, chance` or `founders: keys(x, y, z, …)`.
 void check_founders(Workspace& work, const ast::Script& script, const ast::Statement& statement,
                     const Scope& scope) {
     const ast::Expression first = statement.values.front();
@@ -75,7 +75,7 @@ void check_founders(Workspace& work, const ast::Script& script, const ast::State
     const std::size_t most = call_of_keys(script, first) != nullptr ? 1 : 2;
     if (statement.values.size() > most) {
         work.diagnostics.error(span_of(script, statement.values[most]),
-                               "'founders' takes a number and perhaps a chance, or places",
+                               "'founders' takes a number and optionally a chance, or positions",
                                "as in founders: 6 or founders: keys(0.5, 0.5, 0)");
         return;
     }
@@ -89,15 +89,15 @@ void check_founders(Workspace& work, const ast::Script& script, const ast::State
     const auto own = std::ranges::find_if(chance->formula.nodes,
                                           [](const Node& node) { return node.is<ItemId>(); });
     if (own != chance->formula.nodes.end()) {
-        work.diagnostics.error(own->span, "a founder has no values before it has a place",
-                               "its chance may depend on the place and on earlier stages");
+        work.diagnostics.error(own->span, "a founder has no values before it has a position",
+                               "its chance may depend on the position and on earlier stages");
         return;
     }
     mark_reads(work, chance->formula, scope.system);
     founders.chance = std::move(chance->formula);
 }
 
-/// `body: e`, whose domain check_cell_stage() knows.
+/// Checks `body: e`. check_cell_stage() checks whether the domain can have a body.
 void check_body(Workspace& work, const ast::Script& script, const ast::Statement& statement,
                 const Scope& scope) {
     auto body = check_number(work, script, statement.values.front(), scope);
@@ -110,13 +110,13 @@ void check_body(Workspace& work, const ast::Script& script, const ast::Statement
     const auto own = std::ranges::find_if(body->formula.nodes, is_of_cells);
     if (own != body->formula.nodes.end()) {
         work.diagnostics.error(own->span,
-                               "a body is there before the cells, and has no values of theirs",
-                               "it may read the place and earlier stages of fields");
+                               "a body is made before the cells, and cannot read their values",
+                               "it may read the position and earlier stages of fields");
         return;
     }
     bool reads_fields = false;
     for (Node& node : body->formula.nodes) {
-        // It is computed in the cells of the grid, not where cells crawl.
+        // The body is computed in the cells of the grid, not at the positions of crawling cells.
         if (const auto* sensed = node.as<SensedItem>()) node.kind = sensed->item;
         reads_fields |= node.is<StageItem>();
     }
@@ -131,8 +131,8 @@ void check_body(Workspace& work, const ast::Script& script, const ast::Statement
     work.draft->stages[*scope.stage].body = std::move(body->formula);
 }
 
-/// The first node of the formulas of a system that senses a stage which does not run before
-/// `stage`; null if there is none.
+/// The first node in a system's formulas that senses a stage which does not run before `stage`;
+/// null if there is none.
 const Node* sensed_too_early(const System& system, std::uint32_t stage) {
     const Node* found = nullptr;
     const auto look = [&](const Formula& formula) {
@@ -151,7 +151,8 @@ const Node* sensed_too_early(const System& system, std::uint32_t stage) {
     return found;
 }
 
-/// Have the cells of a stage a surface: a model, or a body that they or those before them have?
+/// Whether the cells of a stage are on a surface: on a model, or on a body that this stage or an
+/// earlier stage of the same cells gives.
 bool has_surface(const Program& program, std::uint32_t stage) {
     if (program.domain.model || program.domain.surface) return true;
     std::optional<std::uint32_t> of = stage;
@@ -161,7 +162,8 @@ bool has_surface(const Program& program, std::uint32_t stage) {
     return !of || !program.stages[*of].body.nodes.empty();
 }
 
-/// What the rates and rules of cells read of a surface; empty for nothing. A plane has a normal.
+/// The name of a value that the rates or rules of cells read and that exists only on a surface;
+/// empty if there is none. On planes, cells also have a distance and a normal.
 std::string_view read_of_surface(const System& system, bool is_plane) {
     std::string_view found;
     const auto look = [&](const Formula& formula) {
@@ -213,7 +215,7 @@ void fill_cell_time(Workspace& work, std::uint32_t index, const Settings& own,
     check_solver(work, time);
     time.automatic_speed = !is_adaptive(time.solver);
     if (!time.tolerance) time.tolerance = usual_tolerance;
-    // Iterations are the largest number of steps, whatever else ends the stage.
+    // `iterations` is always the largest number of steps, even if something else ends the stage.
     time.duration_in_steps.reset();
     time.duration = own.time.duration ? own.time.duration : defaults.time.duration;
     const auto& most = own.iterations ? own.iterations : defaults.iterations;
@@ -225,7 +227,7 @@ void fill_cell_time(Workspace& work, std::uint32_t index, const Settings& own,
                                "write duration: …, until: steady(0.001) or iterations: …");
     }
     stage.iterations = most.value_or(time.duration ? most_iterations : most_steps_until);
-    if (own.interval || defaults.interval) return;
+    if (own.interval || defaults.interval || time.every > 0) return;
     stage.interval = time.duration ? 0 : std::max<std::int64_t>(1, stage.iterations / 10);
 }
 
@@ -235,6 +237,21 @@ void change_cell_solver(Workspace& work, std::uint32_t index, const TimeSettings
     time.solver_span = asked.solver_span;
     check_solver(work, time);
     time.automatic_speed = !is_adaptive(time.solver);
+}
+
+void take_cell_size(Workspace& work, std::uint32_t index) {
+    Stage& stage = work.draft->stages[index];
+    if (!(stage.cell_size > 0)) return;
+    Formula& radius = stage.items[work.program.systems[stage.system].cells->radius];
+    if (!radius.nodes.empty()) {
+        work.diagnostics.error(radius.nodes.back().span,
+                               "cells start with a radius, r, or with a size, not with both",
+                               "leave one of them out");
+        return;
+    }
+    const Grid& grid = work.program.domain.grid;
+    const double longest = grid.spacing * static_cast<double>(grid.longest_side());
+    radius = {{Node{stage.cell_size / 2 / longest, stage.span}}};
 }
 
 void take_cells(Workspace& work, std::uint32_t index, std::array<Formula, 2> axes) {
@@ -257,7 +274,7 @@ void take_cells(Workspace& work, std::uint32_t index, std::array<Formula, 2> axe
     if (!before) {
         work.diagnostics.error(stage.span,
                                fmt::format("stage '{}' has no cells to start with", stage.name),
-                               "write founders: 6, for cells at random places");
+                               "write founders: 6, for cells at random positions");
         return;
     }
     const CellRules& source = *work.program.system_of(*before).cells;
@@ -286,8 +303,8 @@ void check_cell_stage(Workspace& work, std::uint32_t index) {
     }
     const DomainSettings& domain = work.program.domain;
     if (!stage.body.nodes.empty() && (domain.model || domain.grid.depth == 1)) {
-        work.diagnostics.error(stage.body.nodes.front().span, "a body is one of a grid with slices",
-                               domain.model ? "on a model cells are on its surface"
+        work.diagnostics.error(stage.body.nodes.front().span, "a body needs a grid with slices",
+                               domain.model ? "on a model the cells crawl on its surface"
                                             : "as in domain { grid: 64, 64, 64 }");
     }
     if (!has_surface(work.program, index)) {
@@ -308,8 +325,7 @@ void check_cell_stage(Workspace& work, std::uint32_t index) {
         });
         if (varies == distance.nodes.end()) continue;
         work.diagnostics.error(varies->span, "the distance of 'near' is one number for all cells",
-                               fmt::format("it differs between the cells of stage '{}'",
-                                           stage.name));
+                               fmt::format("it varies among the cells of stage '{}'", stage.name));
     }
 }
 

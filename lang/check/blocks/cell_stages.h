@@ -1,5 +1,5 @@
-// Stages of cells that crawl (internal to the checker): the cells with which they start, what these
-// bring with them, and when the stages end.
+// Checks stages of cells that crawl (internal to the checker): the cells at the start, the values
+// that these cells have from an earlier stage, and the end of the stage.
 #pragma once
 
 #include "lang/check/blocks/check_blocks.h"
@@ -10,23 +10,27 @@
 
 namespace cascade::checking {
 
+/// Makes the `size` of a stage of cells the starting value of their radius.
+void take_cell_size(Workspace& work, std::uint32_t index);
 /// Checks a statement `founders: …`, `remove: e` or `body: e` of a stage of cells.
 void check_cell_setting(Workspace& work, const ast::Script& script, const ast::Statement& statement,
                         const Scope& scope);
 
-/// Reports a solver or an end that a stage of cells cannot have, and fills in the rest of its time.
+/// Sets the settings of time of a stage of cells. Reports a solver, or a setting for the end of the
+/// stage, that such a stage cannot have.
 void fill_cell_time(Workspace& work, std::uint32_t stage, const Settings& own,
                     const Settings& defaults);
-/// The same for a solver that an option asks for.
+/// Gives a stage of cells the solver of the option --solver. Reports a solver that such a stage
+/// cannot have.
 void change_cell_solver(Workspace& work, std::uint32_t stage, const TimeSettings& asked);
 
-/// Gives the items of a stage of cells that have no value yet those of the cells that it goes on
-/// with: place, frame, radius and age. `axes` are the stage's ey and ez, where it has them. Reports
-/// a stage that has no cells.
+/// If a stage of cells continues with the cells of an earlier stage, takes position, frame, radius
+/// and age from that stage, except those that the stage sets itself. `axes` are the stage's ey and
+/// ez. An axis that the stage does not set is empty. Reports a stage that has no cells.
 void take_cells(Workspace& work, std::uint32_t stage, std::array<Formula, 2> axes);
 
-/// Checks what is known with the whole stage: that the fields that its cells sense are of earlier
-/// stages, and that distances of `near` are the same for all cells.
+/// Checks what can be checked only once the whole stage is known: its cells sense only fields of
+/// earlier stages, and distances of `near` are the same for all cells.
 void check_cell_stage(Workspace& work, std::uint32_t stage);
 
 }  // namespace cascade::checking

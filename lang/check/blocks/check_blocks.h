@@ -1,4 +1,5 @@
-// Checks of the blocks of a script (internal to the checker). Each adds to the workspace's program.
+// Checks of the blocks of a script (internal to the checker). Each function adds its results to the
+// workspace's program.
 #pragma once
 
 #include "lang/check/expressions/check_expression.h"
@@ -13,73 +14,72 @@
 
 namespace cascade::checking {
 
-/// Is it the `extent` or the `spacing` of the domain, as `--set extent=4` gives it? It replaces
-/// both of the script. A parameter of that name comes first.
+/// Whether the override changes the `extent` or the `spacing` of the domain, as `--set extent=4`
+/// does. Such an override replaces both settings of the script. If a parameter is called `extent`
+/// or `spacing`, the override changes the parameter.
 bool is_of_domain(const ast::Script& script, const ast::Override& change);
 
-/// The overrides of each stage, in order.
+/// For each stage, the overrides that apply to the stage, in order.
 using StageOverrides = std::vector<std::vector<const ast::Statement*>>;
 
-/// Finds the stages that each override applies to.
+/// Finds the stages to which each override applies.
 StageOverrides distribute_overrides(Workspace& work, const ast::Script& script);
 
-/// Adds the stages of a script, without their systems; `has_cells` says of which names of systems
-/// are blocks of cells.
+/// Adds the stages of a script, without their systems. `has_cells(name)` returns whether the system
+/// of this name is a block of cells.
 void add_stages(Workspace& work, const ast::Script& script,
                 const std::function<bool(std::string_view)>& has_cells);
-/// The stage blocks of a script, up to the largest number that it may have.
+/// The stage blocks of a script, at most as many as a script may have.
 std::vector<const ast::Block*> stage_blocks(const ast::Script& script);
-/// Gives stages their systems, where these are known by now. If all are, reports the unknown ones.
+/// Gives each stage its system if the system has been added. If `all_are_known`, all systems have
+/// been added, so names of other systems are reported.
 void find_systems_of_stages(Workspace& work, const ast::Script& script, bool all_are_known);
-/// Checks all stages of a script, with the overrides and the options for all
-/// stages.
+/// Checks all stages of a script, including overrides and the options that apply to all stages.
 void check_stages(Workspace& work, const ast::Script& script);
 
-/// Checks the sides that the block of system `index` gives its species, added to
-/// those of system `base`, which it is derived from.
+/// Checks the rules for sides that the block of system `index` gives its species. The system gets
+/// these rules and the rules of `base`, the system from which it is derived.
 void check_system_sides(Workspace& work, const ast::Script& script, const ast::Block& block,
                         SystemId index, std::optional<SystemId> base);
 
-/// Checks a statement of the domain about a side, for all species.
+/// Checks a statement of the domain that gives a rule for a side for all species.
 void check_domain_side(Workspace& work, const ast::Script& script, const ast::Statement& statement);
 
-/// Resolves the sides of all stages; systems, stages and the domain must have been
+/// Determines the rules at the sides of all stages. Systems, stages and the domain must have been
 /// checked.
 void check_stage_sides(Workspace& work, const ast::Script& script);
 
-/// Overrides of sides: for each stage, in their order.
+/// For each stage, the overrides of its sides, in order.
 using SideOverrides = std::vector<std::vector<ast::Statement>>;
 SideOverrides distribute_side_overrides(Workspace& work, const ast::Script& script);
 
-/// left, right, top, bottom, front, back or sides.
+/// Whether the word is left, right, top, bottom, front, back or sides.
 bool is_side_word(std::string_view word);
 
-/// The script's only block of this kind, `name` in messages; null if it has none. Reports a second
-/// one.
+/// The script's only block of this kind; null if there is none. Reports a second block. `name` is
+/// the name of the kind in messages.
 const ast::Block* find_block(Workspace& work, const ast::Script& script, ast::BlockKind kind,
                              std::string_view name);
 
-/// Reports rules for sides of a single species in a block that cannot have them.
+/// Reports rules for the sides of single species in a block that cannot contain them.
 void report_sides(Workspace& work, const ast::Block& block);
 
 /// Checks the `domain` block, if there is one, and the options for the domain.
 void check_domain(Workspace& work, const ast::Script& script);
 
-/// True for settings of the domain that belong to a model.
+/// Whether a setting of the domain belongs to a model.
 bool is_model_setting(std::string_view name);
-/// True if `surface:` names a shape, such as sphere, instead of giving three
-/// expressions.
+/// Whether `surface:` names a shape, such as sphere, instead of giving three expressions.
 bool is_model_surface(const ast::Script& script, const ast::Statement& surface);
-/// Checks the settings of a model. Returns false, having reported any of them as
-/// errors, if neither the block nor an option names a model.
+/// Checks the settings of a model. If neither the block nor an option names a model, reports
+/// settings of models as errors and returns false.
 bool check_model(Workspace& work, const ast::Script& script, const ast::Block& domain);
 
-/// Checks the settings of the domain that belong to a surface; the grid must be
-/// known.
+/// Checks the settings of the domain that belong to a surface. The grid must be known.
 void check_surface(Workspace& work, const ast::Script& script, const ast::Block& domain);
 
-/// Checks the `picture` block, if there is one, as read by the last stage that
-/// takes a step; `shapes` are those of check_shapes().
+/// Checks the `picture` block, if there is one. Names in the block refer to the last stage that
+/// takes a step. `shapes` is the result of check_shapes().
 void check_picture(Workspace& work, const ast::Script& script,
                    const std::vector<ShapeForm>& shapes);
 

@@ -1,4 +1,4 @@
-// The `domain` block.
+// Checks the `domain` block.
 #include "core/resample.h"
 #include "ir/multiply_add.h"
 #include "lang/check/blocks/check_blocks.h"
@@ -17,11 +17,13 @@ namespace cascade::checking {
 
 namespace {
 
-constexpr double most_cells = 2147483648.0;  // 2^31: a cell's number fits a 32-bit word.
-constexpr double same_length = 1e-6;         // Relative; what rounding in a script may leave.
-constexpr double least_spacing = 1e-15;      // Its square and inverse square are normal numbers.
+constexpr double most_cells = 2147483648.0;  // 2^31: the number of a cell fits into a 32-bit word.
+constexpr double same_length = 1e-6;     // The relative tolerance for lengths that are rounded in a
+                                         // script.
+constexpr double least_spacing = 1e-15;  // The square and inverse square of this number are normal
+                                         // numbers.
 
-/// The number of cells along one side of the grid; reports errors.
+/// The number of cells along one side of the grid. Reports errors.
 std::optional<double> check_side(Workspace& work, const ast::Script& script,
                                  ast::Expression expression) {
     const auto side = check_constant(work, script, expression, "a side of the grid");
@@ -71,14 +73,14 @@ void check_grid(Workspace& work, const ast::Script& script, const ast::Statement
         std::get_if<ast::Binary>(&script.expressions[statement.values[0].root].node);
     if (statement.values.size() == 1 && product != nullptr && product->op == Function::multiply) {
         work.diagnostics.warning(sides, fmt::format("this is a line of {} cells", counts[0]),
-                                 "commas stand between the sides, as in grid: 128, 128");
+                                 "commas separate the sides, as in grid: 128, 128");
     }
     grid.width = counts[0];
     grid.height = counts[1];
     grid.depth = counts[2];
 }
 
-/// Parses `periodic` or `noflux`; reports errors.
+/// Parses `periodic` or `noflux`. Reports errors.
 std::optional<Boundary> check_boundary_word(Workspace& work, const ast::Script& script,
                                             ast::Expression expression) {
     const ast::Expr& value = script.expressions[expression.root];
@@ -98,7 +100,7 @@ std::optional<Boundary> check_boundary_word(Workspace& work, const ast::Script& 
     return std::nullopt;
 }
 
-/// Sets the boundary: one word for all axes, or one for each.
+/// Sets the boundary from one word for all axes, or from one word for each axis.
 void check_boundary(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
     if (statement.values.size() > 3) {
         work.diagnostics.error(span_of(script, statement.values[3]),
@@ -117,7 +119,7 @@ void check_boundary(Workspace& work, const ast::Script& script, const ast::State
     if (along.size() > 1) target.z = along.size() > 2 ? along[2] : Boundary::periodic;
 }
 
-/// The spacing at which the sides of the grid, which is known, have these lengths.
+/// Sets the spacing so that the sides of the grid have these lengths. The grid must be known.
 void check_extent(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
     Grid& grid = work.draft->domain.grid;
     const std::array sides{grid.width, grid.height, grid.depth};
@@ -144,7 +146,7 @@ void check_extent(Workspace& work, const ast::Script& script, const ast::Stateme
     }
 }
 
-/// The domain consists of the cells in which the mask is not 0.
+/// Sets the mask. The domain consists of the cells in which the mask is not 0.
 void check_mask(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
     if (!has_one_value(work, script, statement)) return;
     Scope scope;
@@ -154,7 +156,7 @@ void check_mask(Workspace& work, const ast::Script& script, const ast::Statement
     work.draft->domain.mask = {std::move(checked->formula), span_of(script, statement.values[0])};
 }
 
-/// Other stencils than the cross need cells in straight rows.
+/// Reports stencils other than the cross if cells are not in straight rows.
 void check_place_of_stencil(Workspace& work, const ast::Block& block) {
     const DomainSettings& domain = work.program.domain;
     if (domain.stencil == StencilKind::cross) return;
@@ -166,13 +168,13 @@ void check_place_of_stencil(Workspace& work, const ast::Block& block) {
             statement.span,
             fmt::format("the stencil {} needs {}",
                         words_taken_by(Setting::stencil)[static_cast<std::size_t>(domain.stencil)],
-                        is_bent ? "cells that are squares, and these lie on a surface"
+                        is_bent ? "square cells, and these lie on a surface"
                                 : "all cells of the grid, and the domain has a mask"),
             "stencil: cross works there");
     }
 }
 
-/// --fast has no effect on a processor without a multiply-add instruction.
+/// Applies --fast. It has no effect on a processor without a multiply-add instruction.
 void check_fast(Workspace& work, const ast::Statement& option) {
     work.draft->domain.fast = has_multiply_add();
     if (work.program.domain.fast) return;
@@ -181,7 +183,8 @@ void check_fast(Workspace& work, const ast::Statement& option) {
                              "--fast changes nothing");
 }
 
-/// Divides the cells of a domain that is complete: `detail: 2` halves their sides.
+/// Divides the cells of a domain whose other settings have been checked. `detail: 2` halves the
+/// sides of cells.
 void check_detail(Workspace& work, const ast::Script& script, const ast::Statement& option) {
     const auto detail = check_constant(work, script, option.values[0], "detail");
     if (!detail) return;
@@ -195,7 +198,7 @@ void check_detail(Workspace& work, const ast::Script& script, const ast::Stateme
     } else {
         const bool has_metric = domain.surface && domain.surface->has_metric;
         domain.grid = finer_grid(domain.grid, domain.detail);
-        if (has_metric) domain.grid.spacing = 1;  // Areas of cells are those of the metric.
+        if (has_metric) domain.grid.spacing = 1;  // The areas of cells then come from the metric.
         cells = static_cast<double>(domain.grid.width) * static_cast<double>(domain.grid.height) *
                 static_cast<double>(domain.grid.depth);
     }
@@ -205,8 +208,8 @@ void check_detail(Workspace& work, const ast::Script& script, const ast::Stateme
                            fmt::format("the most are {:.0f}", most));
 }
 
-/// Joins the cells of a domain that is complete, for stages on a coarser grid. Its sides are
-/// multiples of the number.
+/// Joins cells of a domain whose other settings have been checked, for stages on a coarser grid.
+/// The number of cells along each side must be a multiple of `coarse`.
 void check_coarse_domain(Workspace& work, const ast::Script& script, const ast::Statement& option) {
     const auto times = check_constant(work, script, option.values[0], "coarse");
     if (!times) return;
@@ -247,11 +250,11 @@ void check_domain_statement(Workspace& work, const ast::Script& script,
         case Setting::spacing:
             return put(domain.grid.spacing, read_number(work, script, statement));
         case Setting::extent:
-        case Setting::mask: return;  // After the grid and its lengths: see check_domain().
+        case Setting::mask: return;  // Checked after the grid and its lengths, in check_domain().
         case Setting::seed: return put(domain.seed, read_number(work, script, statement));
         case Setting::stencil: return put(domain.stencil, read_word(work, script, statement));
         case Setting::precision: return put(domain.precision, read_word(work, script, statement));
-        default: return;  // Settings of surfaces and models: see check_domain().
+        default: return;  // Settings of surfaces and models, checked in check_domain().
     }
 }
 

@@ -1,4 +1,5 @@
-// The settings of a domain that is a model: mesh, cells, laplacian, unit, and surfaces by name.
+// Checks the settings of a domain that is a model: mesh, cells, laplacian, unit, and named
+// surfaces.
 #include "lang/check/blocks/check_blocks.h"
 #include "lang/check/expressions/check_directions.h"
 #include "lang/check/expressions/setting_words.h"
@@ -17,18 +18,19 @@ namespace cascade::checking {
 
 namespace {
 
-/// What a surface takes in brackets; the others stand alone.
+/// The arguments that a surface takes in brackets. Surfaces that are not in this table take none.
 struct ShapeSizes {
     ModelShape shape;
     std::size_t most;
-    std::string_view arguments;  ///< In messages.
+    std::string_view arguments;  ///< Their description in messages.
     std::string_view example;
 };
 constexpr std::array<ShapeSizes, 4> shape_sizes{{
     {ModelShape::torus, 2, "its two radii", "torus(1, 0.4)"},
     {ModelShape::box, 3, "its three sides", "box(1, 1, 2)"},
     {ModelShape::knot, 1, "the radius of its tube", "knot(0.4)"},
-    {ModelShape::implicit, 1, "an expression of x, y and z, and perhaps half the side of its box",
+    {ModelShape::implicit, 1,
+     "an expression of x, y and z, and optionally half the side of its box",
      "implicit(1 - x^2 - y^2 - z^2)"},
 }};
 
@@ -43,8 +45,8 @@ std::optional<ModelShape> shape_of(std::string_view word) {
     return word == word_of(ModelShape::implicit) ? ModelShape::implicit : shape_named(word);
 }
 
-/// The statement of a block that names a surface; null if there is none. Another one, which is
-/// wrong, may come before it.
+/// The statement of a block that names a surface; null if there is none. A wrong statement for the
+/// same setting may come before it.
 const ast::Statement* model_surface_of(const ast::Script& script, const ast::Block& domain) {
     for (const ast::Statement& statement : domain.statements) {
         if (statement.name.text == "surface" && is_model_surface(script, statement))
@@ -61,7 +63,7 @@ const ast::Statement* model_of(const ast::Script& script, const ast::Block& doma
     return model_surface_of(script, domain);
 }
 
-/// The statement of --mesh, which names a file or a shape; null if it was not given.
+/// The statement of --mesh, which names a file or a shape; null if the option is not given.
 const ast::Statement* model_option(const ast::Script& script) {
     const ast::Statement* mesh = find_option(script, "mesh");
     return mesh != nullptr ? mesh : find_option(script, "surface");
@@ -85,8 +87,8 @@ public:
             check_named(mesh != nullptr ? *mesh : *surface);
         }
         if (!model_) return;
-        // A unit refers to the surface that the script has without --mesh, and how a model stands
-        // to the script's own model.
+        // `unit`, and the settings that turn a model, refer to the surface or model of the script,
+        // not to the model of --mesh.
         const bool is_own = option_ == nullptr;
         if (const auto* cells = find("cells")) check_cells(*cells);
         if (const auto* laplacian = find("laplacian")) {
@@ -116,7 +118,7 @@ private:
         return nullptr;
     }
 
-    /// Reports a setting of a grid, which a model does not have.
+    /// Reports a setting that only grids have.
     void refuse(const ast::Statement& statement) {
         const std::string_view word = statement.name.text;
         const auto setting = setting_named(word);
@@ -131,7 +133,7 @@ private:
                                     : "it ends where its surface ends, and nothing flows out");
     }
 
-    /// Drops what the script says about the borders of the plane that --mesh replaces.
+    /// Drops the script's rules for the sides of a plane that --mesh replaces by a model.
     void leave_borders() {
         const DomainSettings& domain = work_.program.domain;
         if (domain.mask) {
@@ -146,7 +148,7 @@ private:
         }
     }
 
-    /// Resets the domain to the defaults of a model, except for seed and precision.
+    /// Resets the domain to the defaults of a model. Keeps seed and precision.
     void take_model() {
         DomainSettings& domain = work_.draft->domain;
         domain.grid = rows_of_cells(model_->count);
@@ -227,7 +229,7 @@ private:
         }
         if (model.shape == ModelShape::torus && !model.sizes.empty() &&
             model.sizes[1] >= model.sizes[0]) {
-            work_.diagnostics.error(value.span, "the tube of a torus is thinner than its ring",
+            work_.diagnostics.error(value.span, "the tube of a torus must be thinner than its ring",
                                     "surface: torus(1, 0.4)");
             return;
         }
@@ -301,7 +303,7 @@ private:
     Workspace& work_;
     const ast::Script& script_;
     const ast::Block& domain_;
-    const ast::Statement* option_;  ///< The option that names the model; null if the block does.
+    const ast::Statement* option_;  ///< The option that names the model; null if a block does.
     std::optional<ModelSettings> model_;
 };
 

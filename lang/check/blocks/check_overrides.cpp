@@ -1,4 +1,4 @@
-// Overrides from outside the script: options, and the stages that each --set applies to.
+// Overrides from outside the script: options, and the stages to which each --set applies.
 #include "lang/check/blocks/check_blocks.h"
 #include "lang/check/expressions/setting_words.h"
 #include "lang/check/expressions/user_functions.h"
@@ -29,7 +29,7 @@ bool is_of_domain(const ast::Script& script, const ast::Override& change) {
 
 namespace {
 
-/// What the command line has for a setting of the domain; empty for other words.
+/// The command-line option that changes this setting of the domain; empty for other words.
 std::string option_for(const ast::Script& script, std::string_view name,
                        const ast::Statement& statement) {
     if (name == "grid") {
@@ -52,14 +52,15 @@ bool is_of_constant(Workspace& work, const ast::Script& script, const ast::Overr
            functions_of(work, script).find_constant(statement->name.text) != nullptr;
 }
 
-/// True if the statement can set something in this stage.
+/// Whether the statement can set a value in this stage.
 bool has_name(const Workspace& work, const Stage& stage, const ast::Statement& statement) {
     if (stage.system == unknown_system) return true;
     const std::string_view name = statement.name.text;
     if (!statement.index.empty()) return has_family(work.program.systems[stage.system], name);
     if (reserved(name) != Reserved::no) return true;
     const bool has_cells = work.program.systems[stage.system].cells.has_value();
-    if (is_setting_of(has_cells ? SettingBlock::cell_stage : SettingBlock::field_stage, name)) {
+    if (is_setting_of(has_cells ? SettingBlock::cell_stage : SettingBlock::field_stage, name) ||
+        name == "size") {
         return true;
     }
     return find(work.names[stage.system], name) != nullptr;
@@ -120,7 +121,8 @@ void report_unknown_stage(Workspace& work, const ast::Script& script, const ast:
                            std::move(hint));
 }
 
-/// `--set gray_scott.feed=…` with the name of a system, not of a stage: sets it in all its stages.
+/// Applies an override such as `--set gray_scott.feed=…`, which names a system instead of a stage,
+/// to all stages of the system.
 bool set_in_stages_of_system(const Workspace& work, std::string_view system,
                              const ast::Statement* statement, StageOverrides& result) {
     bool used = false;
@@ -138,7 +140,7 @@ bool is_system(const Workspace& work, std::string_view name) {
                        [&](const System& system) { return system.name == name; });
 }
 
-/// True if the stage has a species or a definition, or a family of them, with the statement's name.
+/// Whether the stage has a species or a definition, or a family of them, with the statement's name.
 bool has_subject(const Workspace& work, const Stage& stage, const ast::Statement& statement) {
     if (stage.system == unknown_system) return false;
     const System& system = work.program.systems[stage.system];
@@ -156,13 +158,14 @@ bool has_subject(const Workspace& work, const Stage& stage, const ast::Statement
            });
 }
 
-/// An override of a side; `stage` is empty if it applies to all stages with the species.
+/// An override of a side. `stage` is empty if the override applies to all stages with the species.
 struct SideChange {
     ast::Word stage;
     ast::Statement statement;
 };
 
-/// The override as one of a side, if it is one: u.left is if no stage and no system is called u.
+/// The change as an override of a side; empty if it is none. `u.left` is a side of u if no stage
+/// and no system is called u.
 std::optional<SideChange> as_side(const Workspace& work, const ast::Override& change) {
     if (!change.statement.side.empty()) return SideChange{change.stage, change.statement};
     const bool may_be = !change.stage.empty() && change.statement.index.empty() &&
@@ -205,7 +208,8 @@ SideOverrides distribute_side_overrides(Workspace& work, const ast::Script& scri
                                        work.program.systems[stage.system].name == side->stage.text;
             const bool is_named = stage.name == side->stage.text || is_its_system;
             is_stage |= is_named;
-            // If a stage that was named lacks the species, that is reported with its other sides.
+            // If the override names a stage that lacks the species, the error is reported when the
+            // sides of this stage are checked.
             if (side->stage.empty() ? !has_subject(work, stage, statement) : !is_named) continue;
             result[k].push_back(statement);
             is_used = true;

@@ -1,5 +1,5 @@
-// The `picture` block: a colour and, for fields, a material; for cells that crawl, their shape and
-// its measures.
+// Checks the `picture` block: the colour, the material of fields, and the shape of cells that crawl
+// with its quantities.
 #include "lang/check/blocks/check_blocks.h"
 #include "lang/check/expressions/read_setting.h"
 #include "lang/check/names/unknown_names.h"
@@ -61,7 +61,7 @@ public:
 private:
     bool knows_stage() const { return scope_.system != unknown_system; }
     bool shows_cells() const {
-        if (!knows_stage()) return true;  // It has been reported.
+        if (!knows_stage()) return true;  // An error was reported before.
         return work_.program.systems[scope_.system].cells.has_value();
     }
     static bool is_material(Setting setting) {
@@ -73,17 +73,18 @@ private:
         if (!knows_stage() || !shows_cells()) return true;
         work_.diagnostics.error(
             name.span, fmt::format("'{}' is for pictures of fields", name.text),
-            fmt::format("stage '{}', which the picture shows, is one of cells that crawl",
+            fmt::format("stage '{}', which the picture shows, consists of cells that crawl",
                         work_.program.stages[*scope_.stage].name));
         return false;
     }
 
-    /// On a model, which --mesh may have put in place of a volume, it means nothing.
+    /// Checks the body. It has no meaning on a model, which may replace the script's volume because
+    /// of --mesh.
     void check_body(const ast::Statement& statement) {
         if (!are_fields(statement.name)) return;
         const DomainSettings& domain = work_.program.domain;
         if (domain.grid.depth == 1 && !domain.model) {
-            work_.diagnostics.error(statement.name.span, "a body is one of a grid with slices",
+            work_.diagnostics.error(statement.name.span, "a body needs a grid with slices",
                                     "domain { grid: 64, 64, 64 }");
             return;
         }
@@ -97,7 +98,8 @@ private:
     }
 
     void report_no_setting(const ast::Word& name) {
-        // A shape with errors has been reported; it may have a quantity of this name.
+        // If the shape has errors, they have been reported, and a quantity of this name may be
+        // missing because of them.
         if (!knows_shape()) return;
         std::vector<std::string> known = settings_of({SettingBlock::picture});
         if (shape() != nullptr) {
@@ -114,13 +116,14 @@ private:
     }
 
     void report_no_cells(const ast::Word& name) {
-        work_.diagnostics.error(name.span,
-                                fmt::format("'{}' is for pictures of cells that crawl", name.text),
-                                fmt::format("stage '{}', which the picture shows, is one of fields",
-                                            work_.program.stages[*scope_.stage].name));
+        work_.diagnostics.error(
+            name.span, fmt::format("'{}' is for pictures of cells that crawl", name.text),
+            fmt::format("stage '{}', which the picture shows, consists of fields",
+                        work_.program.stages[*scope_.stage].name));
     }
 
-    /// The skin is that of the surface, on which cells of fields are.
+    /// Checks the skin, the colour of the surface below the cells. Names in it refer to the last
+    /// stage of fields.
     void check_skin(const ast::Statement& statement) {
         Scope scope = scope_;
         const bool knows_systems =
@@ -164,7 +167,7 @@ private:
         }
     }
 
-    /// The word after `shape:`; empty if there is none.
+    /// The word after `shape:`. Empty if the block has no such setting.
     std::string_view said_shape() const {
         const auto said = picture_expression(script_, "shape");
         const auto* const name =

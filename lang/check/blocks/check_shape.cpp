@@ -1,5 +1,5 @@
-// Shapes are checked as small systems of their own: t, s and the number of the part are their first
-// quantities, and some of their definitions have a meaning.
+// Checks each shape as a small system. Its first quantities are t, s and the number of the part.
+// Some of its definitions have a fixed meaning.
 #include "lang/check/blocks/check_shape.h"
 
 #include "core/check.h"
@@ -28,7 +28,7 @@ namespace {
 
 constexpr std::array<const char*, ShapeForm::known_count> known_names{"t", "s", "part"};
 
-/// What a definition of a certain name is for.
+/// A definition with a fixed meaning.
 struct Meant {
     const char* name;
     Formula ShapeForm::*formula;
@@ -51,7 +51,7 @@ public:
     ShapeChecker(Workspace& work, const DerivedSystem& derived, SystemId index)
         : work_(work), derived_(derived), index_(index) {}
 
-    /// Nothing if there is an error in it.
+    /// Returns the shape. Empty if the shape has an error.
     std::optional<ShapeForm> run();
 
 private:
@@ -139,7 +139,7 @@ void ShapeChecker::check_quantity(ItemId item, const Declaration& declaration) {
     form_.usual[item.index()] = value.value_or(0);
 }
 
-/// A definition with all that it reads in one formula.
+/// The formula of a definition, with the definitions that it reads expanded.
 Formula ShapeChecker::whole(DefinitionId definition) {
     ExpressionGraph graph;
     Flattening flattening(graph);
@@ -167,7 +167,7 @@ void ShapeChecker::check_meant() {
     const bool is_tube = !form_.radius.nodes.empty() || !form_.middle.nodes.empty();
     if (!form_.place.nodes.empty() && is_tube) {
         work_.diagnostics.error(form_.span,
-                                fmt::format("shape '{}' says its places twice", form_.name),
+                                fmt::format("shape '{}' gives its positions twice", form_.name),
                                 "by place = …, or by radius = … and middle = …");
     } else if (form_.place.nodes.empty() && form_.radius.nodes.empty()) {
         work_.diagnostics.error(form_.span, fmt::format("shape '{}' has no radius", form_.name),
@@ -224,7 +224,7 @@ std::vector<SystemBlock> blocks_of(const ast::Script& script,
     return blocks;
 }
 
-/// Adds an empty system for a shape; reports a second one of its name.
+/// Adds an empty system for a shape. Reports a second shape of the same name.
 SystemId add_system(Workspace& work, const SystemBlock& from) {
     System system;
     system.name = std::string(from.block->name.text);
@@ -246,7 +246,7 @@ SystemId add_system(Workspace& work, const SystemBlock& from) {
     return index;
 }
 
-/// The shapes that a script may look up in the library.
+/// The names of shapes that may refer to the library.
 std::vector<std::string_view> shapes_wanted(const ast::Script& script) {
     std::vector<std::string_view> own, wanted;
     for (const ast::Block& block : script.blocks) {
@@ -265,12 +265,12 @@ std::vector<std::string_view> shapes_wanted(const ast::Script& script) {
 
 }  // namespace
 
-/// The sound shapes of a script and of some texts of the library.
+/// The shapes of a script, and of the texts `library`, that have no errors.
 std::vector<ShapeForm> checked_shapes(Workspace& work, const ast::Script& script,
                                       const std::vector<LibraryScript>& library) {
     const std::vector<SystemBlock> blocks = blocks_of(script, library);
     if (blocks.empty()) return {};
-    functions_of(work, script);  // Mistakes in functions are reported once.
+    functions_of(work, script);  // Reports mistakes in functions once.
     Program program;
     Workspace own{program, work.diagnostics, {}, {}, {}, {}, {}, 0};
     own.draft = &program;

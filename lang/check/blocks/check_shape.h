@@ -14,14 +14,15 @@ namespace cascade::checking {
 
 struct Workspace;
 
-/// Checks the shapes of a script and those of the library that it names: the sound ones, library
-/// shapes first.
+/// Checks the shapes of a script and the library shapes that the script names. Returns the shapes
+/// without errors, library shapes first.
 std::vector<ShapeForm> check_shapes(Workspace& work, const ast::Script& script, Sources& sources);
 
-/// The same with these texts of the library.
+/// Checks the shapes of a script and the shapes in `library`. Returns the shapes without errors.
 std::vector<ShapeForm> checked_shapes(Workspace& work, const ast::Script& script,
                                       const std::vector<LibraryScript>& library);
-/// The shape of a name; null if there is none. One of the script hides one of the library.
+/// The shape of this name; null if there is none. A shape of the script takes precedence over a
+/// library shape of the same name.
 const ShapeForm* find_shape(const std::vector<ShapeForm>& shapes, std::string_view name);
 
 }  // namespace cascade::checking

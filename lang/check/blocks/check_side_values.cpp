@@ -1,4 +1,5 @@
-// Checks what the sides of stages mean once systems are known: their diffusion and definitions.
+// Checks rules at the sides of stages. They depend on diffusion and definitions, so systems must
+// have been checked.
 #include "lang/check/blocks/check_side_values.h"
 
 #include "lang/calculus/algebra.h"
@@ -50,7 +51,7 @@ private:
         return fmt::format("{}.{}", name(species), side_names[static_cast<std::size_t>(side)]);
     }
 
-    /// A rule of a system or of the domain holds in many stages, but is reported once.
+    /// Reports an error once, although a rule of a system or of the domain applies to many stages.
     bool report(Span span, std::string message, std::string hint) {
         if (std::ranges::find(reported_, span) == reported_.end()) {
             reported_.push_back(span);
@@ -76,11 +77,11 @@ private:
             const Node* beyond = beyond_reach_of_side(system(), whole);
             if (beyond == nullptr && !holds_in(whole, is_draw)) continue;
             return report(node.span,
-                          fmt::format("'{}' has no value at a side, for it holds {}",
+                          fmt::format("'{}' has no value at a side, because it contains {}",
                                       definition.name,
                                       beyond == nullptr ? std::string_view("random numbers")
                                                         : info(beyond->function).spelling),
-                          "a side knows the cells beside it, not their neighbours");
+                          "a side reads the cells beside it, but not their neighbours");
         }
         return true;
     }
@@ -96,7 +97,8 @@ private:
         return differs[NodeId(formula.nodes.size() - 1)];
     }
 
-    /// A definition with sides is kept in a plane, whose halo is filled from these alone.
+    /// Checks a definition that has rules at sides. The definition is stored in a plane, and its
+    /// halo is filled only by these rules.
     bool check_definition(const DefinitionSides& sides) {
         const Definition& definition = system().definitions[sides.definition];
         const Formula whole = without_definitions(system(), definition.formula);
@@ -105,7 +107,7 @@ private:
             const Node& root = whole.nodes.back();
             if (!root.is<Call>() || reads_file(root.function)) {
                 return report(setting.span,
-                              fmt::format("'{}' has no side of its own, for it is only another "
+                              fmt::format("'{}' has no side of its own, because it is only another "
                                           "name",
                                           definition.name),
                               is_species(system(), root)
@@ -115,12 +117,12 @@ private:
             }
             if (!differs_by_cell(whole)) {
                 return report(setting.span,
-                              fmt::format("'{}' is the same in all cells, so no operator sees a "
+                              fmt::format("'{}' is the same in all cells, so no operator reads a "
                                           "side of it",
                                           definition.name),
                               "");
             }
-            const bool is_solved = root.calls(Function::solved);  // Its constraint reads it.
+            const bool is_solved = root.calls(Function::solved);  // Its constraint reads the field.
             if (!is_solved && !is_read_beside(system(), sides.definition)) {
                 return report(setting.span,
                               fmt::format("no operator reads '{}', so a side of it has no effect",
@@ -143,7 +145,8 @@ private:
         return true;
     }
 
-    /// Differences of differences are mirrored at sides, which is right where the species are.
+    /// Reports a nested difference if it is mirrored at a side at which a species in it is not
+    /// mirrored.
     void check_reach() {
         const auto check = [&](const SideSettings& sides) {
             for (const SideSetting& setting : sides) {
@@ -167,13 +170,14 @@ private:
                       "put them into a parameter: name: random(…)");
     }
 
-    /// It is computed with the rates, from what has a value in a cell.
+    /// Checks a rule at the border of a mask. The value of the rule is computed together with the
+    /// rates, so it may read only values in cells.
     bool check_border(const SideSetting& setting) {
         if (!takes_value(setting.kind)) return true;
         const auto& surface = program_.domain.surface;
         if (surface && surface->has_metric && setting.kind != SideKind::fixed) {
             return report(setting.span, "on a surface a border is noflux or fixed(…)",
-                          "slope(…) and flux(…) need cells that are squares");
+                          "slope(…) and flux(…) need square cells");
         }
         const Formula whole = without_definitions(system(), setting.value);
         const auto found = std::ranges::find_if(whole.nodes, [](const Node& node) {
@@ -182,7 +186,7 @@ private:
         });
         if (found == whole.nodes.end()) return true;
         return report(setting.span,
-                      fmt::format("the value at a border cannot hold {}",
+                      fmt::format("the value at a border cannot contain {}",
                                   info(found->function).spelling),
                       "it can read a parameter that does: name: …");
     }
@@ -192,14 +196,14 @@ private:
         if (diffusion_.empty()) diffusion_ = diffusion_of(program_, stage_);
         const Conductivity found = conductivity_at(system(), diffusion_, species, side);
         if (found.factor) return true;
-        // The domain's rule is for all species, also for those that stay where they are.
+        // A rule of the domain applies to all species, even to species that never change.
         const auto& of_all = program_.domain.sides[static_cast<std::size_t>(side)];
         const bool is_of_all = of_all && of_all->span == setting.span;
         if (is_of_all && !is_read_beside(system(), system().species()[species])) return true;
         return report(setting.span,
-                      fmt::format("no flux of {0} can be given: {0} {1}", name(species),
+                      fmt::format("the flux of {0} cannot be given, because {0} {1}", name(species),
                                   found.why_not),
-                      "slope(…) is the derivative along the outward normal, whatever the rate");
+                      "slope(…) gives the derivative along the outward normal, for any rate");
     }
 
     bool check_coupling(SpeciesId species, Side side, const SideSetting& setting) {
@@ -238,7 +242,7 @@ private:
                 if (!holds_in(settings[own][side].value, reads)) continue;
                 const std::string what =
                     is_in_turn ? "steps one species after the other, so it cannot follow"
-                               : "takes the sides as they are between two steps, so it cannot "
+                               : "reads sides between steps only, so it cannot "
                                  "follow";
                 diagnostics_.error(time.solver_span,
                                    fmt::format("stage '{}': {} {} {}, which reads species",

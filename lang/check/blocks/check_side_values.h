@@ -1,4 +1,5 @@
-// Whether the values of sides can be computed whenever the rates are (internal to the checker).
+// Checks that the values at sides can be computed each time the rates are computed (internal to the
+// checker).
 #pragma once
 
 #include "core/diagnostics.h"
@@ -6,8 +7,9 @@
 
 namespace cascade::checking {
 
-/// Reports fluxes that no diffusion carries, values of sides that need other cells, and solvers
-/// that cannot follow a side. The program must be free of errors otherwise.
+/// Reports three errors: a flux of a species that does not diffuse, a value at a side that needs
+/// cells away from the side, and a solver that cannot evaluate a rule at a side. The program must
+/// have no other errors.
 void check_side_values(const Program& program, Diagnostics& diagnostics);
 
 }  // namespace cascade::checking

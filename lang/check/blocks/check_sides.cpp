@@ -1,5 +1,5 @@
-// The rules at the sides of the grid: combines those of the domain, the system and the stage, and
-// checks that they are compatible.
+// The rules at the sides of the grid. Combines the rules of the domain, the system and the stage,
+// and checks that they are compatible.
 #include "lang/check/blocks/check_blocks.h"
 #include "lang/check/blocks/side_rules.h"
 #include "lang/vocabulary/settings.h"
@@ -17,7 +17,7 @@ namespace cascade::checking {
 
 namespace {
 
-/// What the boundary says; nothing flows through the border of a mask.
+/// The rules that `boundary` gives. At the border of a mask there is no flux.
 SideSettings sides_of_boundary(const DomainSettings& domain) {
     SideSettings sides;
     const SideRules boundary(domain.grid.boundary);
@@ -25,7 +25,7 @@ SideSettings sides_of_boundary(const DomainSettings& domain) {
     return sides;
 }
 
-/// The rules for species without rules of their own.
+/// The rules of the domain, which apply to species that set none.
 SideSettings sides_of_domain(const DomainSettings& domain) {
     SideSettings sides = sides_of_boundary(domain);
     for (std::size_t side = 0; side < wall_count; ++side) {
@@ -34,7 +34,8 @@ SideSettings sides_of_domain(const DomainSettings& domain) {
     return sides;
 }
 
-/// Both sides of an axis are periodic, or neither is. Reports an error and returns false otherwise.
+/// Checks that either both sides of an axis are periodic or neither. Otherwise reports an error and
+/// returns false.
 bool are_pairs(Workspace& work, const SideSettings& sides) {
     for (std::size_t side = 0; side < side_count; side += 2) {
         const bool first = sides[side].kind == SideKind::periodic;
@@ -42,7 +43,8 @@ bool are_pairs(Workspace& work, const SideSettings& sides) {
         if (first == second) continue;
         const std::size_t other = first ? side + 1 : side;
         const std::size_t periodic = first ? side : side + 1;
-        // The rule of the species, if one of them has one; else that of the domain.
+        // Points to the species' own rule for one of the two sides if there is one, else to the
+        // domain's rule.
         const Span span = sides[other].span.end > 0 ? sides[other].span : sides[periodic].span;
         work.diagnostics.error(
             span,
@@ -56,9 +58,10 @@ bool are_pairs(Workspace& work, const SideSettings& sides) {
     return true;
 }
 
-/// With a mask, the cell beyond a periodic side also depends on the mask, and there is one mask for
-/// all species. A definition is periodic where all species in it are. Reports an error and returns
-/// false if a species differs from the domain in what is periodic.
+/// Checks, if there is a mask, that a species is periodic at the same sides as the domain. The
+/// reason is that the cell beyond a periodic side depends on the mask, and all species share one
+/// mask. A definition is periodic where all species in it are. Otherwise reports an error and
+/// returns false.
 bool are_periodic_as_boundary(Workspace& work, const SideSettings& sides, std::string_view where) {
     const SideRules boundary(work.program.domain.grid.boundary);
     for (std::size_t side = 0; side < side_count; ++side) {
@@ -73,8 +76,8 @@ bool are_periodic_as_boundary(Workspace& work, const SideSettings& sides, std::s
     return true;
 }
 
-/// Those of a definition, which are added if it has none. Mirrored or periodic where nothing else
-/// is said.
+/// The rules of a definition. If the definition has no rules, adds rules that are periodic or
+/// mirrored, depending on the boundary.
 SideSettings& sides_of_definition(const DomainSettings& domain, Stage& stage,
                                   DefinitionId definition) {
     auto& all = stage.definition_sides;
@@ -140,8 +143,9 @@ void resolve(Workspace& work, Stage& stage, const std::vector<SubjectSide>& own)
     }
 }
 
-/// Makes a rule of `from` one of a system derived from it, in which names have other numbers and
-/// may mean something else. Reports an error and returns false if it cannot be computed there.
+/// Converts a rule of system `from` to a rule of the system `derived` from it, in which names have
+/// other ids and may have other meanings. Reports an error and returns false if the rule cannot be
+/// computed in the derived system.
 bool take_over(Workspace& work, const System& from, SystemId derived, SubjectSide& side) {
     const System& system = work.program.systems[derived];
     for (Node& node : side.setting.value.nodes) {
@@ -167,7 +171,7 @@ bool is_side_word(std::string_view word) { return is_setting_of(SettingBlock::si
 
 void check_system_sides(Workspace& work, const ast::Script& script, const ast::Block& block,
                         SystemId index, std::optional<SystemId> base) {
-    if (index == unknown_system) return;  // It had errors and was not added.
+    if (index == unknown_system) return;  // The system had errors and was not added.
     Scope scope;
     scope.system = index;
     System& system = work.draft->systems[index];
@@ -202,7 +206,8 @@ void check_domain_side(Workspace& work, const ast::Script& script,
     if (written->value) {
         const auto value =
             check_constant(work, script, *written->value, "the value of a side of all species");
-        // After an error, which has been reported, the kind still applies.
+        // If the value had an error, the error has been reported, and the rule's kind still
+        // applies.
         setting.value = {{Node{value.value_or(0), statement.span}}};
     }
     const bool is_for_all = statement.name.text == "sides";
@@ -228,7 +233,7 @@ void check_stage_sides(Workspace& work, const ast::Script& script) {
         ++index;
         if (stage.system == unknown_system) continue;
         std::vector<SubjectSide> rules = read_side_rules(work, script, scope, block.sides);
-        // Overrides come last, and the last one wins.
+        // Overrides come last. The last override has priority.
         for (const ast::Statement& change : overrides[index - 1]) {
             for (SubjectSide& rule : read_side_rules(work, script, scope, std::span(&change, 1))) {
                 rules.push_back(std::move(rule));

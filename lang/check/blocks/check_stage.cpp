@@ -1,4 +1,4 @@
-// Stages: checks each statement, fills in defaults, orders the items, and finds the uniform ones.
+// Checks stages: their statements, defaults, the order of their items, and the uniform items.
 #include "lang/check/blocks/cell_stages.h"
 #include "lang/check/blocks/check_blocks.h"
 #include "lang/check/systems/check_systems.h"
@@ -22,11 +22,12 @@ namespace cascade::checking {
 
 namespace {
 
-/// The most nodes of defaults, which are copied into every stage; it bounds the memory of a check.
+/// The largest number of nodes in defaults, which are copied into every stage. This limits the
+/// memory that a check needs.
 constexpr std::size_t most_copied_nodes = 8u << 20;
 
-/// Advice that has the number of the statement in place of its example: "write 'speed: 0.5'" for
-/// `dt: 0.5`.
+/// The advice with the statement's number in place of the example's number: "write 'speed: 0.5'"
+/// for `dt: 0.5`.
 std::string with_number(std::string advice, const ast::Expr& value) {
     const auto* const number = std::get_if<ast::Number>(&value.node);
     const std::size_t colon = advice.rfind(": ");
@@ -43,8 +44,8 @@ public:
                  std::size_t& copied)
         : work_(work), script_(script), index_(index), copied_(copied) {}
 
-    /// `overrides` come from outside the script; the last of equal names counts. `asked` has the
-    /// options for the time of every stage.
+    /// `overrides` come from outside the script. If several have the same name, the last applies.
+    /// `asked` contains the options that set the time of every stage.
     void run(const ast::Block& block, const std::vector<const ast::Statement*>& overrides,
              const TimeSettings& asked);
 
@@ -78,10 +79,10 @@ private:
     std::size_t& copied_;
     Settings settings_;
     IdVector<ItemId, bool> from_system_;
-    std::array<Formula, 2> axes_;  ///< Of cells: ey and ez at the start.
+    std::array<Formula, 2> axes_;  ///< For cells: ey and ez at the start.
 };
 
-/// If the system is unknown, so are its families.
+/// If the system is unknown, its families are unknown, too.
 std::vector<Declaration> StageChecker::declarations_of(const ast::Statement& statement) {
     if (stage().system != unknown_system) {
         return stage_declarations(work_, system(), script_, statement);
@@ -101,7 +102,7 @@ std::vector<Declaration> StageChecker::collect(
         const auto [first, is_new] = positions.try_emplace(declaration.name, declarations.size());
         if (is_new) return declarations.push_back(std::move(declaration));
         Declaration& before = declarations[first->second];
-        // u[2]: … overrides u[i]: …; of two overrides the last one counts.
+        // u[2]: … overrides u[i]: …. If there are two overrides, the last applies.
         const bool replaces = from_outside || before.indices.size() > declaration.indices.size();
         const bool is_replaced =
             !from_outside && before.indices.size() < declaration.indices.size();
@@ -124,7 +125,7 @@ std::vector<Declaration> StageChecker::collect(
         }
         if (statement.range) {
             work_.diagnostics.error(statement.range->span,
-                                    "the range of a parameter stands in "
+                                    "the range of a parameter belongs in "
                                     "its system");
         }
         for (Declaration& declaration : declarations_of(*value)) add(std::move(declaration), false);
@@ -142,7 +143,7 @@ void StageChecker::run(const ast::Block& block, const std::vector<const ast::Sta
     if (stage().system == unknown_system) return;
     stage().items.resize(system().item_count());
     from_system_.assign(system().item_count(), false);
-    // An end from outside the script replaces the script's, whether it is `iterations` or
+    // An end from outside the script replaces the script's end. Either may be `iterations` or
     // `duration`.
     const SourceId own_source = stage().span.source;
     const auto is_end = [&](const Declaration& declaration, bool from_outside) {
@@ -151,7 +152,8 @@ void StageChecker::run(const ast::Block& block, const std::vector<const ast::Sta
     };
     const bool has_new_end = std::any_of(declarations.begin(), declarations.end(),
                                          [&](const auto& each) { return is_end(each, true); });
-    // What other values may read depends on whether there are founders.
+    // Founders are set first, because the names that other values may read depend on whether there
+    // are founders.
     for (const bool is_first : {true, false}) {
         for (const Declaration& declaration : declarations) {
             if ((declaration.name == "founders") != is_first) continue;
@@ -175,7 +177,7 @@ void StageChecker::run(const ast::Block& block, const std::vector<const ast::Sta
     if (system().cells) check_cell_stage(work_, index_);
 }
 
-/// Takes a statement that means something in stages of cells only, and returns true.
+/// If the declaration has a meaning only in stages of cells, applies it and returns true.
 bool StageChecker::set_of_cells(const Declaration& declaration) {
     const std::string_view name = declaration.name;
     const ast::Statement& statement = *declaration.statement;
@@ -184,7 +186,7 @@ bool StageChecker::set_of_cells(const Declaration& declaration) {
         return true;
     }
     if (name == "p") {
-        work_.diagnostics.error(declaration.span(), "the places of cells are not a value of theirs",
+        work_.diagnostics.error(declaration.span(), "the positions of cells cannot be set here",
                                 "founders say where they start: founders: keys(x, y, z)");
         return true;
     }
@@ -195,16 +197,17 @@ bool StageChecker::set_of_cells(const Declaration& declaration) {
     return true;
 }
 
-/// Takes a setting that stages of fields alone have.
+/// Applies a setting of stages of fields. A stage of cells has `size`, too.
 void StageChecker::set_of_fields(const ast::Statement& statement) {
     if (statement.name.text == "size") {
         const auto wanted = read_number(work_, script_, statement);
-        if (wanted) stage().size = StageSize{*wanted, value_of(script_, statement).span};
+        if (wanted && system().cells) stage().cell_size = *wanted;
+        else if (wanted) stage().size = StageSize{*wanted, value_of(script_, statement).span};
         return;
     }
     if (statement.values.empty()) return;
     const auto coarse = check_coarse(work_, script_, statement.values[0], "grid",
-                                     "a stage runs in the cells of the domain, or in wider ones");
+                                     "the 'grid' of a stage takes coarse(N), for wider cells");
     if (!coarse || !has_one_value(work_, script_, statement)) return;
     stage().coarse = coarse->times;
     stage().coarse_span = coarse->span;
@@ -220,7 +223,8 @@ void StageChecker::set(const Declaration& declaration) {
         return;
     }
     const Meaning* meaning = find(work_.names[stage().system], name);
-    if (meaning == nullptr && !system().cells && is_setting_of(SettingBlock::field_stage, name)) {
+    const bool is_of_fields = is_setting_of(SettingBlock::field_stage, name);
+    if (meaning == nullptr && is_of_fields && (!system().cells || name == "size")) {
         return set_of_fields(statement);
     }
     if (meaning == nullptr) return report_unknown(declaration);
@@ -304,6 +308,7 @@ void StageChecker::fill_defaults() {
     if (settings_.speed) stage().items[from.speed_item()] = std::move(*settings_.speed);
     mark_reads(work_, stage().items[from.frozen_item()], stage().system);
     mark_reads(work_, stage().items[from.speed_item()], stage().system);
+    if (from.cells) take_cell_size(work_, index_);
     if (from.cells) take_cells(work_, index_, std::move(axes_));
     for (const ItemId item : from.quantities.ids()) {
         take_default(item, &from.quantities[item].start, 0);
@@ -332,7 +337,7 @@ void StageChecker::order_items() {
     for (const Formula& formula : stage().items) items.push_back(&formula);
     Order order = topological_order(item_dependencies(items));
     for (const auto& cycle : order.cycles) {
-        // A cycle of defaults has been reported with the system.
+        // If all values in the cycle are defaults, the cycle was reported with the system.
         const bool is_default = std::all_of(cycle.begin(), cycle.end(),
                                             [&](auto item) { return from_system_[ItemId(item)]; });
         if (!is_default) report_item_cycle(work_, system(), items, from_system_, cycle);
@@ -340,8 +345,8 @@ void StageChecker::order_items() {
     for (const std::uint32_t item : order.order) stage().order.emplace_back(item);
 }
 
-/// An item is uniform if it reads nothing that varies. An aggregate over the domain is a single
-/// number, whatever its operand is.
+/// Finds the uniform items, which read nothing that varies by cell. An aggregate over the domain is
+/// a single number, whatever its operand is.
 void StageChecker::find_uniform() {
     Stage& target = stage();
     target.uniform.assign(target.items.size(), false);
@@ -354,7 +359,7 @@ void StageChecker::find_uniform() {
             for (const NodeId operand : node.reads()) operand_varies |= varies[operand];
             varies.push_back(differs_by_cell(node, operand_varies, work_.program, index_));
         }
-        // A value that starts again after a division belongs to its cell.
+        // A value that restarts after a division differs from cell to cell.
         const auto& cells = system().cells;
         const bool starts_again =
             cells && item < cells->restarts.next() && !cells->restarts[item].nodes.empty();

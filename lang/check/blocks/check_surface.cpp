@@ -1,4 +1,4 @@
-// The settings of a domain whose grid lies on a surface: surface, metric, unit.
+// Checks the settings of a domain whose grid is on a surface: surface, metric, unit.
 #include "lang/check/blocks/check_blocks.h"
 #include "lang/check/expressions/setting_words.h"
 #include "lang/vocabulary/settings.h"

@@ -92,7 +92,8 @@ std::vector<Side> sides_of_word(std::string_view word) {
 
 namespace {
 
-/// The statements with those of `sides` first, since a rule for a single side replaces theirs.
+/// The statements in an order in which statements about `sides` come first, because rules for
+/// single sides replace them.
 std::vector<const ast::Statement*> in_order(std::span<const ast::Statement> statements) {
     std::vector<const ast::Statement*> ordered;
     for (const ast::Statement& statement : statements) ordered.push_back(&statement);
@@ -102,7 +103,7 @@ std::vector<const ast::Statement*> in_order(std::span<const ast::Statement> stat
     return ordered;
 }
 
-/// The place of what a statement sets: `u.left`.
+/// The span of the name that a statement sets, such as `u.left`.
 Span head_of(const ast::Statement& statement) {
     return join(statement.name.span, statement.side.span);
 }
@@ -121,7 +122,7 @@ bool is_known_along_side(Workspace& work, const System& system, const Formula& v
 
 namespace {
 
-/// Collects the rules of statements; later ones replace earlier ones.
+/// Collects the rules of statements. Later rules replace earlier ones.
 class RuleChecker {
 public:
     RuleChecker(Workspace& work, const ast::Script& script, const Scope& scope)
@@ -150,11 +151,12 @@ public:
 private:
     struct Rule {
         SubjectSide side;
-        std::size_t indices = 0;  ///< That have a name: of u[i] one, of u[2] none.
-        bool is_of_all = false;   ///< Of `sides`, not of one of them.
+        std::size_t indices = 0;  ///< The number of indices with a name: one in u[i], none in u[2].
+        bool is_of_all = false;   ///< Whether the rule is for `sides`, not for a single side.
     };
 
-    /// A second statement about the same side is an error.
+    /// Whether the rule replaces an earlier rule for the same side. A second statement about the
+    /// same side is an error.
     bool is_replaced(const Declaration& declaration) {
         const std::string side(declaration.statement->side.text);
         const std::string what = declaration.name + "." + side;
@@ -167,7 +169,8 @@ private:
         return !is_new;
     }
 
-    /// A definition has no diffusion and no opposite side of its own.
+    /// Whether a species or definition may have this rule. A definition has no diffusion, so no
+    /// flux, and cannot be periodic by itself.
     bool is_for(const SideSubject& subject, const WrittenSide& written,
                 const ast::Statement& statement) {
         const bool is_of_species =
@@ -224,7 +227,7 @@ std::vector<SubjectSide> read_side_rules(Workspace& work, const ast::Script& scr
     if (is_of_cells(work, scope)) {
         for (const ast::Statement& statement : statements) {
             work.diagnostics.error(head_of(statement), "cells that crawl have no sides",
-                                   "where cells may be, their rates say: p' += …");
+                                   "their rates limit where they move: p' += …");
         }
         return {};
     }

@@ -17,22 +17,23 @@ struct WrittenSide {
     std::optional<ast::Expression> value;
 };
 
-/// Parses `periodic`, `noflux`, `fixed(e)`, `slope(e)` or `flux(e)`; reports errors.
+/// Parses `periodic`, `noflux`, `fixed(e)`, `slope(e)` or `flux(e)`. Reports errors.
 std::optional<WrittenSide> read_side(Workspace& work, const ast::Script& script,
                                      const ast::Statement& statement);
 
-/// The border's rule where there is no mask: it has no effect, which is said once.
+/// If there is no mask, resets the rule for the border of the mask and reports once that the rule
+/// has no effect.
 void leave_border(Workspace& work, SideSetting& border);
 
-/// The sides that a word means; empty if it means none.
+/// The sides to which a word refers. Empty if it is not a word for sides.
 std::vector<Side> sides_of_word(std::string_view word);
 
-/// Reports an error and returns false if the value of a side needs other cells than those beside it
-/// whenever rates are evaluated. Definitions are not looked into.
+/// Whether the value of a side can be computed, each time the rates are evaluated, from the cells
+/// beside the side alone. If not, reports an error. Does not check inside definitions.
 bool is_known_along_side(Workspace& work, const System& system, const Formula& value);
 
-/// The rules of statements about sides of species, in an order in which later ones replace earlier
-/// ones; reports errors.
+/// Reads the rules in statements about sides of species. In the result, a later rule replaces an
+/// earlier rule for the same side and species. Reports errors.
 std::vector<SubjectSide> read_side_rules(Workspace& work, const ast::Script& script,
                                          const Scope& scope,
                                          std::span<const ast::Statement> statements);

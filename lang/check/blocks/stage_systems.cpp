@@ -1,4 +1,4 @@
-// The stages of a script and their systems.
+// Collects the stages of a script and finds their systems.
 #include "lang/check/blocks/check_blocks.h"
 #include "lang/check/names/unknown_names.h"
 #include "lang/check/names/note_uses.h"

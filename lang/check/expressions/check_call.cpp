@@ -1,4 +1,4 @@
-// Calls: number of arguments, types, and constants. Contexts are in check_context.cpp.
+// Checks calls: number of arguments, types, and constants. check_context.cpp checks their contexts.
 #include "core/check.h"
 #include "core/palette.h"
 #include "ir/space.h"
@@ -20,13 +20,13 @@ namespace cascade::checking {
 namespace {
 
 constexpr double largest_of_points = 1e15;
-/// Functions that always need `over`, as in sum(e over i).
+/// Functions that require `over`, as in sum(e over i).
 constexpr std::array<std::string_view, 4> only_over{"sum", "mean", "product", "integral"};
 
 std::string number_of_values(Arity arity) {
     if (arity.is_groups) {
         return fmt::format("groups of {} values{}", arity.least,
-                           arity.most > arity.least ? ", and perhaps one more" : "");
+                           arity.most > arity.least ? ", and optionally one more" : "");
     }
     if (arity.is_range) return fmt::format("{} to {} values", arity.least, arity.most);
     if (arity.least != arity.most) {
@@ -61,8 +61,8 @@ void ExpressionChecker::visit(const ast::Call& call) {
     apply(is_length ? Function::length : *function, operands, call.argument_count);
 }
 
-/// Registers a distance(…) or keys(…), whose numbers must be constant: it is computed once per
-/// cell.
+/// Registers a distance(…) or keys(…). Its arguments must be constant, because the value is
+/// computed once per cell, before the run.
 void ExpressionChecker::take_surface_value(Function function, const ast::Call& call) {
     SurfaceValue value{function, {}};
     for (std::uint32_t k = 0; k < call.argument_count; ++k) {
@@ -84,13 +84,14 @@ void ExpressionChecker::take_surface_value(Function function, const ast::Call& c
     const bool has_smoothing = value.numbers.size() % 4 == 1;
     if (function == Function::keys && has_smoothing && value.numbers.back() < 0) {
         const ast::ExprId last = script_.arguments[call.first_argument + call.argument_count - 1];
-        return error(formula_.nodes[part_of(last)].span, "a length of smoothing is not below 0");
+        return error(formula_.nodes[part_of(last)].span,
+                     "the length of smoothing must be at least 0");
     }
     formula_.nodes.back().kind = work_.program.literals->id_of(value);
 }
 
-/// mean(e over domain), of touching cells, of near ones. Aggregates over an index have been
-/// expanded before.
+/// Checks an aggregate over the domain, over touching cells or over near cells, such as mean(e over
+/// domain). Aggregates over an index have been expanded before.
 void ExpressionChecker::visit(const ast::Over& over) {
     const auto function = function_over(over.function.text, over.index.text);
     if (!function) {
@@ -128,7 +129,7 @@ void ExpressionChecker::wrong_count(Function function, std::size_t count) {
 
 void ExpressionChecker::unknown_function(const ast::Word& name) {
     if (scope_.system != unknown_system && find(work_.names[scope_.system], name.text) != nullptr) {
-        error(name.span, fmt::format("'{}' is a number and no function", name.text),
+        error(name.span, fmt::format("'{}' is a number, not a function", name.text),
               fmt::format("write '{0} * (…)' to multiply", name.text));
         parts_.back().has_error = true;
         return;
@@ -240,7 +241,7 @@ void ExpressionChecker::check_choice(Node& node, NodeId a, NodeId b) {
     parts_.back().turned = parts_[a].turned || parts_[b].turned;
 }
 
-/// rgb(255, 128, 0) would be yellow.
+/// Warns of colour components above 1, because rgb(255, 128, 0) would be yellow.
 void ExpressionChecker::check_rgb(const Node& node) {
     std::array<double, 3> parts{};
     for (std::size_t k = 0; k < parts.size(); ++k) {
@@ -273,14 +274,15 @@ void ExpressionChecker::check_palette(const Node& node) {
     const Part &low = parts_[node.operands[1]], &high = parts_[node.operands[2]];
     if (low.constant && high.constant && low.value == high.value) {
         warn(node.span,
-             fmt::format("both ends of the palette are {:.4g}: it has nothing between them",
+             fmt::format("both ends of the palette are {:.4g}: it has no colours between them",
                          low.value),
              "palette(value, low, high, \"name\")");
     }
     formula_.nodes.back().type = ValueType::colour;
 }
 
-/// A whole number of more than a full turn is probably meant in degrees.
+/// Warns of a whole number that is more than a full turn in radians. The number is probably meant
+/// in degrees.
 void ExpressionChecker::check_angle(const Node& node) {
     const bool is_stripe = node.function == Function::stripe && node.operand_count == 3;
     if (node.function != Function::diffuse && node.function != Function::tensor && !is_stripe)
@@ -302,7 +304,8 @@ void ExpressionChecker::warn(Span span, std::string message, std::string hint) {
     work_.diagnostics.add(std::move(diagnostic));
 }
 
-/// The first argument of noise and of lattices is a length; the octaves of noise must be constant.
+/// Checks noise and lattices. Their first argument is a length. The octaves of noise must be
+/// constant.
 void ExpressionChecker::check_lattice(Node& node) {
     const Part& side = parts_[node.operands[0]];
     if (side.constant && !(side.value > 0)) {
@@ -332,7 +335,7 @@ void ExpressionChecker::fold_constants(const Node& node) {
         constant = constant && part.constant;
         values[i] = part.value;
     }
-    // Arithmetic flushes denormal numbers to zero, so a denormal divisor is zero, too.
+    // A denormal divisor counts as zero, because arithmetic flushes denormal numbers to zero.
     const bool divides = info(node.function).behaviour == Behaviour::divides;
     if (divides && parts_[node.operands[1]].constant &&
         std::abs(values[1]) < static_cast<double>(FLT_MIN)) {

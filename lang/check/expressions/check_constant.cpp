@@ -1,4 +1,4 @@
-// Constants: numbers that must be known while a script is checked.
+// Evaluates numbers that must be known while a script is checked.
 #include "lang/check/expressions/check_expression.h"
 
 namespace cascade::checking {

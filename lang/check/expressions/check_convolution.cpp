@@ -1,7 +1,9 @@
-// The kernels of convolutions: what they may read, and that they are the same in all cells.
+// Checks the kernels of convolutions: the names that they read, and that they are the same in all
+// cells.
 //
-// A kernel is no part of the formula that calls convolve: it is computed for lags, not for cells.
-// So it is kept among the literals of the program, and the call has its number.
+// A kernel is not part of the formula that calls convolve, because it is computed for lags, not for
+// cells. A kernel is stored in the literals of the program, and the call contains the index of the
+// kernel.
 #include "lang/check/expressions/check_convolution.h"
 
 #include "lang/check/expressions/expression_checker.h"
@@ -17,7 +19,7 @@ namespace cascade::checking {
 namespace {
 
 constexpr const char* what_kernels_read =
-    "a kernel is made of numbers, parameters, distance, direction and files";
+    "a kernel can contain numbers, parameters, distance, direction and files only";
 
 /// Calls visit(operand) for the operands of a node of the syntax tree.
 template <typename Visit>
@@ -75,7 +77,7 @@ IdVector<NodeId, bool> kernel_parts(const ast::Script& script, ast::Expression e
     return in_kernel;
 }
 
-/// Takes `distance` or `direction`; false for other names.
+/// Handles the names `distance` and `direction`. Returns false for other names.
 bool ExpressionChecker::take_lag(std::string_view name) {
     const auto value = cell_value_named(name);
     if (value != CellValue::distance && value != CellValue::direction) return false;
@@ -84,9 +86,9 @@ bool ExpressionChecker::take_lag(std::string_view name) {
         scope_.system != unknown_system && find(work_.names[scope_.system], name) != nullptr;
     if (is_known) {
         error(node.span,
-              fmt::format("'{}' is a name of the system, and belongs to the language in a kernel",
+              fmt::format("'{}' is a name of the system, but has a meaning of its own in a kernel",
                           name),
-              "give the system's value another name");
+              "rename the value of the system");
         return true;
     }
     node.kind = *value;
@@ -94,7 +96,7 @@ bool ExpressionChecker::take_lag(std::string_view name) {
     return true;
 }
 
-/// Can it be computed for each lag alone? Reports an error if not.
+/// Whether the formula can be computed for each lag separately. Otherwise reports an error.
 bool ExpressionChecker::is_kernel(NodeId root, bool reads_lags) {
     static const System none;
     const System& system =
@@ -102,15 +104,15 @@ bool ExpressionChecker::is_kernel(NodeId root, bool reads_lags) {
     for (const Node& node : formula_of(formula_.nodes, root).nodes) {
         if (may_stand_in_kernel(node, system, *work_.program.literals, reads_lags)) continue;
         error(node.span,
-              reads_lags ? "this cannot stand in the kernel of a convolution"
-                         : "this cannot stand in the reach of a convolution",
-              reads_lags ? what_kernels_read : "a reach is made of numbers and parameters");
+              reads_lags ? "this cannot be used in the kernel of a convolution"
+                         : "this cannot be used in the reach of a convolution",
+              reads_lags ? what_kernels_read : "the reach can contain numbers and parameters only");
         return false;
     }
     return true;
 }
 
-/// convolve(k, e) or convolve(k, e, r): the node that remains has the operand e.
+/// Checks convolve(k, e) or convolve(k, e, r). Only the operand e remains in the node.
 void ExpressionChecker::take_convolution(const ast::Call& call) {
     std::vector<NodeId> parts;
     for (std::uint32_t k = 0; k < call.argument_count; ++k) {
@@ -125,7 +127,8 @@ void ExpressionChecker::take_convolution(const ast::Call& call) {
         if (!is_kernel(parts[2], false)) return;
         const Part& reach = parts_[parts[2]];
         if (reach.constant && !(reach.value >= 0 && std::isfinite(reach.value))) {
-            return error(formula_.nodes[parts[2]].span, "a reach is a distance of 0 or more");
+            return error(formula_.nodes[parts[2]].span,
+                         "the reach must be a distance of 0 or more");
         }
         kernel.reach = formula_of(formula_.nodes, parts[2]);
     }

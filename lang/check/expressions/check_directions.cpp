@@ -1,4 +1,5 @@
-// A table of the directions with their arguments; numbers are folded, vectors of length 0 refused.
+// Checks directions by a table of their arguments. Evaluates the numbers, and refuses vectors of
+// length 0.
 #include "lang/check/expressions/check_directions.h"
 
 #include "lang/check/expressions/expression_checker.h"
@@ -15,9 +16,9 @@ namespace cascade::checking {
 
 namespace {
 
-// In units of the model's longest side. Curvature is estimated triangle by triangle, so its lines
-// are smoothed a little; the lines of keys jump between the regions of two keys and are smoothed
-// more.
+// In units of the model's longest side. Curvature is estimated triangle by triangle, so its
+// directions are smoothed a little. The directions of keys jump between the regions of two keys, so
+// they are smoothed more.
 constexpr double smoothing_of_curvature = 0.02;
 constexpr double smoothing_of_keys = 0.1;
 constexpr double largest_number = 1e15;
@@ -25,8 +26,8 @@ constexpr double largest_number = 1e15;
 struct DirectionName {
     std::string_view word;
     DirectionSettings::Kind kind;
-    Arity arity;       ///< Without the optional smoothing.
-    double smoothing;  ///< The default.
+    Arity arity;       ///< The number of arguments without the optional smoothing.
+    double smoothing;  ///< The default of the smoothing.
     std::string_view form;
 };
 constexpr std::array<DirectionName, 5> direction_names{{
@@ -47,7 +48,7 @@ const DirectionName* direction_named(std::string_view word) {
     return nullptr;
 }
 
-/// The numbers in brackets; reports an error and returns nothing if one is not constant.
+/// The numbers in brackets. Reports an error and returns nothing if a number is not constant.
 std::optional<std::vector<WrittenNumber>> numbers_of(Workspace& work, const ast::Script& script,
                                                      std::span<const ast::Expression> arguments) {
     std::vector<WrittenNumber> numbers;
@@ -59,7 +60,8 @@ std::optional<std::vector<WrittenNumber>> numbers_of(Workspace& work, const ast:
     return numbers;
 }
 
-/// True if no vector of a key, and not the axis, has length 0.
+/// Whether every vector of the setting has a length other than 0. A vector is the last three of
+/// every `stride` numbers.
 bool has_lengths(std::span<const double> numbers, std::size_t stride) {
     for (std::size_t k = stride - 3; k + 2 < numbers.size(); k += stride) {
         if (numbers[k] == 0 && numbers[k + 1] == 0 && numbers[k + 2] == 0) return false;
@@ -85,7 +87,7 @@ std::optional<DirectionSettings> direction_of(Workspace& work, std::string_view 
     };
     const bool may_stand_alone = name.arity.least == 0;
     if (numbers.empty() ? !may_stand_alone : !name.arity.takes(numbers.size())) {
-        return refuse(span, "this is not how directions are written", true);
+        return refuse(span, "these directions are not written correctly", true);
     }
     DirectionSettings read;
     read.kind = name.kind;
@@ -102,7 +104,7 @@ std::optional<DirectionSettings> direction_of(Workspace& work, std::string_view 
         read.smoothing = read.numbers.back();
         read.numbers.pop_back();
         if (read.smoothing < 0) {
-            return refuse(numbers.back().span, "a length of smoothing is not below 0", false);
+            return refuse(numbers.back().span, "the length of smoothing must be at least 0", false);
         }
     }
     if (!has_lengths(read.numbers, stride)) {
@@ -143,7 +145,7 @@ std::optional<DirectionSettings> check_directions(Workspace& work, const ast::Sc
     return direction_of(work, word, *numbers, value.span, "directions: {}");
 }
 
-/// Registers what `along` takes in place of a vector, a direction that the model has.
+/// Registers a direction of the model that `along` takes in place of a vector.
 void ExpressionChecker::take_direction(std::string_view word,
                                        std::span<const ast::ExprId> arguments) {
     const Span span = formula_.nodes.back().span;

@@ -1,4 +1,4 @@
-// `directions` of a domain with a model (internal to the checker).
+// The setting `directions` of a domain with a model (internal to the checker).
 #pragma once
 
 #include <optional>
@@ -7,7 +7,8 @@
 
 namespace cascade::checking {
 
-/// Do these words begin a direction that a model has, in place of a vector?
+/// Whether the word is the name of a direction of a model, such as `axis`. Otherwise the setting
+/// gives a vector.
 bool names_direction(std::string_view word);
 
 struct WrittenNumber {
@@ -15,13 +16,13 @@ struct WrittenNumber {
     Span span;
 };
 
-/// The direction of that name with these numbers in brackets; reports errors and returns nothing if
-/// it is written otherwise. `form` is a format of the hints.
+/// The direction called `word` with these numbers in brackets. Reports an error and returns nothing
+/// if the direction does not take these numbers. `form` is the format string of a hint.
 std::optional<DirectionSettings> direction_of(Workspace& work, std::string_view word,
                                               std::span<const WrittenNumber> numbers, Span span,
                                               std::string_view form);
 
-/// Parses axis(…), gradient(…), curvature_high, curvature_low or keys(…); reports errors.
+/// Parses axis(…), gradient(…), curvature_high, curvature_low or keys(…). Reports errors.
 std::optional<DirectionSettings> check_directions(Workspace& work, const ast::Script& script,
                                                   const ast::Statement& statement);
 

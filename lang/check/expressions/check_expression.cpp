@@ -43,8 +43,9 @@ std::optional<CheckedExpression> ExpressionChecker::run() {
     return checked;
 }
 
-/// A picture computes the definitions that it reads. Returns false if one of them is random, or,
-/// without a message, if errors have left the system incomplete.
+/// Replaces names of definitions by their formulas, for pictures. Returns false and reports an
+/// error if a definition is random. Also returns false, without a message, if errors have left the
+/// system incomplete.
 bool ExpressionChecker::put_definitions_in(Formula& formula) {
     const auto is_definition = [](const Node& node) { return node.is<DefinitionId>(); };
     if (std::ranges::none_of(formula.nodes, is_definition)) return true;
@@ -62,13 +63,13 @@ bool ExpressionChecker::put_definitions_in(Formula& formula) {
     formula = without_definitions(system, formula);
     if (in_cells() || std::ranges::none_of(formula.nodes, is_draw)) return true;
     work_.diagnostics.error(first, "a picture cannot read a definition with random numbers",
-                            "they are drawn anew in every step");
+                            "random numbers are drawn anew in every step");
     return false;
 }
 
-/// Finds the operands that must be strings, the names of palettes and files, and those of `along`
-/// that name a direction. A bare word in place of a string is one without its quotes, not an
-/// unknown name. A call that is wrong itself is skipped.
+/// Finds the operands that must be strings (names of palettes and files), and operands of `along`
+/// that name a direction. A bare word in place of a string is reported as a string without quotes,
+/// not as an unknown name. Skips calls that contain errors.
 void ExpressionChecker::find_places_of_words() {
     wants_text_.assign(expression_.root - expression_.first + 1, false);
     is_direction_ = wants_text_;
@@ -95,7 +96,7 @@ void ExpressionChecker::find_places_of_words() {
             wants_text_[part_of(script_.arguments[end - 1])] = true;
         } else if (reads_file(*function)) {
             wants_text_[part_of(script_.arguments[call->first_argument])] = true;
-            // An even number of arguments has a channel.
+            // If the number of arguments is even, one of them is a channel.
             const bool has_channel = function == Function::image && call->argument_count % 2 == 0;
             if (has_channel)
                 wants_text_[part_of(script_.arguments[call->first_argument + 1])] = true;
@@ -133,9 +134,10 @@ void ExpressionChecker::visit(const ast::Name& name) {
         return error(span, fmt::format("'{}' is a palette", name.name),
                      fmt::format("write palette(u, 0, 1, \"{}\")", name.name));
     }
-    // In a function's body; a parameter of the system that calls it is not meant.
+    // In the body of a function, the name does not refer to a parameter of the system in which the
+    // function is called.
     if (work_.call && is_of_each_cell(name.name) && !in_cells()) {
-        return error(span, fmt::format("'{}' is known to cells that crawl only", name.name));
+        return error(span, fmt::format("'{}' can be used by cells that crawl only", name.name));
     }
     take(resolve_bare(work_, scope_, name.name, span), span);
 }

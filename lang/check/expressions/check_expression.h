@@ -1,4 +1,4 @@
-// Checking one expression (internal to the checker).
+// Checks one expression (internal to the checker).
 #pragma once
 
 #include "lang/check/names/check_names.h"
@@ -12,7 +12,7 @@
 
 namespace cascade::checking {
 
-/// A checked expression, and its value if it consists of numbers only.
+/// A checked expression, and its value if it consists only of numbers.
 struct CheckedExpression {
     Formula formula;
     std::optional<double> constant;
@@ -21,43 +21,45 @@ struct CheckedExpression {
 };
 
 /// Checks an expression: resolves names, counts arguments, checks types and contexts, and finds
-/// divisions by zero. Nodes of the formula are in the order of the expression's. Returns nothing if
-/// there was an error, which has then been reported here or by the parser. Calls of the script's
-/// own functions, families and aggregates over an index are expanded first.
+/// divisions by zero. Calls of the script's own functions, families and aggregates over an index
+/// are expanded first. The formula's nodes are in the same order as the expression's nodes. Returns
+/// nothing if there was an error, which this function or the parser has reported.
 std::optional<CheckedExpression> check_expression(Workspace& work, const ast::Script& script,
                                                   ast::Expression expression, const Scope& scope);
 
-/// The same for an expression in which nothing is left to expand (expand.h).
+/// Checks an expression that has been expanded (expand.h) or needs no expansion.
 std::optional<CheckedExpression> check_parts(Workspace& work, const ast::Script& script,
                                              ast::Expression expression, const Scope& scope);
 
-/// The same for an expression that must be a number, not a colour or a string.
+/// Checks an expression that must be a number, not a colour, a vector or a string.
 std::optional<CheckedExpression> check_number(Workspace& work, const ast::Script& script,
                                               ast::Expression expression, const Scope& scope);
 
-/// The same for an expression that must be a vector.
+/// Checks an expression that must be a vector.
 std::optional<CheckedExpression> check_vector(Workspace& work, const ast::Script& script,
                                               ast::Expression expression, const Scope& scope);
 
-/// The name of a type in messages, and a hint where a number is expected instead.
+/// The name of a type in messages, and the hint if a value of this type is written instead of a
+/// number.
 struct TypeWords {
     std::string_view name, hint;
 };
 TypeWords words_of(ValueType type, bool in_cells);
-/// The hint where a vector is expected.
+/// The hint if another value is written instead of a vector.
 constexpr const char* vectors_are(bool in_cells) {
     return in_cells ? "such as p, normal or vector(1, 0, 0)" : "such as grad(e) or vector(ex, ey)";
 }
 
-/// The most levels of nested operators; each level takes a pass over the grid.
+/// How deeply operators may be nested. Each level of nesting takes a pass over the grid.
 inline constexpr std::uint32_t most_nested_operators = 32;
 
-/// The nesting depth of the operators in a formula; `of_leaf` gives the depth of its leaves
-/// (definitions, rates, own items). Reports an error where the limit is first exceeded.
+/// The nesting depth of the operators in a formula. `of_leaf` gives the depth of its leaves
+/// (definitions, rates, items). Reports an error at the first operator that is nested too deeply.
 template <typename DepthOfLeaf>
 std::uint32_t check_nesting(Workspace& work, const Formula& formula, const DepthOfLeaf& of_leaf);
 
-/// A constant in double precision; reports errors, in which `subject` names it.
+/// The value of a constant expression, in double precision. Reports errors. In their messages,
+/// `subject` is the name of the constant.
 std::optional<double> check_constant(Workspace& work, const ast::Script& script,
                                      ast::Expression expression, std::string_view subject);
 

@@ -1,6 +1,7 @@
-// Functions that read what a text names: a file, or a value of a model's points. What else they
-// say, a channel and a place in the file, is no part of the formula: it is known before the run,
-// and kept among the literals of the program, and the call has its number.
+// Checks functions that read data named by a text: a file, or an attribute of a model's points.
+// Their other arguments, a channel and a position in the file, are known before the run. So they
+// are not part of the formula but stored in the literals of the program, and the call contains
+// their index.
 #include "lang/check/expressions/expression_checker.h"
 
 #include <fmt/format.h>
@@ -10,7 +11,7 @@ namespace cascade::checking {
 
 namespace {
 
-/// What differs from cell to cell and is known before the run.
+/// Whether the node depends on the cell's position but is known before the run.
 bool is_of_place(const Node& node) {
     const auto* const builtin = node.as<Builtin>();
     return builtin != nullptr && *builtin != Builtin::t && *builtin != Builtin::step &&
@@ -19,8 +20,8 @@ bool is_of_place(const Node& node) {
 
 }  // namespace
 
-/// Can it be computed before the run, for each cell or, in a kernel, for each lag? Reports an error
-/// if not.
+/// Whether the formula of a position can be computed before the run, for each cell or, in a kernel,
+/// for each lag. Otherwise reports an error.
 bool ExpressionChecker::is_place_in_file(NodeId root) {
     need(root, ValueType::number);
     if (parts_.back().has_error) return false;
@@ -33,16 +34,18 @@ bool ExpressionChecker::is_place_in_file(NodeId root) {
         const bool is_elementary_call = node.is<Call>() && is_elementary(node.function);
         if (node.is<double>() || is_elementary_call) continue;
         if (in_kernel ? is_of_lag(node) : is_of_place(node)) continue;
-        error(node.span, "this cannot stand in a place in a file",
-              in_kernel ? "in a kernel a place is made of numbers, distance and direction"
-                        : "a place is made of numbers and of x, y, z, sx, sy, sz, nx, ny and nz");
+        error(node.span, "this cannot be used in a position in a file",
+              in_kernel
+                  ? "in a kernel a position can contain numbers, distance and direction only"
+                  : "a position can contain numbers, x, y, z, sx, sy, sz, nx, ny and nz only");
         return false;
     }
     return true;
 }
 
-/// attr("name"); field("a.npy") or with a place of two or three numbers; image("f.png"), perhaps
-/// with a channel, perhaps with a place of two numbers. The node that remains has the text alone.
+/// Checks attr("name"), field("a.npy") and image("f.png"). A position may follow: two or three
+/// numbers for a field, two for an image. An image may also have a channel. Only the text remains
+/// in the node.
 void ExpressionChecker::take_file_value(Function function, const ast::Call& call) {
     std::vector<NodeId> parts;
     for (std::uint32_t k = 0; k < call.argument_count; ++k) {
@@ -73,7 +76,7 @@ void ExpressionChecker::take_file_value(Function function, const ast::Call& call
     }
     Node& node = formula_.nodes.back();
     if (stands_in_kernel() && reading.place.empty()) {
-        return error(node.span, "a file in a kernel needs the position at which it is read",
+        return error(node.span, "in a kernel, field and image need a position in the file",
                      "as in field(\"k.npy\", distance / 10, 0.5)");
     }
     has_loose_nodes_ = has_loose_nodes_ || parts.size() > 1;
@@ -83,7 +86,8 @@ void ExpressionChecker::take_file_value(Function function, const ast::Call& call
     node.operand_count = 1;
 }
 
-/// along(image("f.png")), whose red and green are the direction to the right and upwards in it.
+/// Checks along(image("f.png")). The red channel of the image is the direction's component to the
+/// right, and the green channel the component upwards.
 void ExpressionChecker::take_painted_direction(NodeId image) {
     const Node& painted = formula_.nodes[image];
     FileReading reading = work_.program.literals->reading(painted.as<Call>()->detail);

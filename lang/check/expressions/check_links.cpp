@@ -1,8 +1,9 @@
-// What cells that crawl read of their neighbours.
+// Checks sums over neighbours in systems of cells that crawl.
 //
-// Inside of sum(e over touching) names are the neighbour's, own(e) is the cell's, and there are
-// values of the link between both. What a name means depends on where it is read: the argument of a
-// function may be read in both ways. So all nodes are checked when the whole expression is known.
+// Inside sum(e over touching), names mean the neighbour's values, own(e) means the cell's value,
+// and values of the link between the two cells can be read. So the meaning of a name depends on
+// where the name is read. A function may read its argument both inside and outside such a sum, so
+// all nodes are checked after the whole expression has been read.
 #include "lang/check/expressions/expression_checker.h"
 
 #include <fmt/format.h>
@@ -13,11 +14,11 @@ namespace cascade::checking {
 
 namespace {
 
-/// How a node is read.
+/// How other nodes read a node.
 struct ReadBy {
-    bool by_cell = false;      ///< As the cell's value.
-    bool by_link = false;      ///< As a neighbour's, inside of a sum over neighbours.
-    bool as_distance = false;  ///< For near(d).
+    bool by_cell = false;      ///< As the value of the cell.
+    bool by_link = false;      ///< As the value of a neighbour, inside a sum over neighbours.
+    bool as_distance = false;  ///< As the distance in near(d).
 };
 
 bool may_differ_by_cell(const Node& node, const System& system) {
@@ -28,7 +29,7 @@ bool may_differ_by_cell(const Node& node, const System& system) {
 
 }  // namespace
 
-/// own(e) and sums over neighbours.
+/// Checks own(e) and sums over neighbours.
 void ExpressionChecker::check_link(Node& node) {
     const Node& operand = formula_.nodes[node.operands[0]];
     if (node.operand_count == 2) need(node.operands[1], ValueType::number);
@@ -39,7 +40,8 @@ void ExpressionChecker::check_link(Node& node) {
     node.type = ValueType::vector;
 }
 
-/// Is everything read where it has a value? Reports errors.
+/// Checks that every node has a value where the formula reads it: in a cell, on a link or as a
+/// distance. Otherwise reports errors and returns false.
 bool ExpressionChecker::has_places(NodeId root) {
     IdVector<NodeId, ReadBy> readers(root.index() + 1);
     readers[root].by_cell = true;
@@ -56,16 +58,16 @@ bool ExpressionChecker::has_places(NodeId root) {
         const Node& node = formula_.nodes[id];
         if (read.as_distance && may_differ_by_cell(node, system)) {
             refuse(id, "the distance of 'near' is the same for all cells",
-                   "a number or a parameter can stand here");
+                   "only a number or a parameter can be used here");
         } else if (const auto* value = node.as<CellValue>();
                    value != nullptr && is_of_link(*value) && read.by_cell) {
             const std::string_view name = cell_value_names[static_cast<std::size_t>(*value)];
-            refuse(id, fmt::format("'{}' is of two cells and known inside of sums only", name),
+            refuse(id, fmt::format("'{}' relates two cells and is known inside sums only", name),
                    fmt::format("sum({} over touching)", name));
         }
         const bool is_own = node.calls(Function::own);
         if (is_own && read.by_cell) {
-            refuse(id, "own(e) has a meaning inside of sums over neighbours only",
+            refuse(id, "own(e) can be used inside sums over neighbours only",
                    "names outside are the cell's own");
         }
         for (std::size_t k = 0; k < node.operand_count; ++k) {

@@ -1,8 +1,8 @@
-// Operators of derivatives, and the vectors and tensors that some of them take.
+// Checks operators of derivatives, and the vectors and tensors that some of them take.
 //
-// Vectors and tensors have the same arithmetic in all systems: they are added, and multiplied by
-// numbers, and a tensor multiplies a vector. In a system of fields div takes vectors at the faces
-// of cells; in a system of cells that crawl vectors are places and directions in space.
+// Vectors and tensors have the same arithmetic in all systems: they are added, multiplied by
+// numbers, and a tensor multiplies a vector. In a system of fields, div takes vectors at the faces
+// of cells. In a system of cells that crawl, vectors are positions and directions in space.
 #include "lang/check/expressions/expression_checker.h"
 
 #include <fmt/format.h>
@@ -18,8 +18,8 @@ TypeWords words_of(ValueType type, bool in_cells) {
         case ValueType::text: return {"a text", ""};
         case ValueType::vector:
             return {"a vector", in_cells
-                                    ? "dot(a, b) and length(v) make a number of it"
-                                    : "div(v), dot(v, w), length(v) and v.x make a number of it"};
+                                    ? "dot(a, b) and length(v) turn it into a number"
+                                    : "div(v), dot(v, w), length(v) and v.x turn it into a number"};
         case ValueType::tensor:
             return {"a tensor", "it multiplies a vector: div(tensor(a1, a2, theta) * grad(e))"};
     }
@@ -28,8 +28,8 @@ TypeWords words_of(ValueType type, bool in_cells) {
 
 namespace {
 
-/// Has arithmetic a meaning for numbers, vectors and tensors? Sums take two of a type, products a
-/// number or a tensor and a vector, and only numbers divide.
+/// Whether arithmetic has a meaning for these types. Sums take two operands of the same type.
+/// Products of a vector take a number or a tensor. Divisors must be numbers.
 bool fits(Function function, ValueType left, ValueType right) {
     const bool is_left_number = left == ValueType::number,
                is_right_number = right == ValueType::number;
@@ -44,7 +44,7 @@ bool fits(Function function, ValueType left, ValueType right) {
 
 }  // namespace
 
-/// Checks arithmetic of vectors and tensors. False if no operand is a vector or a tensor.
+/// Checks arithmetic of vectors and tensors. Returns false if no operand is a vector or a tensor.
 bool ExpressionChecker::check_vectors(const Node& node) {
     const auto is_geometric = [](ValueType type) {
         return type == ValueType::vector || type == ValueType::tensor;
@@ -58,7 +58,7 @@ bool ExpressionChecker::check_vectors(const Node& node) {
     const bool by_tensor = left == ValueType::tensor && right == ValueType::vector;
     const bool is_turned = parts_[first].turned || parts_[last].turned;
     if (has_meaning && by_tensor && is_turned && work_.on_surface) {
-        error(node.span, "on a surface a tensor cannot multiply what a tensor has multiplied",
+        error(node.span, "on a surface a tensor cannot multiply the product of another tensor",
               "make one tensor of the two");
     } else if (has_meaning) {
         formula_.nodes.back().type = type_of_result(node.function, std::array{left, right});
@@ -77,7 +77,7 @@ void ExpressionChecker::refuse_product(Function function, Span span, ValueType l
         case Function::multiply: {
             const char* hint = "a number or a tensor can multiply a vector";
             if (left == ValueType::vector && right == ValueType::tensor) {
-                hint = "the tensor stands before the vector";
+                hint = "the tensor comes before the vector";
             } else if (left == ValueType::vector && right == ValueType::vector) {
                 hint = "dot(a, b) and cross(a, b) are products of two vectors";
             } else if (in_cells()) {
@@ -92,7 +92,7 @@ void ExpressionChecker::refuse_product(Function function, Span span, ValueType l
     }
 }
 
-/// Has a tensor multiplied the definition, or a vector that it reads?
+/// Whether a tensor has multiplied the definition, or a vector that the definition reads.
 bool ExpressionChecker::is_turned(DefinitionId definition) const {
     const auto& definitions = work_.program.systems[scope_.system].definitions;
     IdVector<DefinitionId, bool> seen(definitions.size(), false);
@@ -138,7 +138,7 @@ void ExpressionChecker::check_geometry(Node& node) {
     }
 }
 
-/// Reports the derivative of a constant, which is probably a mistake.
+/// Whether the part is a constant. If so, reports that its derivative is probably a mistake.
 bool ExpressionChecker::is_same_everywhere(NodeId part) {
     if (!parts_[part].constant) return false;
     const Node& node = formula_.nodes.back();
@@ -148,7 +148,7 @@ bool ExpressionChecker::is_same_everywhere(NodeId part) {
     return true;
 }
 
-/// advect(v, e) and advect(vx, vy, e).
+/// Checks advect(v, e) and advect(vx, vy, e).
 void ExpressionChecker::check_carrying(const Node& node) {
     const NodeId carried = node.reads().back();
     need(carried, ValueType::number);

@@ -1,6 +1,6 @@
-// Warns of places given in cells or lengths where the language takes shares of the longest side,
-// 0 to 1: `x < 5`, `disc(64, 64, 10)`. Comparisons are decided by intervals (R. E. Moore, "Interval
-// Analysis", 1966) of what they read of x, y and z.
+// Warns of positions that are given in cells or lengths as in `x < 5` or `disc(64, 64, 10)`. The
+// language takes positions as fractions of the longest side, 0 to 1. Comparisons are evaluated on
+// intervals of x, y and z (R. E. Moore, "Interval Analysis", 1966).
 #include "lang/check/expressions/expression_checker.h"
 #include "lang/vocabulary/by_name.h"
 
@@ -20,9 +20,10 @@ namespace {
 struct Interval {
     double low = -std::numeric_limits<double>::infinity();
     double high = std::numeric_limits<double>::infinity();
-    std::string_view place = {};  ///< x, y or z, if it is made of it and of numbers alone.
+    std::string_view place = {};  ///< x, y or z, if the value is computed from this coordinate and
+                                  ///< numbers alone.
 
-    /// Of the magnitudes.
+    /// The least magnitude in the interval.
     double least() const {
         return low <= 0 && high >= 0 ? 0 : std::min(std::abs(low), std::abs(high));
     }
@@ -32,15 +33,16 @@ struct Interval {
         return a.place.empty() ? b.place : a.place;
     }
 
-    /// In other units, so that no message of shares is true.
+    /// The interval from the least value to the largest, for lengths in other units. Messages about
+    /// fractions would be false for such lengths.
     static Interval around(std::initializer_list<double> values) {
         const auto [low, high] = std::minmax(values);
         if (std::isnan(low) || std::isnan(high)) return {};
         return {low, high};
     }
 
-    // What functions make of intervals, by their names in functions.def; of the others nothing is
-    // known.
+    // Functions of intervals, by their names in functions.def. The values of all other functions
+    // are unknown.
     friend Interval add(const Interval& a, const Interval& b) {
         return {a.low + b.low, a.high + b.high, place_of(a, b)};
     }
@@ -69,7 +71,8 @@ struct Interval {
     }
 };
 
-/// Is the comparison the same everywhere, and by far? `hypot(x - 0.5, y - 0.5) < 0.8` may be meant.
+/// Whether the comparison has the same result everywhere, by a wide margin. Without the margin, a
+/// comparison such as `hypot(x - 0.5, y - 0.5) < 0.8` would be reported, which may be intended.
 bool is_decided(Function comparison, const Interval& a, const Interval& b) {
     constexpr double far = 0.5;
     const bool is_of_order =
@@ -121,7 +124,7 @@ void ExpressionChecker::warn_of_place(Span span, std::string_view place) {
          has_lengths ? fmt::format("write domain.{} for a length", place) : "");
 }
 
-/// disc, gauss and box whose numbers are far outside of the domain.
+/// Warns of disc, gauss and box if their numbers are far outside the domain.
 void ExpressionChecker::check_shape_in_domain(const Node& node) {
     if (!node.calls(Function::disc) && !node.calls(Function::gauss) && !node.calls(Function::box)) {
         return;

@@ -100,7 +100,7 @@ void Expander::visit(ast::ExprId part) {
     emit(here.span, here.node);
 }
 
-/// domain.x and the like.
+/// Expands a length of the domain, such as domain.x.
 void Expander::emit_length(Span span, const ast::Word& name) {
     const auto length = domain_length(work_, scope_, name);
     if (!length) return emit(span, ast::Garbage{});
@@ -110,7 +110,8 @@ void Expander::emit_length(Span span, const ast::Word& name) {
     emit(span, ast::Binary{Function::multiply, place, factor});
 }
 
-/// A parameter of the function, a constant, an index with a value, or any other name.
+/// Expands a name: a parameter of the function, a constant, an index with a value, or any other
+/// name.
 void Expander::visit_name(ast::ExprId part, const ast::Name& name) {
     const ast::Expr& here = expr(part);
     const Frame& frame = frames_.back();
@@ -130,7 +131,7 @@ void Expander::visit_name(ast::ExprId part, const ast::Name& name) {
     if (values != values_.end() && !values->second.empty()) {
         return emit(here.span, ast::Number{static_cast<double>(values->second.back())});
     }
-    // Elsewhere the name may be a parameter of the previous stage.
+    // Outside of brackets of an index, the name may be a parameter of the previous stage.
     if (open_indices_ > 0 && find_index(work_, scope_, name.name) != nullptr) {
         Explanation explanation = index_without_value(name.name);
         return error(here.span, std::move(explanation.message), std::move(explanation.hint));
@@ -167,7 +168,7 @@ void Expander::enter(ast::ExprId part) {
     push(TaskKind::visit, found.function->body.root);
 }
 
-/// Replaces the last result u by a u, for an operator a (lang/syntax/operator_polynomials.h).
+/// Replaces the last result u by the operator a applied to u (lang/syntax/operator_polynomials.h).
 void Expander::apply(ast::ExprId part) {
     const ast::Expr& here = expr(part);
     if (!is_operator(script(), part)) {
@@ -211,7 +212,7 @@ void Expander::apply(ast::ExprId part) {
             }
             return;
         }
-        default:  // A sum: u is on the stack twice, and the left side is first.
+        default:  // A sum a + b: u is on the stack twice, and a is applied first.
             results_.push_back(results_.back());
             push(TaskKind::finish, part);
             push(TaskKind::apply, binary.right);

@@ -1,4 +1,5 @@
-// Families and aggregates: members by the values of their indices, sums over an index written out.
+// Expands families and aggregates: finds members by the values of their indices, and writes out
+// sums over an index.
 #include "lang/check/expressions/check_expression.h"
 #include "lang/check/expressions/expander.h"
 
@@ -12,7 +13,7 @@ namespace cascade::checking {
 
 namespace {
 
-/// True for the aggregates over an index.
+/// Whether the function is an aggregate that can be taken over an index.
 bool is_reduction(std::string_view name) {
     constexpr std::array<std::string_view, 5> names{"sum", "product", "mean", "min", "max"};
     return std::find(names.begin(), names.end(), name) != names.end();
@@ -53,7 +54,7 @@ void Expander::repeat(const Task& task) {
     push(TaskKind::visit, over.operand);
 }
 
-/// ((e1 + e2) + e3) + …, min(min(e1, e2), e3), …
+/// Combines the operands so far: ((e1 + e2) + e3) + …, min(min(e1, e2), e3), …
 void Expander::combine(const Task& task) {
     const ast::Expr& here = expr(task.part);
     const auto& over = std::get<ast::Over>(here.node);
@@ -81,7 +82,8 @@ void Expander::combine(const Task& task) {
     emit(here.span, ast::Binary{Function::divide, sum, divisor});
 }
 
-/// Folds the nodes of the indices, [before, …), and removes them: only their values are needed.
+/// Evaluates the nodes of the indices, which begin at `before`, to numbers. Removes these nodes,
+/// because only the numbers are needed.
 void Expander::finish_member(const ast::Expr& here, const ast::Indexed& member,
                              std::size_t before) {
     --open_indices_;
@@ -117,7 +119,7 @@ void Expander::finish_member(const ast::Expr& here, const ast::Indexed& member,
     emit(here.span, ast::Qualified{other.stage, {here.span, named(other.name.text)}});
 }
 
-/// The whole number that the nodes [first, last] evaluate to; reports errors.
+/// The whole number to which the nodes [first, last] evaluate. Reports errors.
 std::optional<std::int64_t> Expander::index_value(ast::ExprId first, ast::ExprId last, Span span) {
     Scope constant;
     constant.context = Context::constant;

@@ -1,5 +1,5 @@
-// How expressions are expanded: a stack of tasks, the functions that are open, and the values of
-// indices. Of this folder only.
+// Expands expressions by a stack of tasks, the functions whose bodies are being expanded, and the
+// values of indices. Only for this folder.
 #pragma once
 
 #include "core/diagnostics.h"
@@ -17,14 +17,15 @@
 
 namespace cascade::checking {
 
-/// Expands one expression. The last result on its stack is what the nodes done so far have become.
+/// Expands one expression. Each finished node leaves its result, a node of the new expression, on a
+/// stack.
 class Expander {
 public:
     Expander(Workspace& work, const ast::Script& script, const Scope& scope)
         : work_(work), scope_(scope) {
         frames_.push_back({&script, nullptr, 0, std::nullopt});
         for (const IndexValue& index : scope.indices) values_[index.name].push_back(index.value);
-        // A system may have a parameter of this name.
+        // If the system has a parameter called lap, `lap` is not the operator.
         has_laplacians_ =
             scope.system == unknown_system || find(work.names[scope.system], "lap") == nullptr;
     }
@@ -34,25 +35,27 @@ public:
 private:
     enum class TaskKind : std::uint8_t {
         visit,    ///< Expand a node and its operands.
-        finish,   ///< The operands are done: write the node itself.
-        call,     ///< The arguments are done: go on with the body of the function or constant.
-        leave,    ///< The body is done.
-        repeat,   ///< An aggregate: bind its index to `value` and expand the operand.
-        combine,  ///< The operand is done for `value`.
-        apply,    ///< Apply an operator to the last result.
-        swap,     ///< Exchange the last two results.
-        scale,    ///< Multiply the last two results.
+        finish,   ///< The operands are done: write the node.
+        call,     ///< The arguments are done: expand the body of the function or constant.
+        leave,    ///< The body of a function is done: return to its call.
+        repeat,   ///< Set the index of an aggregate to `value` and expand the aggregate's operand.
+        combine,  ///< The aggregate's operand is done for `value`.
+        apply,    ///< Apply an operator to the result on top of the stack.
+        swap,     ///< Exchange the two results on top of the stack.
+        scale,    ///< Multiply the two results on top of the stack.
     };
     struct Task {
         TaskKind kind = TaskKind::visit;
         ast::ExprId part = 0;
-        std::int64_t value = 0;  ///< Of an index; for members the number of nodes before.
+        std::int64_t value = 0;  ///< The value of an index. For a member: the number of nodes
+                                 ///< before it.
     };
-    /// The body of a function that is being expanded; the bottom one is the expression itself.
+    /// A function whose body is being expanded. The frame at the bottom is the expression itself.
     struct Frame {
         const ast::Script* script = nullptr;
         const UserFunction* function = nullptr;
-        std::size_t first_argument = 0;  ///< In arguments_.
+        std::size_t first_argument = 0;  ///< The position of the function's first argument in
+                                         ///< arguments_.
         std::optional<Span> call;        ///< The outermost call.
     };
 
@@ -70,7 +73,7 @@ private:
     void apply(ast::ExprId part);
     void repeat(const Task& task);
     void combine(const Task& task);
-    /// Does the name mean a constant of the script?
+    /// Whether the name means a constant of the script.
     const UserFunction* find_constant(std::string_view name) {
         return functions_of(work_, script()).find_constant(name);
     }
@@ -98,11 +101,12 @@ private:
     Expanded out_;
     std::vector<Task> tasks_;
     std::vector<Frame> frames_;
-    std::vector<ast::ExprId> arguments_;  ///< Of the functions in frames_.
-    std::vector<ast::ExprId> results_;    ///< Nodes of out_ that are not yet used as operands.
-    bool has_laplacians_ = true;          ///< Means `lap` without brackets the operator?
-    std::size_t open_indices_ = 0;        ///< Number of members whose index is being expanded.
-    /// The values of the indices, the innermost last. Functions cannot read them.
+    std::vector<ast::ExprId> arguments_;  ///< Arguments of the functions in frames_.
+    std::vector<ast::ExprId> results_;    ///< Nodes of out_ that are not yet operands of another
+                                          ///< node.
+    bool has_laplacians_ = true;          ///< Whether `lap` without brackets is the operator.
+    std::size_t open_indices_ = 0;        ///< The number of members whose index is being expanded.
+    /// The values of each index, the innermost last. Bodies of functions cannot read indices.
     std::unordered_map<std::string_view, std::vector<std::int64_t>> values_;
 };
 

@@ -1,10 +1,12 @@
-// Checks one expression, node by node (internal to the checker).
+// Checks one expression, node by node (internal to the checker). The parts are in several files:
 //
-// check_expression.cpp walks the nodes and resolves names and strings; check_call.cpp checks calls:
-// arguments, types and constants; check_context.cpp where they stand; check_operators.cpp checks
-// operators of derivatives, vectors and tensors; check_links.cpp what cells that crawl read of
-// their neighbours; check_directions.cpp the directions that `along` takes; check_convolution.cpp
-// the kernels of convolutions.
+// - check_expression.cpp: the walk over the nodes, names and strings;
+// - check_call.cpp: arguments, types and constants of calls;
+// - check_context.cpp: whether a call is allowed where it is written;
+// - check_operators.cpp: operators of derivatives, vectors and tensors;
+// - check_links.cpp: sums over neighbours, and the values that cells that crawl read from them;
+// - check_directions.cpp: directions of a model as arguments of `along`;
+// - check_convolution.cpp: the kernels of convolutions.
 #pragma once
 
 #include "lang/check/expressions/check_expression.h"
@@ -19,12 +21,14 @@
 
 namespace cascade::checking {
 
-/// What is known about a node besides the node itself.
+/// Facts about a node that the node itself does not contain.
 struct Part {
-    bool has_error = false;  ///< An error has been reported; its users are not reported.
+    bool has_error = false;  ///< An error has been reported. Nodes that read this node cause no
+                             ///< further messages.
     bool constant = false;
     double value = 0;
-    bool turned = false;  ///< A vector that a tensor has multiplied, or one computed from such.
+    bool turned = false;  ///< Whether the part is a vector multiplied by a tensor, or computed from
+                          ///< such a vector.
 };
 
 class ExpressionChecker {
@@ -32,7 +36,7 @@ public:
     ExpressionChecker(Workspace& work, const ast::Script& script, ast::Expression expression,
                       const Scope& scope)
         : work_(work), script_(script), expression_(expression), scope_(scope) {}
-    /// For an expanded expression: `from` is the script that it was written in.
+    /// Checks an expanded expression. `from` is the script in which the expression was written.
     ExpressionChecker(Workspace& work, const ast::Script& from, const Expanded& expanded,
                       const Scope& scope)
         : work_(work),
@@ -54,7 +58,8 @@ private:
         parts_.back().has_error = true;
     }
 
-    /// In a system of cells that crawl, whose vectors are three numbers?
+    /// Whether the expression belongs to a system of cells that crawl. There a vector consists of
+    /// three numbers.
     bool in_cells() const { return is_of_cells(work_, scope_); }
 
     bool put_definitions_in(Formula& formula);
@@ -109,23 +114,23 @@ private:
     bool is_same_everywhere(NodeId part);
     void need(NodeId part, ValueType type);
     void fold_constants(const Node& node);
-    /// Is the part that is being checked one of the kernel of a convolution?
+    /// Whether the part that is being checked belongs to the kernel of a convolution.
     bool stands_in_kernel() const { return in_kernel_[NodeId(parts_.size() - 1)]; }
 
     Workspace& work_;
     const ast::Script& script_;
     ast::Expression expression_;
     const Scope& scope_;
-    const ast::Script& from_ = script_;  ///< The script whose functions can be called.
+    const ast::Script& from_ = script_;  ///< The script whose functions the expression can call.
     const Expanded* expanded_ = nullptr;
     Formula formula_;
     IdVector<NodeId, Part> parts_;
     IdVector<NodeId, bool> wants_text_, is_direction_;
-    IdVector<NodeId, bool> in_kernel_;  ///< Of a convolution; see kernel_parts().
-    bool has_loose_nodes_ = false;  ///< Some are kept elsewhere, as the kernels of convolutions.
+    IdVector<NodeId, bool> in_kernel_;  ///< Whether a part belongs to the kernel of a convolution.
+    bool has_loose_nodes_ = false;  ///< Whether some nodes of the expression are stored elsewhere.
 };
 
-/// By node of the expression: is it in the kernel of a convolution?
+/// For each node of the expression, whether it belongs to the kernel of a convolution.
 IdVector<NodeId, bool> kernel_parts(const ast::Script& script, ast::Expression expression);
 
 }  // namespace cascade::checking

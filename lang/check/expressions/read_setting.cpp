@@ -1,4 +1,5 @@
-// What a setting takes is said by its row, and so is the message about another value.
+// Reads settings. The row of a setting contains its allowed values and the message about other
+// values.
 #include "lang/check/expressions/read_setting.h"
 
 #include "core/check.h"
@@ -17,7 +18,7 @@ namespace cascade::checking {
 
 namespace {
 
-/// A hint for `0,0125`, digits on both sides of a comma: a decimal comma.
+/// A hint for a number such as `0,0125`. Digits on both sides of a comma suggest a decimal comma.
 std::string hint_of_decimal_comma(const ast::Script& script, const ast::Statement& statement) {
     if (statement.values.size() != 2) return "";
     const Span whole = span_of(script, statement.values[0]);
@@ -51,7 +52,7 @@ bool has_one_value(Workspace& work, const ast::Script& script, const ast::Statem
 
 namespace {
 
-/// Why a number is no value of a setting.
+/// The message why a setting does not accept a number.
 std::string refusal_of(const SettingInfo& setting, double value) {
     using Kind = SettingLimits::Kind;
     const auto& [kind, low, high] = setting.limits;
@@ -77,7 +78,7 @@ std::optional<double> read_number(Workspace& work, const ast::Script& script,
     CHECK(row.limits.kind != SettingLimits::Kind::none, "the row says which numbers it takes");
     const auto value = check_constant(work, script, statement.values[0], row.word);
     if (!value || row.limits.contain(*value)) return value;
-    // A part of a step may be meant as a length of time.
+    // If a number of steps is below 1, the author may have meant a length of time.
     const bool fits = row.limits.kind != SettingLimits::Kind::count || (*value > 0 && *value < 1);
     work.diagnostics.error(value_of(script, statement).span, refusal_of(row, *value),
                            std::string(fits ? row.hint : ""));

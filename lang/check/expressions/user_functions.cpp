@@ -1,5 +1,5 @@
-// Checks the functions and constants of a script: their names, what they read, and that none is
-// recursive.
+// Checks the functions and constants of a script: their names, the names that they read, and that
+// no function is recursive.
 #include "lang/check/expressions/user_functions.h"
 
 #include "core/counted.h"
@@ -57,7 +57,7 @@ private:
     void check_name(std::uint32_t index, std::string_view name, Span span);
     void check_call(std::uint32_t index, const ast::Call& call, Span span);
     void report_cycle(const std::vector<std::uint32_t>& cycle);
-    /// Null in the functions of cells themselves.
+    /// A library function of cells. Null while these functions themselves are checked.
     const UserFunction* find_of_cells(std::string_view name) {
         const ast::Script* of_cells = work_.cell_functions;
         if (of_cells == nullptr || of_cells == &script_) return nullptr;
@@ -109,7 +109,8 @@ void FunctionTableMaker::declare(const ast::FunctionDefinition& definition) {
     table_.functions_.push_back(std::move(function));
 }
 
-/// The last `--set` of a constant without the name of a stage is its expression.
+/// The body of a function. For a constant, the last `--set` without the name of a stage replaces
+/// it.
 ast::Expression FunctionTableMaker::body_of(const ast::FunctionDefinition& definition) const {
     ast::Expression body = definition.body;
     if (!definition.is_constant) return body;
@@ -135,7 +136,7 @@ void FunctionTableMaker::check_body(std::uint32_t index) {
     for (ast::ExprId id = body.first; id <= body.root; ++id) {
         const ast::Expr& part = script_.expressions[id];
         if (is_family[id - body.first]) continue;                // Reported with its index.
-        if (name_of_length(script_, part) != nullptr) continue;  // Checked where it is called.
+        if (name_of_length(script_, part) != nullptr) continue;  // Checked in each call.
         if (const auto* name = std::get_if<ast::Name>(&part.node)) {
             check_name(index, name->name, part.span);
         } else if (const auto* call = std::get_if<ast::Call>(&part.node)) {
@@ -208,7 +209,7 @@ void FunctionTableMaker::report_cycle(const std::vector<std::uint32_t>& cycle) {
         names.emplace_back(table_.functions_[function].definition->name.text);
         has_constant |= table_.functions_[function].definition->is_constant;
     }
-    // The place of the call in the first function of the cycle: of the next one, or of itself.
+    // Where the first function of the cycle calls the next function, or itself.
     const ast::Expression body = table_.functions_[cycle[0]].body;
     const std::string& next = names[1 % names.size()];
     Span span = table_.functions_[cycle[0]].definition->name.span;

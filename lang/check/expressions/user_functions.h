@@ -1,9 +1,10 @@
-// Functions that a script defines, `fn bump(r, w) = exp(-(r/w)^2)`, and its constants, `let L = 10`
-// (internal to the checker).
+// Functions and constants that a script defines, such as `fn bump(r, w) = exp(-(r/w)^2)` and `let L
+// = 10` (internal to the checker).
 //
 // A function reads only its parameters, built-in values, constants and other functions, and is not
-// recursive. So a call can be expanded: replaced by the function's body with the arguments in place
-// of parameters. A constant is a function without parameters that is read without brackets.
+// recursive. So a call can be expanded, that is, replaced by the function's body with the arguments
+// in place of the parameters. A constant is a function without parameters that is read without
+// brackets.
 #pragma once
 
 #include "lang/check/names/check_names.h"
@@ -17,9 +18,10 @@ namespace cascade::checking {
 
 struct UserFunction {
     const ast::FunctionDefinition* definition = nullptr;
-    ast::Expression body;  ///< As defined, or of a constant as `--set` says.
-    std::unordered_map<std::string_view, std::uint32_t> parameters;  ///< Their numbers, from 0.
-    bool has_error = false;  ///< An error has been reported; calls are not.
+    ast::Expression body;  ///< As defined. For a constant changed by `--set`, the new value.
+    std::unordered_map<std::string_view, std::uint32_t> parameters;  ///< The index of each
+                                                                     ///< parameter, by its name.
+    bool has_error = false;  ///< An error has been reported. Calls cause no further messages.
 };
 
 /// The functions of one script, by name.
@@ -44,33 +46,33 @@ private:
     std::unordered_map<std::string_view, std::uint32_t> by_name_;
 };
 
-/// A function and the script that it is written in.
+/// A function and the script in which it is defined.
 struct FoundFunction {
     const UserFunction* function = nullptr;
     const ast::Script* script = nullptr;
     explicit operator bool() const { return function != nullptr; }
 };
 
-/// The function that a call in `script` means: one of the script's own, else one of cells; nothing
-/// if there is none.
+/// The function to which a call in `script` refers: a function of the script or, if there is none
+/// of this name, a library function of cells. Empty if there is neither.
 FoundFunction find_function(Workspace& work, const ast::Script& script, std::string_view name);
 
-/// True for functions of the language and aggregates over an index.
+/// Whether the name is a function of the language or an aggregate over an index.
 bool is_function_name(std::string_view name);
 
-/// Reports that there is no such function; `own` are the names of the script's functions.
+/// Reports that there is no function of this name. `own` are the names of the script's functions.
 void report_unknown_function(Workspace& work, const ast::Word& name,
                              const std::vector<std::string>& own);
 
-/// True if a call has as many arguments as the function has parameters; else reports an error.
+/// Whether a call has as many arguments as the function has parameters. Otherwise reports an error.
 bool has_right_count(Workspace& work, const UserFunction& function, const ast::Call& call,
                      Span span);
 
-/// The functions and constants of a script; they are checked when first requested.
+/// The functions and constants of a script. They are checked when they are first requested.
 const FunctionTable& functions_of(Workspace& work, const ast::Script& script);
 
-/// Reports constants that have the name of a parameter, definition or index of a system: a reader
-/// could not tell which of the two an expression means.
+/// Reports constants that share their name with a parameter, definition or index of a system,
+/// because a reader could not tell which of the two an expression means.
 void check_names_of_constants(Workspace& work, const ast::Script& script);
 
 }  // namespace cascade::checking

@@ -1,4 +1,5 @@
-// Names of cells that crawl: their values, and what they can read of other stages.
+// Resolves names in systems of cells that crawl: values of cells, and names of other stages that
+// cells can read.
 #include "lang/check/names/check_names.h"
 #include "lang/program/stage_kinds.h"
 
@@ -20,7 +21,7 @@ std::optional<Node> resolve_cell_value(Workspace& work, const Scope& scope, Cell
                                        Span span) {
     Diagnostic diagnostic;
     if (scope.context == Context::bound) {
-        diagnostic.message = "a bound is made of numbers and parameters only";
+        diagnostic.message = "a bound can contain numbers and parameters only";
     } else if (scope.context == Context::value && is_of_frame(value)) {
         diagnostic.message = fmt::format("'{}' has no value when a stage starts",
                                          cell_value_names[static_cast<std::size_t>(value)]);
@@ -45,9 +46,9 @@ bool knows_cells(Workspace& work, const Scope& scope, StageItem item, Span span)
     }
     if (scope.context == Context::picture) {
         report(work, span,
-               fmt::format("the cells of stage '{}' are not those of '{}'", source.name,
+               fmt::format("stage '{}' does not continue the cells of '{}'", source.name,
                            program.stages[*scope.stage].name),
-               "a value that is carried on, as in c: c, can be shown");
+               "a value that the next stage continues, as in c: c, can be shown");
         return false;
     }
     const auto before = stage_of_cells_before(program, *scope.stage);
@@ -55,14 +56,14 @@ bool knows_cells(Workspace& work, const Scope& scope, StageItem item, Span span)
         report(work, span,
                fmt::format("stage '{}' starts with other cells than those of '{}'",
                            program.stages[*scope.stage].name, source.name),
-               "without 'founders' a stage goes on with the cells before it");
+               "without 'founders' a stage continues with the cells of the stage before it");
         return false;
     }
     if (before == item.stage) return true;
     report(work, span,
-           fmt::format("the cells of '{}' have gone on to stage '{}'", source.name,
+           fmt::format("the cells of '{}' now belong to stage '{}'", source.name,
                        program.stages[*before].name),
-           "carry the value on in each stage between, as in c: c");
+           "continue the value in each stage between, as in c: c");
     return false;
 }
 

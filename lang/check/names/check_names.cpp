@@ -1,4 +1,4 @@
-// Name resolution: from a word in an expression to an item, a definition or a built-in value.
+// Resolves names: from a word in an expression to an item, a definition or a built-in value.
 #include "lang/check/names/check_names.h"
 
 #include "lang/check/names/note_uses.h"
@@ -19,7 +19,7 @@ const System& system_at(const Workspace& work, SystemId index) {
     return work.program.systems[index];
 }
 
-/// True where an expression cannot read the names of a system.
+/// Whether an expression in this scope cannot read the names of a system.
 bool is_constant(const Scope& scope) {
     return scope.context == Context::constant || scope.context == Context::position ||
            scope.context == Context::mask || scope.context == Context::shape;
@@ -38,7 +38,7 @@ std::optional<Node> resolve_builtin(Workspace& work, const Scope& scope, std::st
         return std::nullopt;
     }
     if (scope.context == Context::bound) {
-        report(work, span, "a bound is made of numbers and parameters only", "");
+        report(work, span, "a bound can contain numbers and parameters only", "");
         return std::nullopt;
     }
     if ((scope.context == Context::position || scope.context == Context::mask) &&
@@ -48,11 +48,12 @@ std::optional<Node> resolve_builtin(Workspace& work, const Scope& scope, std::st
     }
     if (scope.context == Context::position && !varies_by_cell(name)) {
         report(work, span, fmt::format("a surface cannot depend on '{}'", name),
-               "it stays as it is");
+               "a surface does not change during a run");
         return std::nullopt;
     }
     if (scope.context == Context::mask && !varies_by_cell(name)) {
-        report(work, span, fmt::format("a mask cannot depend on '{}'", name), "it stays as it is");
+        report(work, span, fmt::format("a mask cannot depend on '{}'", name),
+               "a mask does not change during a run");
         return std::nullopt;
     }
     if (scope.context == Context::value && !varies_by_cell(name) && !scope.is_side) {
@@ -77,12 +78,14 @@ bool report_reserved(Workspace& work, const Scope& scope, std::string_view name,
     return false;
 }
 
-/// Rates have the values of definitions; sides and pictures compute them.
+/// Whether an expression in this scope can read definitions. In rates the values of definitions are
+/// known. For sides and pictures, they are computed.
 bool reads_definitions(const Scope& scope) {
     return scope.context == Context::rate || scope.context == Context::picture || scope.is_side;
 }
 
-/// Resolves a name of the system itself, or of the stage that is being set or shown.
+/// Resolves a name of the system itself, or of the stage to which the statement or the picture
+/// belongs.
 std::optional<Node> resolve_own(Workspace& work, const Scope& scope, std::string_view name,
                                 Span span) {
     if (scope.system == unknown_system || report_reserved(work, scope, name, span)) {
@@ -105,14 +108,14 @@ std::optional<Node> resolve_own(Workspace& work, const Scope& scope, std::string
     }
     if (scope.context == Context::bound &&
         system_at(work, scope.system).is_species(meaning->item())) {
-        report(work, span, "a bound is made of numbers and parameters only",
+        report(work, span, "a bound can contain numbers and parameters only",
                fmt::format("'{}' is a species", name));
         return std::nullopt;
     }
     return Node{meaning->item(), span, meaning->type};
 }
 
-/// Resolves t, s, part, and what a shape declares itself.
+/// Resolves t, s, part, and names that a shape declares.
 std::optional<Node> resolve_in_shape(Workspace& work, const Scope& scope, std::string_view name,
                                      Span span) {
     if (name == "pi") return Node{std::numbers::pi, span};
@@ -183,7 +186,7 @@ std::vector<std::string> stage_names(const Workspace& work, std::size_t count) {
     return names;
 }
 
-/// The stage of `stage.name`; reports an error if it cannot be read.
+/// The stage called `stage` in `stage.name`. Reports an error if it cannot be read.
 std::optional<std::uint32_t> find_stage(Workspace& work, const Scope& scope,
                                         const ast::Qualified& qualified) {
     const std::string_view name = qualified.stage.text;
@@ -258,7 +261,7 @@ std::optional<Node> resolve_qualified(Workspace& work, const Scope& scope,
             return std::nullopt;
         }
         report(work, span, "a system cannot read a stage",
-               "a system does not know what ran before it");
+               "a system cannot depend on the stages before it");
         return std::nullopt;
     }
     const auto stage =

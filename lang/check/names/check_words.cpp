@@ -1,4 +1,5 @@
-// Words of the checker: reserved words, suggestions of similar names, and lists of names.
+// Makes texts for messages about words: reserved words, suggestions of similar names, and lists of
+// names.
 #include "core/near_name.h"
 #include "lang/check/names/check_names.h"
 #include "lang/vocabulary/settings.h"
@@ -11,7 +12,7 @@ namespace cascade::checking {
 
 namespace {
 
-/// No suggestions are made after this number of errors.
+/// After this number of errors, no more suggestions are made.
 constexpr std::size_t most_suggestions = 200;
 constexpr std::size_t most_names_compared = 1'000'000;
 constexpr std::size_t most_listed = 24;
@@ -84,7 +85,7 @@ std::string hint_about(Workspace& work, std::string_view word, WordContext conte
 
 namespace {
 
-/// Calls `take` with the number of each member of a family, as it is written.
+/// Calls `take` with the index of each member of a family, as a text.
 template <typename Take>
 void each_member(const System& system, std::string_view family, const Take& take) {
     const auto look = [&](const std::string& name) {
@@ -142,7 +143,7 @@ std::optional<Explanation> explain_family(Workspace& work, const System& system,
 
 Explanation index_without_value(std::string_view index) {
     return {fmt::format("the index '{}' has no value here", index),
-            fmt::format("it has one in statements of u[{0}] and in sum(… over {0})", index)};
+            fmt::format("it has a value in statements of u[{0}] and in sum(… over {0})", index)};
 }
 
 void add_call(const Workspace& work, Diagnostic& diagnostic) {

@@ -1,4 +1,5 @@
-// The grid is known when expressions of systems, stages and pictures are checked.
+// Replaces lengths of the domain by numbers. The grid is known before expressions of systems,
+// stages and pictures are checked.
 #include "lang/check/names/domain_lengths.h"
 
 #include "lang/program/scaled_lengths.h"
@@ -60,7 +61,7 @@ std::optional<DomainLength> domain_length(Workspace& work, const Scope& scope,
     }
     if (is_of_cells(work, scope)) {
         return refuse("cells that crawl do not lie on the grid",
-                      "p.x, p.y and p.z are their place");
+                      "p.x, p.y and p.z are their position");
     }
     return DomainLength{row->builtin, row->factor(domain.grid)};
 }

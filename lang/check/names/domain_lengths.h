@@ -1,5 +1,5 @@
-// Lengths of the domain in expressions (internal to the checker): places and sides in the unit of
-// the spacing, and integrals.
+// Lengths of the domain in expressions (internal to the checker): positions and sides in the
+// script's unit of length, and integrals.
 //
 //     domain.x            becomes   x * 10       on a grid whose longest side is 10 long
 //     domain.spacing      becomes   0.05
@@ -12,28 +12,29 @@
 
 namespace cascade::checking {
 
-/// The word before the dot.
+/// The word before the dot, as in domain.x.
 inline constexpr std::string_view domain_word = "domain";
-/// The aggregate that counts each cell with its length, area or volume.
+/// The aggregate in which each cell counts with its length, area or volume.
 inline constexpr std::string_view integral_word = "integral";
 
-/// A length: `factor` itself, or `factor` times a built-in value.
+/// A length: `factor`, multiplied by a built-in value if `builtin` names one.
 struct DomainLength {
     std::string_view builtin;  ///< Empty if there is none.
     double factor = 0;
 };
 
-/// What the name after `domain.` means; an error is reported if it means nothing, or nothing here.
+/// The length to which the name after `domain.` refers. Reports an error if there is no such
+/// length, or if it cannot be read in this scope.
 std::optional<DomainLength> domain_length(Workspace& work, const Scope& scope,
                                           const ast::Word& name);
 
-/// The length, area or volume of a cell of the grid; 1 where sums are integrals by themselves, on
-/// models and surfaces.
+/// The length, area or volume of a cell of the grid. On models and surfaces the result is 1,
+/// because sums over their cells are already integrals.
 double content_of_cell(const Program& program);
 
-/// The name after `domain.`; null for other expressions.
+/// The name after `domain.`; null if the expression does not have this form.
 const ast::Word* name_of_length(const ast::Script& script, const ast::Expr& expr);
-/// Is it integral(e over domain)?
+/// Whether the aggregate is integral(e over domain).
 bool is_integral(const ast::Over& over);
 
 }  // namespace cascade::checking

@@ -1,4 +1,4 @@
-// What the names of a script refer to, as the checker finds out.
+// The uses of names in a script, and the declarations to which they refer.
 #pragma once
 
 #include "core/source.h"
@@ -7,14 +7,15 @@
 
 namespace cascade {
 
-/// A name that is written at `use`, and the name of the statement or block that declares it. A
-/// declaration refers to itself, and to the inherited declaration that it replaces.
+/// A use of a name, and the name in the statement or block that declares it. A declaration counts
+/// as a use of itself, and as a use of the inherited declaration that it replaces.
 struct NameUse {
     Span use;
     Span declaration;
 };
 
-/// In any order, with repetitions. The span of a use may hold more than the name: `[u]`, `u[i]`.
+/// Uses in any order. A use may occur several times. The span of a use may be larger than the name,
+/// as in `[u]` or `u[i]`.
 using NameUses = std::vector<NameUse>;
 
 }  // namespace cascade

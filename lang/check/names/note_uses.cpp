@@ -1,4 +1,5 @@
-// Quantities that every system of its kind has, such as t of a shape, are declared nowhere.
+// Records the uses of names. Quantities that every system of a kind has, such as t of a shape, have
+// no declaration and are left out.
 #include "lang/check/names/note_uses.h"
 
 namespace cascade::checking {

@@ -1,4 +1,5 @@
-// Notes for editors what names refer to (internal to the checker). Does nothing if nobody asks.
+// Records, for editors, the declaration to which each name refers (internal to the checker). The
+// functions do nothing if Workspace::uses is null.
 #pragma once
 
 #include "lang/check/names/check_names.h"
@@ -7,15 +8,16 @@
 
 namespace cascade::checking {
 
-/// Notes that the name at `use` refers to a declaration.
+/// Records that the name at `use` refers to a declaration.
 void note_use(Workspace& work, Span use, Span declaration);
-/// The same for a name that means an item or a definition of a system.
+/// Records that the name at `use` refers to an item or a definition of a system.
 void note_use(Workspace& work, Span use, SystemId system,
               const std::variant<ItemId, DefinitionId>& id);
-/// The same for a name in an expression, which has become `node`.
+/// Records the declaration of a name in an expression. `node` is the name's node.
 void note_use(Workspace& work, const Scope& scope, const Node& node, Span use);
 
-/// Notes that each declaration of a system refers to itself, and to one of its name in a base.
+/// Records each declaration of a system as a use of itself and as a use of the declaration of the
+/// same name in a base.
 void note_declarations(Workspace& work, SystemId system);
 
 }  // namespace cascade::checking

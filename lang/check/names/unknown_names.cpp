@@ -1,4 +1,5 @@
-// Hints come from the tables of words of other programs, then from similar names.
+// Reports unknown names. Hints come from tables of words of other programs or, if these lack the
+// word, from similar names.
 #include "lang/check/names/unknown_names.h"
 
 #include "lang/vocabulary/words_elsewhere.h"
@@ -26,7 +27,7 @@ std::vector<std::string> readable_names(const System& system, const Scope& scope
     return names;
 }
 
-/// "write 'dxx(u)'" for u_xx, if there is a u.
+/// The hint "write 'dxx(u)'" for u_xx, if the name u is known.
 std::string hint_of_subscript(std::string_view name, const std::vector<std::string>& known) {
     const std::size_t bar = name.rfind('_');
     if (bar == name.npos) return "";
@@ -43,17 +44,17 @@ std::string hint_of_subscript(std::string_view name, const std::vector<std::stri
 void report_constant(Workspace& work, const Scope& scope, std::string_view name, Span span) {
     if (scope.context == Context::position) {
         report(work, span, fmt::format("a surface cannot read '{}'", name),
-               "it is made of numbers, sx, sy, pi and functions of them");
+               "use numbers, sx, sy, pi and functions of these");
         return;
     }
     if (scope.context == Context::mask) {
         report(work, span, fmt::format("a mask cannot read '{}'", name),
-               "it is made of coordinates, numbers, shapes, noise and files");
+               "use coordinates, numbers, shapes, noise and files");
         return;
     }
     if (scope.context == Context::shape) {
         report(work, span, fmt::format("a shape cannot read '{}'", name),
-               "it is made of t, s, part, numbers of its own and functions of them");
+               "it can read t, s, part and its own numbers only");
         return;
     }
     if (reserved(name) == Reserved::builtin && varies_by_cell(name)) {
@@ -63,7 +64,7 @@ void report_constant(Workspace& work, const Scope& scope, std::string_view name,
         return;
     }
     report(work, span, fmt::format("{} must be one number", scope.subject),
-           "only numbers, operators and functions of them can stand here");
+           "only numbers, operators and functions of numbers can be used here");
 }
 
 std::string not_a_parameter(std::string_view name, const System& system) {
@@ -86,7 +87,8 @@ void report_unknown_own(Workspace& work, const Scope& scope, std::string_view na
         hint = fmt::format("add {}: 0.1, for example", name);
     if (function_named(name)) hint = fmt::format("'{0}' is a function: {0}(…)", name);
     if (name == "steady") hint = "write steady(0.1)";
-    if (cell_value_named(name)) hint = fmt::format("'{}' is known to cells that crawl only", name);
+    if (cell_value_named(name))
+        hint = fmt::format("'{}' can be used by cells that crawl only", name);
     std::string note = fmt::format("{} has {}", system.name, names);
     if (scope.context == Context::value && scope.stage) {
         note = fmt::format("[name] reads this stage ({}: {})", system.name, names);

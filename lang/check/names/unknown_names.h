@@ -1,4 +1,4 @@
-// What is said of names that cannot be read where they are written (internal to the checker).
+// Reports names that cannot be read where they are written (internal to the checker).
 #pragma once
 
 #include "lang/check/names/check_names.h"
@@ -8,19 +8,19 @@
 
 namespace cascade::checking {
 
-/// Does a built-in value differ between cells? Only t and step do not.
+/// Whether a built-in value can differ between cells. Only t and step cannot.
 inline bool varies_by_cell(std::string_view builtin) { return builtin != "t" && builtin != "step"; }
 
-/// "'x' is not a parameter of s"
+/// The text "'x' is not a parameter of s".
 std::string not_a_parameter(std::string_view name, const System& system);
 
-/// Reports a name where an expression cannot read the names of a system.
+/// Reports a name in an expression that cannot read the names of a system.
 void report_constant(Workspace& work, const Scope& scope, std::string_view name, Span span);
-/// Reports a name that the system of the scope lacks.
+/// Reports a name that the scope's system does not declare.
 void report_unknown_own(Workspace& work, const Scope& scope, std::string_view name, Span span);
-/// Reports a name of the previous stage in the first one.
+/// Reports a name that refers to the previous stage although this is the first stage.
 void report_first_stage(Workspace& work, const Scope& scope, std::string_view name, Span span);
-/// Reports a name that the previous stage lacks.
+/// Reports a name that the previous stage does not have.
 void report_unknown_previous(Workspace& work, const Scope& scope, std::string_view name, Span span);
 
 /// Reports that there is no system of this name.

@@ -1,4 +1,4 @@
-// Quaternions by their products, written as expression graphs.
+// Builds expression graphs of formulas with quaternions.
 #include "lang/check/systems/cell_frame.h"
 
 #include "lang/calculus/algebra.h"
@@ -22,7 +22,7 @@ struct Turn {
     TermVector v;
 };
 
-/// The product a b: first the turn b, then a.
+/// The product a b is the rotation b followed by the rotation a.
 Turn operator*(const Turn& a, const Turn& b) {
     const TermVector across = cross(a.v, b.v);
     Turn result{a.w * b.w - dot(a.v, b.v), {}};
@@ -35,10 +35,10 @@ Formulas formulas(const Algebra& algebra, const Turn& q) {
             algebra.formula(q.v.z)};
 }
 
-/// The shortest turn of the y axis of space to the unit vector `ey`; half a turn about x if that is
-/// opposite.
+/// The smallest rotation from the y axis of space to the unit vector `ey`. If the two are opposite,
+/// half a turn about the x axis.
 Turn turn_of_y(const TermVector& ey) {
-    // (1 + y · ey, y × ey), made a unit.
+    // The quaternion (1 + y · ey, y × ey), normalised.
     const Term zero = ey.x.number(0), one = ey.x.number(1);
     const Term w = one + ey.y;
     const TermVector v{ey.z, zero, -ey.x};
@@ -96,12 +96,14 @@ Formulas starting_frame(const Formula& ey, const Formula& ez) {
         normal.type = ValueType::vector;
         return algebra.add(normal);
     });
-    constexpr std::uint32_t of_random_vector = 2;  // Written in neither formula.
+    constexpr std::uint32_t of_random_vector = 2;  // A formula index other than those of `ey` and
+                                                   // `ez`, so that the draws are different.
     const Term z = vector_of(ez, [&] { return NodeId(random_vector(algebra, of_random_vector)); });
 
     const TermVector up = components(unit(y)), wanted = components(z);
     const Turn upright = turn_of_y(up);
-    // Where that turn takes the z axis of space, and the direction across both.
+    // The direction to which `upright` rotates the z axis of space, and the direction perpendicular
+    // to both this direction and ey.
     const auto& [w, v] = upright;
     const Term two = y.number(2);
     const auto twice = [&](Term a, Term b) { return two * (a * b); };

@@ -1,7 +1,7 @@
-// The frame of a cell that crawls as formulas of its quaternion (internal to the checker).
+// The frame of a cell that crawls, as formulas of its quaternion (internal to the checker).
 //
-// The quaternion q = (w, x, y, z) turns the axes of space into those of the cell. Its length has no
-// meaning: the axes are computed from q / |q|.
+// The quaternion q = (w, x, y, z) rotates the axes of space into the axes of the cell. The length
+// of q has no meaning, because axes are computed from q / |q|.
 #pragma once
 
 #include "lang/program/program.h"
@@ -10,13 +10,14 @@
 
 namespace cascade::checking {
 
-/// The rates of the four components, q' = ½ ω q + (1 − |q|²) q, where the vector `spin` is the
-/// angular velocity ω in the axes of space. The second term keeps |q| near 1 and does not turn.
+/// The rates of the four components: q' = ½ ω q + (1 − |q|²) q. The vector `spin` is the angular
+/// velocity ω in the axes of space. The second term keeps |q| near 1 and does not rotate.
 std::array<Formula, 4> rates_of_frame(ItemId frame, DefinitionId spin);
 
-/// The four components at the start, of length 1: the y axis has the direction of the vector `ey`
-/// (empty: the normal), and the z axis the direction of `ez` as far as it is across ey (empty: at
-/// random). Where ez is along ey the z axis is a direction across ey that depends on ey alone.
+/// The four components at the start, with |q| = 1. The y axis has the direction of the vector `ey`
+/// (if empty: of the normal). The z axis has the direction of the part of `ez` that is
+/// perpendicular to the y axis (if empty: a random direction). If ez is parallel to ey, the z axis
+/// is a direction perpendicular to ey that depends only on ey.
 std::array<Formula, 4> starting_frame(const Formula& ey, const Formula& ez);
 
 }  // namespace cascade::checking

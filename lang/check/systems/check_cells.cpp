@@ -1,5 +1,5 @@
-// What only blocks of cells have: the quantities of every cell, vectors, and the rules of division
-// and death.
+// Checks the parts that only blocks of cells have: quantities of every cell, vectors, and rules of
+// division and death.
 #include "lang/calculus/algebra.h"
 #include "lang/check/systems/cell_frame.h"
 #include "lang/check/systems/check_systems.h"
@@ -22,14 +22,14 @@ Formula number(double value, Span span = {}) { return {{Node{value, span}}}; }
 
 bool is_axis(std::string_view name) { return name == "ey" || name == "ez"; }
 
-/// vector(0, 0, 0)
+/// The formula vector(0, 0, 0).
 Formula zero_vector(Span span) {
     Node call{Call(), span, ValueType::vector, Function::vector, 3};
     call.operands = {NodeId(0), NodeId(1), NodeId(2)};
     return {{Node{0.0, span}, Node{0.0, span}, Node{0.0, span}, call}};
 }
 
-/// component(definition, k)
+/// The formula component(definition, k).
 Formula component(DefinitionId vector, std::size_t k) {
     Node of_vector{vector};
     of_vector.type = ValueType::vector;
@@ -49,7 +49,7 @@ bool is_same(const Formula& a, const Formula& b) {
 
 }  // namespace
 
-/// Adds what every cell has, before the system's own quantities.
+/// Adds the quantities of every cell, before the system's own quantities.
 void SystemChecker::add_cell_quantities() {
     CellRules& rules = *system().cells;
     const auto add = [&](const char* name) {
@@ -79,7 +79,7 @@ void SystemChecker::add_cell_quantities() {
     rules.spin = define("turn'");
 }
 
-/// Takes a statement that means something in cells only, and returns true.
+/// If a statement has a meaning only in cells, handles it and returns true.
 bool SystemChecker::declare_of_cells(const Declaration& declaration) {
     if (declaration.kind() != ast::StatementKind::value) return false;
     const std::string& name = declaration.name;
@@ -87,7 +87,7 @@ bool SystemChecker::declare_of_cells(const Declaration& declaration) {
     if (is_plain && (is_setting_of(SettingBlock::cells, name) || is_axis(name))) {
         if (declaration.is_restart()) {
             work_.diagnostics.error(declaration.statement->after.span,
-                                    fmt::format("'{}' has no value that starts again", name));
+                                    fmt::format("'{}' has no value to set after a division", name));
         }
         const auto [first, is_new] = rules_.try_emplace(name, &declaration);
         if (!is_new) {
@@ -121,11 +121,11 @@ bool SystemChecker::declare_of_cells(const Declaration& declaration) {
     return true;
 }
 
-/// Reports the names that every cell has already.
+/// Whether the name can be declared. Reports names that every cell has already.
 bool SystemChecker::can_declare_in_cells(const Declaration& declaration) {
     const std::string_view name = declaration.statement->name.text;
     if (name == "p") {
-        work_.diagnostics.error(declaration.span(), "the places of cells are not a value of theirs",
+        work_.diagnostics.error(declaration.span(), "the positions of cells cannot be set here",
                                 "a stage says where they start: founders: keys(x, y, z)");
         return false;
     }
@@ -139,7 +139,8 @@ bool SystemChecker::can_declare_in_cells(const Declaration& declaration) {
     return false;
 }
 
-/// Takes a rate of the place, of the frame or of the age, and returns true.
+/// If the statement gives the rate of the position, the frame or the age, handles it and returns
+/// true.
 bool SystemChecker::collect_rate_of_cells(const Declaration& declaration) {
     const std::string& name = declaration.name;
     if (name == "p" || name == "turn") {
@@ -183,7 +184,7 @@ void SystemChecker::check_rates_of_cells() {
     target.rates[rules.age] = number(1, target.span);
 }
 
-/// Checks divide, die, along, ey or ez, if it is written.
+/// Checks a rule (divide, die, along, ey or ez) if the block has it.
 void SystemChecker::check_rule(std::string_view name, Formula& rule, Context context,
                                ValueType type, bool may_draw) {
     const auto found = rules_.find(name);
@@ -199,7 +200,8 @@ void SystemChecker::check_rule(std::string_view name, Formula& rule, Context con
                                 : "a threshold can be random: limit: random(1, 0.1) after divide");
 }
 
-/// Division, death, and what starts again. Comes last, as the rules read everything else.
+/// Checks division, death, and values that restart after a division. To be called last, because
+/// these rules read all other names.
 void SystemChecker::check_rules_of_cells() {
     const std::size_t errors_before = work_.diagnostics.error_count();
     CellRules& rules = *system().cells;

@@ -1,4 +1,5 @@
-// The number of times is checked where it is written, and the sides of the grid when all is known.
+// Checks the number n of coarse(n) when the setting is read, and the sides of the grid when the
+// whole script is known.
 #include "lang/check/systems/check_coarse.h"
 
 #include "lang/check/expressions/setting_words.h"
@@ -13,7 +14,8 @@ namespace {
 constexpr std::int64_t most_coarse = 64;
 constexpr std::int64_t fewest_cells = 4;  // Along an axis of the coarsest grid.
 
-/// Why a domain has no coarser grid, after "a coarser grid, "; null if it has.
+/// Why a domain has no coarser grid, as a text that follows "a coarser grid, "; null if the domain
+/// can have a coarser grid.
 const char* obstacle_in(const DomainSettings& domain) {
     return domain.model     ? "which a model does not have"
            : domain.surface ? "which a surface does not have"
@@ -21,7 +23,8 @@ const char* obstacle_in(const DomainSettings& domain) {
                             : nullptr;
 }
 
-/// Reports a side that has no whole number of cells `times` as wide, or too few of them.
+/// Reports a side whose number of cells is not a multiple of `times`, or that would have too few
+/// cells.
 void check_sides(const Grid& grid, std::int64_t times, Span span, Diagnostics& diagnostics) {
     for (const std::int64_t cells : {grid.width, grid.height, grid.depth}) {
         if (cells == 1 || (cells % times == 0 && cells / times >= fewest_cells)) continue;
@@ -50,7 +53,7 @@ std::optional<Coarse> check_coarse(Workspace& work, const ast::Script& script,
         return refuse(written.span, std::string(meaning), example);
     const auto arguments = arguments_of(script, value);
     if (arguments.size() != 1) {
-        return refuse(written.span, "coarse takes one value: how many times wider its cells are",
+        return refuse(written.span, "coarse takes one number: how many times wider the cells are",
                       example);
     }
     const auto times = check_constant(work, script, arguments[0], "coarse");
@@ -60,12 +63,13 @@ std::optional<Coarse> check_coarse(Workspace& work, const ast::Script& script,
     }
     return refuse(script.expressions[arguments[0].root].span,
                   fmt::format("coarse takes 2, 4, 8, … {}", most_coarse),
-                  setting == "start" ? "each grid has cells half as wide as the one before it"
-                                     : "it is a power of two, so that stages share whole cells");
+                  setting == "start"
+                      ? "the cells of each grid are half as wide as those of the previous one"
+                      : "powers of two let stages share whole cells");
 }
 
 void check_coarse_grids(const Program& program, Diagnostics& diagnostics) {
-    if (program.domain.coarse > 1) return;  // The domain of the script has been checked.
+    if (program.domain.coarse > 1) return;  // The script's own domain was checked before.
     const char* const obstacle = obstacle_in(program.domain);
     for (const Stage& stage : program.stages) {
         const bool starts_there = stage.time.coarse > 1;
@@ -81,7 +85,7 @@ void check_coarse_grids(const Program& program, Diagnostics& diagnostics) {
 }
 
 void check_sizes(const Program& program, Diagnostics& diagnostics) {
-    if (program.domain.coarse > 1) return;  // The domain of the script has been checked.
+    if (program.domain.coarse > 1) return;  // The script's own domain was checked before.
     for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
         if (!program.stages[k].size) continue;
         const auto trial = trial_program(program, k);
@@ -89,7 +93,8 @@ void check_sizes(const Program& program, Diagnostics& diagnostics) {
             diagnostics.error(trial.error().span, trial.error().message, trial.error().hint);
             continue;
         }
-        // Cells of surfaces have the size that their unit gives them, which is known in the run.
+        // The size of cells on surfaces follows from their unit, which is known only during the
+        // run.
         const DomainSettings& domain = program.domain;
         if (domain.model || domain.surface) continue;
         const Grid& grid = domain.grid;

@@ -1,5 +1,5 @@
-// A constraint becomes a definition of its unknown: solved(e), where e reads the unknown itself.
-// Other definitions that depend on the unknown are written out in e.
+// A constraint `0 = e` becomes a definition of its unknown: solved(e), where e reads the unknown
+// itself. In e, other definitions that depend on the unknown are expanded.
 #include "lang/check/systems/check_constraint.h"
 
 #include "lang/check/systems/check_systems.h"
@@ -17,7 +17,7 @@ namespace cascade::checking {
 
 namespace {
 
-/// The names in the expression of a statement, without those of functions that it calls, and of
+/// The names in the expression of a statement, except names of functions that it calls and names of
 /// families.
 std::vector<ast::Word> names_in(const Declaration& declaration) {
     std::vector<ast::Word> names;
@@ -42,8 +42,8 @@ public:
     Inliner(const System& system, DefinitionId unknown, std::uint32_t number)
         : system_(system), unknown_(unknown), number_(number) {}
 
-    /// The formula with the unknown in place of its definition, and with the formulas of
-    /// definitions that read it.
+    /// The formula, with the unknown in place of its definition, and with definitions that read the
+    /// unknown expanded.
     Formula run(const Formula& formula) {
         Formula result;
         append(formula, result);
@@ -121,12 +121,14 @@ void SystemChecker::find_unknowns() {
                                        "cells that crawl have no constraints",
                                        "fields have: system NAME { … }");
     }
-    // Those that name their field, and then those that read it in definitions.
+    // First the constraints that name their field, then the constraints that read their field only
+    // through definitions.
     std::erase_if(constraints, [&](Declaration* each) { return find_unknown(*each, false); });
     for (Declaration* each : constraints) find_unknown(*each, true);
 }
 
-/// The names without a value in a constraint, also in the definitions that it reads.
+/// The names without a value in a constraint and, if `in_definitions`, in the definitions that the
+/// constraint reads.
 std::vector<ast::Word> SystemChecker::names_without_values(const Declaration& constraint,
                                                            bool in_definitions) const {
     std::vector<ast::Word> unknown;
@@ -155,9 +157,9 @@ std::vector<ast::Word> SystemChecker::names_without_values(const Declaration& co
     return unknown;
 }
 
-/// Declares the name in a constraint that nothing else declares. In a derived system the constraint
-/// of a higher level replaces that of the same name. Returns false, without a message, if the
-/// constraint names no field and definitions have not been looked at.
+/// Declares the name in a constraint that nothing else declares. A constraint of a derived system
+/// replaces a constraint of its base that determines the same name. Returns false, without a
+/// message, if the constraint itself names no field and `in_definitions` is false.
 bool SystemChecker::find_unknown(Declaration& constraint, bool in_definitions) {
     const std::vector<ast::Word> unknown = names_without_values(constraint, in_definitions);
     if (unknown.size() == 1) {
@@ -187,18 +189,20 @@ bool SystemChecker::find_unknown(Declaration& constraint, bool in_definitions) {
     }
     if (is_incomplete(work_, index_)) return true;
     if (unknown.empty()) {
-        work_.diagnostics.error(constraint.span(),
-                                "this determines nothing: all names on the right have values",
-                                "it determines a name without a value, as phi in 0 = lap(phi) + "
-                                "rho");
+        work_.diagnostics.error(
+            constraint.span(),
+            "this determines nothing, because all names on the right have values",
+            "it determines a name without a value, as phi in 0 = lap(phi) + "
+            "rho");
         return true;
     }
     std::vector<std::string> names;
     for (const ast::Word& name : unknown) names.emplace_back(name.text);
-    work_.diagnostics.error(constraint.span(),
-                            fmt::format("this determines one name, but {} have no value",
-                                        list_names(names)),
-                            "give the others values");
+    work_.diagnostics.error(
+        constraint.span(),
+        fmt::format("a constraint determines one field, but several have no value: {}",
+                    list_names(names)),
+        "give all but one of them a value");
     work_.incomplete[index_] = true;
     return true;
 }
@@ -212,14 +216,15 @@ void solve_constraint(Workspace& work, SystemId system, DefinitionId id, Formula
     const Span span = residual.nodes.back().span;
     if (residual.nodes.back().type != ValueType::number) {
         return fail(span, "the right side of a constraint is a number",
-                    "div(v), dot(v, w) and v.x make a number of a vector");
+                    "div(v), dot(v, w) and v.x turn a vector into a number");
     }
     const std::uint32_t number = work.program.literals->add(Constraint{definition.name, span});
     Formula formula = Inliner(work.program.systems[system], id, number).run(residual);
     if (const Node* part = nonlinear_part(formula)) {
-        return fail(part->span, fmt::format("this is not linear in '{}'", definition.name),
-                    "a constraint is a sum of operators of its field, times what does not depend "
-                    "on it");
+        return fail(
+            part->span, fmt::format("this is not linear in '{}'", definition.name),
+            "a constraint is a sum of terms, each an operator of its field times factors that do not depend "
+            "on it");
     }
     Node solved;
     solved.kind = Call{number};

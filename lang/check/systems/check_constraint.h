@@ -1,12 +1,13 @@
-// Constraints: `0 = e` determines the one name in e that has no value (internal to the checker).
+// Checks constraints (internal to the checker). The constraint `0 = e` determines the only name in
+// e that has no value otherwise.
 #pragma once
 
 #include "lang/check/names/check_names.h"
 
 namespace cascade::checking {
 
-/// Makes the definition `id`, which a constraint determines, the field that makes `residual` 0.
-/// Reports an error where that is not linear in the field.
+/// Turns the definition `id`, which a constraint determines, into the field for which `residual` is
+/// 0. Reports an error if the residual is not linear in this field.
 void solve_constraint(Workspace& work, SystemId system, DefinitionId id, Formula residual);
 
 }  // namespace cascade::checking

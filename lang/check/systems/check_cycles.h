@@ -1,4 +1,4 @@
-// The order of values that depend on each other, and cycles (internal to the checker).
+// Orders values that depend on each other, and reports cycles (internal to the checker).
 #pragma once
 
 #include "lang/check/names/check_names.h"
@@ -9,18 +9,20 @@
 
 namespace cascade::checking {
 
-/// Reports a cycle of values at a formula of `items` that closes it. `from_system[i]` is true for
-/// defaults; the places of other formulas are preferred, since the stage's author wrote them.
+/// Reports a cycle of values at one of the formulas in it. `from_system[i]` is true if formula i is
+/// a default of the system. The error is reported at another formula if possible, because the
+/// author of the stage wrote the others.
 void report_item_cycle(Workspace& work, const System& system,
                        const std::vector<const Formula*>& items,
                        const std::vector<bool>& from_system,
                        const std::vector<std::uint32_t>& cycle);
 
-/// Reports cycles of defaults, which are errors of system `index` even if its stages override them.
+/// Reports cycles of defaults. They are reported as errors of system `index` even if its stages
+/// override the defaults.
 void report_cycles_of_defaults(Workspace& work, SystemId index);
 
-/// Orders the definitions of system `index` topologically, finds the order of its rates, and
-/// reports cycles and operators that are nested too deeply.
+/// Orders the definitions of system `index` topologically and finds the order of its rates. Reports
+/// cycles, and operators that are nested too deeply.
 void order_steps(Workspace& work, SystemId index);
 
 }  // namespace cascade::checking

@@ -1,4 +1,4 @@
-// What a system says about its quantities besides their values: ranges; and the texts of a system.
+// Checks the ranges of quantities, and the texts of a system.
 #include "lang/check/systems/check_systems.h"
 #include "lang/check/expressions/check_expression.h"
 

@@ -1,5 +1,5 @@
-// Settings of systems and stages: iterations, interval, frozen, speed, show. Those of time are in
-// check_time.cpp.
+// Checks settings of systems and stages: iterations, interval, frozen, speed, show. check_time.cpp
+// checks settings of time.
 #include "lang/check/systems/check_systems.h"
 #include "lang/check/systems/check_time.h"
 #include "lang/check/expressions/read_setting.h"
@@ -14,7 +14,8 @@
 namespace cascade::checking {
 namespace {
 
-/// Is the speed a word of other programs for steps that are chosen, and no name of this script?
+/// Whether the value of `speed` is a word by which other programs choose the steps automatically,
+/// and which this script does not declare.
 bool asks_for_automatic(const Workspace& work, const ast::Script& script,
                         const ast::Statement& speed, const Scope& scope) {
     static constexpr std::array<std::string_view, 9> words = {"automatic", "adaptive", "dynamic",
@@ -78,6 +79,13 @@ void check_setting(Workspace& work, const ast::Script& script, const ast::Statem
         (is_speed ? settings.speed : settings.frozen) = std::move(checked->formula);
     } else {
         check_time_setting(work, script, statement, scope, settings);
+    }
+    const bool observes = setting == Setting::interval || setting == Setting::every;
+    if (observes && settings.interval && settings.time.every) {
+        work.diagnostics.error(
+            statement.name.span,
+            "a stage is observed by steps, with interval, or by time, with every, not by both",
+            "leave one of them out");
     }
     if (!has_cells && is_end_setting(name) && settings.time.duration && settings.iterations) {
         work.diagnostics.error(statement.name.span,

@@ -1,4 +1,5 @@
-// Semi-implicit solvers need the diffusion that lang/calculus finds, and a domain with plane waves.
+// Checks solvers. Semi-implicit solvers need the diffusion that lang/calculus finds, and a domain
+// in which plane waves exist.
 #include "lang/check/systems/check_solver.h"
 
 #include "lang/calculus/derivative.h"
@@ -16,7 +17,7 @@ namespace cascade::checking {
 
 namespace {
 
-/// Does a rate depend on the values in its cell?
+/// Whether a rate depends on the values in its cell.
 bool has_reaction(const LocalJacobian& jacobian) {
     return std::ranges::any_of(jacobian.rows, [&](const auto& row) {
         return std::ranges::any_of(row,
@@ -32,8 +33,9 @@ bool has_diffusion(const IdVector<SpeciesId, SpeciesDiffusion>& diffusion) {
     });
 }
 
-/// A species that is held at a side and whose rate applies lap to its own lap, if there is one. The
-/// inner lap is stored in a plane, which is mirrored at sides, so its waves are not the species'.
+/// Finds a species that has a fixed value or slope at a side and whose rate contains lap of its own
+/// lap. The inner lap is stored in a plane that is mirrored at sides, so the waves of this plane
+/// differ from the waves of the species.
 std::optional<SpeciesId> held_and_nested(const Stage& stage,
                                          const IdVector<SpeciesId, SpeciesDiffusion>& diffusion) {
     for (const SpeciesId s : stage.sides.ids()) {
@@ -65,15 +67,14 @@ void check_local_solver(const Program& program, std::uint32_t stage, Span span,
     }
     const auto jacobian = local_jacobian(program, stage);
     if (!jacobian) {
-        diagnostics.error(
-            span,
-            subject +
-                " needs the derivatives of the rates by the species, and there "
-                "is no rule for one of them",
-            "there is none through the thresholds of smoothstep and tensors that turn "
-            "with a species; rkl2 takes any rate");
+        diagnostics.error(span,
+                          subject +
+                              " needs the derivatives of the rates by the species, and there "
+                              "is no rule for one of them",
+                          "thresholds of smoothstep and tensors that turn "
+                          "with a species have no derivative; rkl2 takes any rate");
     } else if (!has_reaction(*jacobian)) {
-        diagnostics.error(span, subject + " finds no reaction to take implicitly",
+        diagnostics.error(span, subject + " finds no reaction to treat implicitly",
                           "it looks for species in the rates outside of operators; rkl2 takes "
                           "long steps of diffusion");
     }
@@ -85,7 +86,7 @@ struct Refusal {
     std::string message, hint;
 };
 
-/// Why a semi-implicit solver cannot take the steps of a stage in its domain; nothing if it can.
+/// Why a semi-implicit solver cannot compute the steps of a stage in its domain; empty if it can.
 std::optional<Refusal> refusal_of_domain(const Program& program, const Stage& stage) {
     const DomainSettings& domain = program.domain;
     const std::string_view solver = name_of(stage.time.solver);
@@ -96,7 +97,7 @@ std::optional<Refusal> refusal_of_domain(const Program& program, const Stage& st
                        "rkl1 takes long steps on models"};
     }
     if (domain.surface && domain.surface->has_metric) {
-        return Refusal{fmt::format("stage '{}': {} needs cells that are squares, and these lie on "
+        return Refusal{fmt::format("stage '{}': {} needs square cells, and these lie on "
                                    "a surface",
                                    stage.name, solver),
                        "rkl1 takes long steps there"};
@@ -108,34 +109,37 @@ std::optional<Refusal> refusal_of_domain(const Program& program, const Stage& st
                        "rkl1 takes long steps there"};
     }
     if (domain.stencil != StencilKind::cross) {
-        return Refusal{fmt::format("stage '{}': {} knows the waves of stencil: cross alone",
-                                   stage.name, solver),
+        return Refusal{fmt::format("stage '{}': {} works with stencil: cross only", stage.name,
+                                   solver),
                        "rkl2 takes long steps with any stencil"};
     }
     return std::nullopt;
 }
 
-/// The same for its system.
+/// Why a semi-implicit solver cannot compute the steps of a stage with its system; empty if it
+/// can.
 std::optional<Refusal> refusal_of_system(const Program& program, std::uint32_t number) {
     const Stage& stage = program.stages[number];
     const System& system = program.system_of(number);
     const std::string_view solver = name_of(stage.time.solver);
     if (!stage.uniform[system.frozen_item()]) {
-        return Refusal{fmt::format("stage '{}' freezes cells, which {} cannot: its waves run "
-                                   "through all of them",
-                                   stage.name, solver),
-                       "rkl1 takes long steps around frozen cells"};
+        return Refusal{
+            fmt::format("stage '{}' freezes cells, but {} cannot hold cells: its waves run "
+                        "through all of them",
+                        stage.name, solver),
+            "rkl1 takes long steps around frozen cells"};
     }
     const auto diffusion = diffusion_of(program, number);
     if (const auto held = held_and_nested(stage, diffusion)) {
-        return Refusal{fmt::format("stage '{}': {} cannot hold {} at a side, for its rate applies "
-                                   "lap to lap of it",
-                                   stage.name, solver, system.item_name(system.species()[*held])),
-                       "rkl1 can"};
+        return Refusal{
+            fmt::format("stage '{}': {} cannot hold {} at a side, because its rate applies "
+                        "lap to lap of it",
+                        stage.name, solver, system.item_name(system.species()[*held])),
+            "rkl1 can"};
     }
     if (has_diffusion(diffusion)) return std::nullopt;
     return Refusal{
-        fmt::format("stage '{}': {} finds no diffusion to take implicitly", stage.name, solver),
+        fmt::format("stage '{}': {} finds no diffusion to treat implicitly", stage.name, solver),
         "it looks for lap, dxx, diffuse or div(k * grad(u)) in the rate of u; rk45 takes any rate"};
 }
 

@@ -1,4 +1,5 @@
-// Requirements of solvers that are implicit in diffusion or in each cell (internal to the checker).
+// Checks that a stage can be computed by a solver that treats diffusion or the reaction in each
+// cell implicitly (internal to the checker).
 #pragma once
 
 #include "core/diagnostics.h"
@@ -9,17 +10,17 @@
 
 namespace cascade::checking {
 
-/// Equations of more species than this would make kernels that take long to compile: their size is
-/// proportional to the third power of the number.
+/// The largest number of species for which a kernel solves equations in each cell. The size of such
+/// a kernel, and so its compile time, grows with the third power of the number of species.
 inline constexpr std::size_t most_species_in_equations = 12;
 
-/// Reports at `span` what such a solver of the stage cannot handle; nothing for other solvers. The
-/// program must be free of errors otherwise.
+/// If the stage's solver is implicit in each cell, reports at `span` everything in the stage that
+/// the solver cannot handle. The program must have no other errors.
 void check_local_solver(const Program& program, std::uint32_t stage, Span span,
                         Diagnostics& diagnostics);
 
-/// Reports at `span` what a semi-implicit solver of the stage cannot handle; nothing for other
-/// solvers. The program must be free of errors otherwise.
+/// If the stage's solver is semi-implicit, reports at `span` everything in the stage that the
+/// solver cannot handle. The program must have no other errors.
 void check_semi_implicit(const Program& program, std::uint32_t stage, Span span,
                          Diagnostics& diagnostics);
 

@@ -1,4 +1,4 @@
-// Time of a stage: defaults of its settings, and whether they are compatible.
+// Fills in the settings of time of a stage, and checks whether they are compatible.
 #include "lang/check/systems/check_solver.h"
 #include "lang/check/systems/check_time.h"
 
@@ -11,7 +11,7 @@ namespace cascade::checking {
 namespace {
 
 constexpr std::int64_t default_iterations = 1000;
-/// A stage with an `until` condition gives up after this number of steps.
+/// A stage with an `until` condition stops after this number of steps if the condition never holds.
 constexpr std::int64_t most_iterations_until = 1'000'000;
 
 template <typename T>
@@ -20,7 +20,7 @@ T pick(const std::optional<T>& own, const std::optional<T>& other, T otherwise) 
 }
 
 /// Sets the duration of a stage with automatic steps from its iterations: the time that this number
-/// of steps of the given speed would take.
+/// of steps would take at the given speed.
 void count_duration_in_steps(Stage& stage) {
     if (stage.time.has_duration() || stage.time.open_end) return;
     stage.time.duration_in_steps = stage.iterations;
@@ -32,20 +32,30 @@ bool has_condition(const Time& time) {
     return time.until || time.steady;
 }
 
+/// When the stage is observed. A setting in the stage replaces either setting of its system.
+void fill_moments(Stage& stage, const Settings& own, const Settings& defaults) {
+    const Settings& given = own.interval || own.time.every ? own : defaults;
+    stage.time.every = given.time.every.value_or(0);
+    stage.time.every_span = given.time.every_span;
+    const bool by_time = given.time.every || stage.time.has_duration();
+    const std::int64_t tenth = std::max<std::int64_t>(1, stage.iterations / 10);
+    stage.interval = given.interval.value_or(by_time ? 0 : tenth);
+}
+
 void fill_end(Stage& stage, const Settings& own, const Settings& defaults) {
-    // An end in the stage overrides either end in its system.
+    // If the stage sets `iterations` or `duration`, both settings of its system have no effect.
     const bool own_end = own.iterations || own.time.duration;
     const auto& iterations = own_end ? own.iterations : defaults.iterations;
     stage.time.duration = own_end ? own.time.duration : defaults.time.duration;
-    // A condition in the stage replaces iterations in its system; one beside them ends it earlier.
+    // A condition in the stage replaces iterations given in the system. Iterations in the stage
+    // itself remain, and the condition may end the stage earlier.
     stage.time.open_end =
         has_condition(stage.time) && !own_end && (has_condition(own.time) || !defaults.iterations);
     stage.iterations = stage.time.duration   ? most_iterations
                        : stage.time.open_end ? most_iterations_until
                                              : iterations.value_or(default_iterations);
     if (is_adaptive(stage.time.solver)) count_duration_in_steps(stage);
-    const std::int64_t tenth = std::max<std::int64_t>(1, stage.iterations / 10);
-    stage.interval = pick(own.interval, defaults.interval, stage.time.has_duration() ? 0 : tenth);
+    fill_moments(stage, own, defaults);
 }
 
 /// The first node of a formula that reads an item; null if there is none.
@@ -55,7 +65,8 @@ const Node* find_reader(const Formula& formula, ItemId item) {
     return found == formula.nodes.end() ? nullptr : &*found;
 }
 
-/// The first node that reads `speed`, which must then be a number known in advance; null if none.
+/// The first node that reads `speed`; null if there is none. If there is such a node, `speed` must
+/// be a number known in advance.
 const Node* reader_of_speed(const Program& program, const Stage& stage) {
     const System& system = program.systems[stage.system];
     std::vector<const Formula*> formulas;
@@ -70,7 +81,7 @@ const Node* reader_of_speed(const Program& program, const Stage& stage) {
     return nullptr;
 }
 
-/// The first node that makes a formula vary by cell. Operands come before their users.
+/// The first node in a formula that varies by cell. Operands come before the nodes that read them.
 const Node* varying_part(const Program& program, std::uint32_t stage, const Formula& formula) {
     IdVector<NodeId, const Node*> cause(formula.nodes.size(), nullptr);
     for (const NodeId part : cause.ids()) {
@@ -88,8 +99,8 @@ void check_condition(Workspace& work, std::uint32_t stage) {
     const Node* varying = varying_part(work.program, stage, *work.program.stages[stage].time.until);
     if (varying == nullptr) return;
     work.diagnostics.error(varying->span,
-                           "a stage ends for all cells at once, and this differs by cell",
-                           "take one number of all cells, as in mean(u over domain) > 0.5");
+                           "a stage ends for all cells at once, but this condition varies by cell",
+                           "use one number for all cells, as in mean(u over domain) > 0.5");
 }
 
 }  // namespace
@@ -120,9 +131,9 @@ void check_time(Workspace& work, std::uint32_t index) {
     const Span speed_span = speed.nodes.back().span;
     if (!takes_speed_by_cell(time.solver) && !stage.uniform[system.speed_item()]) {
         work.diagnostics.error(speed_span,
-                               fmt::format("with {} the speed is the same in all cells",
+                               fmt::format("with {} all cells must have the same speed",
                                            name_of(time.solver)),
-                               "euler and symplectic take one that varies");
+                               "euler and symplectic take a speed that varies");
     }
     if (time.automatic_speed && !time.has_duration() && !time.open_end && !system.cells) {
         work.diagnostics.error(speed_span, "with 'speed: auto' a stage ends by its duration",
@@ -130,16 +141,23 @@ void check_time(Workspace& work, std::uint32_t index) {
     }
     if (time.largest_step && !time.chooses_steps()) {
         work.diagnostics.error(time.largest_step_span,
-                               "'largest_step' limits steps that are chosen, and these "
-                               "are as long as 'speed' says",
+                               "'largest_step' limits the length of chosen steps, but "
+                               "'speed' sets the length of these",
                                "write speed: auto, or take the solver rk23 or rk45");
+    }
+    if (time.every > 0 && !stage.uniform[system.speed_item()]) {
+        work.diagnostics.error(time.every_span,
+                               fmt::format("the steps of stage '{}' differ from cell to cell, so "
+                                           "that it has no time",
+                                           stage.name),
+                               "'interval' counts steps instead");
     }
     if (time.chooses_steps()) {
         if (const Node* reader = reader_of_speed(work.program, stage)) {
-            work.diagnostics.error(reader->span,
-                                   fmt::format("stage '{}' chooses its steps as it runs: its speed "
-                                               "cannot be read",
-                                               stage.name));
+            work.diagnostics.error(
+                reader->span, fmt::format("stage '{}' chooses its steps during the run: its speed "
+                                          "cannot be read",
+                                          stage.name));
         }
     }
     if (time.until) check_condition(work, index);

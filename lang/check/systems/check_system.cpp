@@ -1,4 +1,4 @@
-// A `system` or `cells` block: what it declares.
+// Collects the declarations of a `system` or `cells` block.
 #include "lang/check/systems/check_systems.h"
 #include "lang/check/systems/check_cycles.h"
 #include "lang/check/names/note_uses.h"
@@ -36,7 +36,8 @@ void SystemChecker::run() {
     if (is_cells()) check_rules_of_cells();
 }
 
-/// `u_t = …` is a definition in the language, but a rate on paper.
+/// Reports a system without rates. In papers `u_t = …` is a rate, but in Cascade it is a
+/// definition.
 void SystemChecker::report_no_rates() {
     const auto is_paper_rate = [&](const Declaration* each) {
         return each && !species_of_rate(each->name).empty();
@@ -84,8 +85,8 @@ bool SystemChecker::can_declare(const Declaration& declaration) {
     return false;
 }
 
-/// Reports a string as the value of a quantity, and suggests a text of the system with a similar
-/// name.
+/// Whether the declaration gives a string to a quantity. Reports it, and suggests a text of the
+/// system with a similar name.
 bool SystemChecker::is_misspelt_text(const Declaration& declaration) {
     const ast::ExprId value = declaration.value().root;
     if (!std::holds_alternative<ast::Text>(declaration.script->expressions[value].node))
@@ -131,7 +132,7 @@ void SystemChecker::declare(const Declaration& declaration) {
     }
 }
 
-/// Reports a family with the name of a quantity or an index.
+/// Reports a family that has the same name as a quantity or an index.
 void SystemChecker::report_families() {
     for (const Declaration& declaration : declarations_) {
         const ast::Statement& statement = *declaration.statement;
@@ -149,8 +150,8 @@ void SystemChecker::report_families() {
     }
 }
 
-/// Reports a name that is a definition and has a rate, such as `u = 1` in place of `u: 1`. In a
-/// derived system the later of the two statements is reported.
+/// Reports a name that is a definition but has a rate, as if `u = 1` was written in place of `u:
+/// 1`. In a derived system the later of the two statements is reported.
 void SystemChecker::report_rate_of_definition(const Declaration& rate) {
     const auto definition =
         std::find_if(definitions_.begin(), definitions_.end(),
@@ -166,8 +167,7 @@ void SystemChecker::report_rate_of_definition(const Declaration& rate) {
                             fmt::format("'{}' is a definition and has no rate", rate.name));
 }
 
-/// Reports the rate of a name that is not a species, once; later readers of the name are not
-/// reported.
+/// Reports the rate of a name that is not a species. Later uses of the name are not reported.
 void SystemChecker::report_no_species(const Declaration& declaration, const Meaning* meaning) {
     const std::string& name = declaration.name;
     if (meaning != nullptr && meaning->is_definition()) {
@@ -181,7 +181,8 @@ void SystemChecker::report_no_species(const Declaration& declaration, const Mean
     if (auto explained = explain_family(work_, system(), name)) {
         work_.diagnostics.error(declaration.span(), std::move(explained->message),
                                 std::move(explained->hint));
-    } else if (!is_incomplete(work_, index_)) {  // Else it may be in the part that is missing.
+    } else if (!is_incomplete(work_, index_)) {  // If the system is incomplete, the missing part
+                                                 // may declare the name.
         std::string hint;
         if (!is_hopeless(work_)) hint = did_you_mean(work_, name, quantity_names(system()));
         if (hint.empty()) hint = fmt::format("add {}: …", name);
@@ -230,7 +231,8 @@ SystemId check_system(Workspace& work, const DerivedSystem& derived, std::option
     if (!is_new && !block.name.empty()) {
         const bool is_known = found->second != unknown_system;
         if (is_known && work.program.systems[found->second].built_in) {
-            found->second = number;  // A system of the script hides one of the library.
+            found->second = number;  // A system of the script takes precedence over a library
+                                     // system of the same name.
         } else {
             report_twice(work, block.name.span,
                          is_known ? work.program.systems[found->second].span : block.name.span,

@@ -1,4 +1,5 @@
-// The formulas of a `system` or `cells` block: values, definitions, rates, bounds and settings.
+// Checks the formulas of a `system` or `cells` block: values, definitions, rates, bounds and
+// settings.
 #include "lang/check/systems/check_systems.h"
 #include "lang/check/systems/check_time.h"
 #include "lang/check/names/note_uses.h"
@@ -32,11 +33,11 @@ void SystemChecker::report_type(const Declaration& declaration, const CheckedExp
                               (type == ValueType::vector || type == ValueType::tensor);
     work_.diagnostics.error(span, fmt::format("{} is not a number", words.name),
                             is_parameter
-                                ? fmt::format("a definition can be one: {} = …", declaration.name)
+                                ? fmt::format("a definition can hold it: {} = …", declaration.name)
                                 : std::string(words.hint));
 }
 
-/// The value of a declaration, a number or a vector; reports errors.
+/// The value of a declaration, a number or a vector. Reports errors.
 std::optional<CheckedExpression> SystemChecker::check_value(const Declaration& declaration,
                                                             Context context, ValueType type) {
     if (!has_one_value(work_, declaration)) return std::nullopt;
@@ -58,7 +59,8 @@ void SystemChecker::check_values() {
         auto checked = check_value(*values_[id], Context::value);
         if (checked) quantity.start = std::move(checked->formula);
         if (values_[id]->range == nullptr) continue;
-        // Cells have a radius without a rate of its own too: what has a range is how it starts.
+        // Cells have a radius even if the system gives it no rate. The range of the radius is the
+        // range written with its starting value.
         const bool is_radius = is_cells() && id == system().cells->radius;
         if (quantity.is_species && !is_radius) {
             work_.diagnostics.error(values_[id]->range->span, "a range belongs to a parameter",
@@ -75,7 +77,7 @@ void SystemChecker::check_definitions() {
 
 namespace {
 
-/// Appends a term to a sum of the same type.
+/// Adds a term to a sum of the same type.
 void superpose(Formula& sum, Formula term) {
     if (sum.nodes.empty()) {
         sum = std::move(term);
@@ -135,7 +137,7 @@ void SystemChecker::check_invariants() {
 
 void SystemChecker::check_settings() {
     Settings settings;
-    // An end replaces that of a base, and so does a condition.
+    // A setting for the end of the stage, or a condition, replaces the end that a base sets.
     std::uint32_t level_of_end = 0;
     for (const Declaration* declaration : settings_) {
         if (is_end_setting(declaration->name) || declaration->name == "until") {

@@ -10,33 +10,33 @@
 
 namespace cascade::checking {
 
-/// Checks a system or a block of cells; `base` is the one it is derived from, and `joined` are the
-/// further ones. A system with errors is added, too, so
-/// that its readers do not cause further messages; one whose base is unknown is not
-/// (unknown_system).
+/// Checks a system or a block of cells. `base` is the system from which it is derived, and `joined`
+/// are further bases. Adds the system even if it has errors, so that expressions that read its
+/// names cause no further messages. If the base of the system is unknown, adds nothing and returns
+/// unknown_system.
 SystemId check_system(Workspace& work, const DerivedSystem& derived, std::optional<SystemId> base,
                       std::vector<SystemId> joined);
 
-/// If the declaration is a text of the system, such as title: "Gray-Scott", takes it and returns
-/// true.
+/// If the declaration is a text about the system, such as title: "Gray-Scott", stores the text and
+/// returns true.
 bool take_text(System& system, const Declaration& declaration);
 
-/// Sets the range of a quantity whose declaration has one; `value` is its default, if known.
+/// Sets the range of a quantity, if its declaration has one. `value` is the default of the
+/// quantity, if known.
 void check_range(Workspace& work, const Declaration& declaration, Quantity& quantity,
                  std::optional<double> value);
 
-/// Warns of a constant value outside of the parameter's range.
+/// Warns if a constant value is outside the range of its parameter.
 void warn_outside(Workspace& work, const Quantity& quantity, std::optional<double> value,
                   Span span);
 
-/// Warns of parameters and definitions that nothing reads. In a derived system, a
-/// statement that changes nothing of its base and is not read is an error.
+/// Warns of parameters and definitions that nothing reads. In a derived system, such a statement is
+/// an error unless it replaces a statement of the base.
 void warn_unread(Workspace& work);
 
-// Settings of systems and stages.
+// Settings that systems and stages share.
 
-/// Applies one of the settings iterations, interval, frozen, speed and show, or
-/// one of time.
+/// Applies a setting: iterations, interval, frozen, speed, show, or a setting of time.
 void check_setting(Workspace& work, const ast::Script& script, const ast::Statement& statement,
                    const Scope& scope, Settings& settings);
 

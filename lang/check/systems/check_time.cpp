@@ -1,4 +1,4 @@
-// The settings of time, each by itself. check_stage_time.cpp checks whether they are compatible.
+// Checks each setting of time by itself. check_stage_time.cpp checks whether they are compatible.
 #include "lang/check/systems/check_time.h"
 #include "lang/check/systems/check_systems.h"
 #include "lang/check/systems/check_coarse.h"
@@ -18,20 +18,20 @@ const ast::Expr& root_of(const ast::Script& script, ast::Expression expression) 
     return script.expressions[expression.root];
 }
 
-/// The name that an expression consists of, or "".
+/// The name, if the expression consists of a single name; else "".
 std::string_view word_of(const ast::Script& script, ast::Expression expression) {
     const auto* name = std::get_if<ast::Name>(&root_of(script, expression).node);
     return name == nullptr ? std::string_view() : name->name;
 }
 
-/// The call of `name` that an expression consists of, or null.
+/// The call, if the expression is a call of `name`; else null.
 const ast::Call* call_of(const ast::Script& script, ast::Expression expression,
                          std::string_view name) {
     const auto* call = std::get_if<ast::Call>(&root_of(script, expression).node);
     return call != nullptr && call->function.text == name ? call : nullptr;
 }
 
-/// The argument of a call with one argument, as an expression: the nodes before the call itself.
+/// The argument of a call with one argument. Its nodes come before the call.
 ast::Expression argument_of(const ast::Script& script, ast::Expression expression,
                             const ast::Call& call) {
     return {expression.first, script.arguments[call.first_argument]};
@@ -59,9 +59,10 @@ void check_until(Workspace& work, const ast::Script& script, ast::Expression val
                  const Scope& scope, TimeSettings& time) {
     if (const ast::Call* call = call_of(script, value, "steady")) {
         if (call->argument_count != 1) {
-            work.diagnostics.error(root_of(script, value).span,
-                                   "steady takes one value: the largest change that counts as none",
-                                   "as in steady(0.01)");
+            work.diagnostics.error(
+                root_of(script, value).span,
+                "steady takes one number: the largest change that still counts as steady",
+                "as in steady(0.01)");
             return;
         }
         const ast::Expression change = argument_of(script, value, *call);
@@ -74,7 +75,7 @@ void check_until(Workspace& work, const ast::Script& script, ast::Expression val
         time.steady = largest;
         return;
     }
-    // A condition reads the stage as it is when tested, as a picture does.
+    // Like a picture, a condition reads the present values of the stage that it ends.
     Scope present = scope;
     present.context = Context::picture;
     present.last_stage = scope.stage.value_or(0);
@@ -105,6 +106,9 @@ void check_time_setting(Workspace& work, const ast::Script& script, const ast::S
     } else if (name == "largest_step") {
         put(time.largest_step, read_number(work, script, statement));
         time.largest_step_span = statement.name.span;
+    } else if (name == "every") {
+        put(time.every, read_number(work, script, statement));
+        time.every_span = statement.name.span;
     } else if (name == "duration") {
         put(time.duration, read_number(work, script, statement));
     } else if (name == "check") {
@@ -112,9 +116,8 @@ void check_time_setting(Workspace& work, const ast::Script& script, const ast::S
     } else if (name == "until") {
         check_until(work, script, value, scope, time);
     } else {
-        const auto coarse =
-            check_coarse(work, script, value, "start",
-                         "a stage starts as its values say, or on coarser grids first");
+        const auto coarse = check_coarse(work, script, value, "start",
+                                         "'start' takes coarse(N), to begin on coarser grids");
         if (!coarse) return;
         time.coarse = coarse->times;
         time.coarse_span = coarse->span;

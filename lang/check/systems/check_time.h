@@ -10,31 +10,31 @@
 
 namespace cascade::checking {
 
-/// The most steps a stage may take.
+/// The largest number of steps in a stage.
 inline constexpr std::int64_t most_iterations = 1'000'000'000;
 
-/// True for `speed: auto`.
+/// Whether the statement is `speed: auto`.
 bool is_automatic(const ast::Script& script, const ast::Statement& speed);
 
-/// True for `iterations` and `duration`: a stage ends by one of them, and overriding either
-/// replaces both.
+/// Whether the setting is `iterations` or `duration`. Only one of them applies to a stage, so an
+/// override of either replaces both.
 bool is_end_setting(std::string_view name);
 
-/// Applies a setting of time. The statement has one value.
+/// Applies a setting of time. The statement must have one value.
 void check_time_setting(Workspace& work, const ast::Script& script, const ast::Statement& statement,
                         const Scope& scope, Settings& settings);
 
-/// Fills in the settings of time of a stage: its own ones, then its system's, then the language's
-/// defaults.
+/// Fills in the settings of time of a stage: from its own settings, else from its system's, else
+/// from the defaults of the language.
 void fill_time(Stage& stage, const Settings& own, const Settings& defaults);
 
-/// Gives the stage the solver of `asked` (`--solver`) and keeps its duration, which is iterations ·
-/// speed if it has none. Stabilised and semi-implicit solvers choose their steps as with `speed:
-/// auto`.
+/// Gives the stage the solver of `asked` (`--solver`). The duration stays the same. If the stage
+/// has no duration, it becomes iterations · speed. Stabilised and semi-implicit solvers choose
+/// their steps as with `speed: auto`.
 void change_solver(Stage& stage, const TimeSettings& asked);
 
-/// Reports errors that involve several settings of a stage: incompatible ones, a speed or a
-/// condition that varies by cell where it must not.
+/// Reports errors that involve several settings of a stage: settings that exclude each other, and a
+/// speed or condition that varies by cell where this is not allowed.
 void check_time(Workspace& work, std::uint32_t stage);
 
 }  // namespace cascade::checking

@@ -1,4 +1,4 @@
-// Finds what is never read, which is usually a misspelt name.
+// Finds values that are never read, which usually are misspelt names.
 #include "lang/check/systems/check_systems.h"
 #include "lang/vocabulary/settings.h"
 
@@ -19,7 +19,8 @@ struct Unread {
 
 std::string family_of(const std::string& name) { return name.substr(0, name.find('[')); }
 
-/// A family gets one message, and only if none of its members is read.
+/// Finds quantities and definitions that are never read. A family gets one message, and only if
+/// none of its members is read.
 std::vector<Unread> find_unread(const Workspace& work, SystemId index) {
     const System& system = work.program.systems[index];
     std::unordered_set<std::string> read;
@@ -45,8 +46,8 @@ std::vector<Unread> find_unread(const Workspace& work, SystemId index) {
     return unread;
 }
 
-/// Reports what a derived system adds without anything reading it: it was probably meant to change
-/// something of the base. What the base has was reported there.
+/// Reports a name that a derived system adds and that nothing reads: it was probably intended to
+/// change a value of the base. Names of the base are not reported again.
 void report_change_of_nothing(Workspace& work, const System& system, const Unread& unread) {
     const System& base = work.program.systems[*system.base];
     const std::string family = family_of(*unread.name);
@@ -65,7 +66,7 @@ void report_change_of_nothing(Workspace& work, const System& system, const Unrea
                            did_you_mean(work, *unread.name, names));
 }
 
-/// For `u_dot = …` and the like, where u is a quantity.
+/// A hint for names such as `u_dot`, if u is a quantity.
 std::string hint_of_rate(const Workspace& work, SystemId system, std::string_view name) {
     const std::string_view species = species_of_rate(name);
     const bool is_known = !species.empty() && find(work.names[system], species) != nullptr;
@@ -83,7 +84,7 @@ void warn_unread(Workspace& work) {
                 report_change_of_nothing(work, system, unread);
             } else {
                 const bool is_parameter = unread.kind == std::string_view("parameter");
-                // A system may hold defaults for the settings of its stages.
+                // A system may contain defaults for the settings of its stages.
                 const auto context = WordContext::stage;
                 const auto settings =
                     system.cells ? settings_of({SettingBlock::cells, SettingBlock::stage,

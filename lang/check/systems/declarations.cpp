@@ -1,4 +1,4 @@
-// From statements to declarations: expands indices, and replaces what is overridden.
+// Turns statements into declarations: expands indices, and drops statements that are overridden.
 #include "lang/check/systems/declarations.h"
 
 #include "core/counted.h"
@@ -24,7 +24,7 @@ constexpr std::int64_t most_members = 1000;
 constexpr std::size_t most_indices = 64;
 constexpr std::size_t most_declarations = 100'000;
 
-/// One end of the range of an index; reports errors.
+/// One end of the range of an index. Reports errors.
 std::optional<std::int64_t> check_end(Workspace& work, const SystemStatement& from,
                                       ast::Expression expression) {
     const auto value = check_constant(work, *from.script, expression, "the end of an index");
@@ -68,7 +68,8 @@ SystemId id_of(const Workspace& work, const System& system) {
     return SystemId(static_cast<std::size_t>(&system - work.program.systems.data()));
 }
 
-/// Collects the indices; of equal names the one of the highest level.
+/// Collects the indices. If several have the same name, takes the index of the system that is
+/// derived last.
 void collect_indices(Workspace& work, System& system, std::span<const SystemStatement> statements) {
     std::unordered_map<std::string_view, const SystemStatement*> latest;
     for (const SystemStatement& each : statements) {
@@ -101,13 +102,13 @@ void collect_indices(Workspace& work, System& system, std::span<const SystemStat
     }
 }
 
-/// The 2 of u[2]; reports an error if it is not a number.
+/// The number 2 in u[2]. Reports an error if the word is not a number.
 std::optional<std::int64_t> member_number(Workspace& work, const ast::Word& word) {
     std::int64_t value = 0;
     const auto end = word.text.data() + word.text.size();
     const auto result = std::from_chars(word.text.data(), end, value);
     if (result.ec == std::errc() && result.ptr == end && value <= 1'000'000'000) return value;
-    work.diagnostics.error(word.span, "the number of a member is whole");
+    work.diagnostics.error(word.span, "the number of a member must be whole");
     return std::nullopt;
 }
 
@@ -130,8 +131,8 @@ void report_unknown_index(Workspace& work, const System& system, const ast::Word
                            std::move(hint));
 }
 
-/// The indices of a statement, a number being one of a single value and no name; none after an
-/// error.
+/// The indices of a statement. A number counts as an index with a single value and without a name.
+/// Empty after an error.
 std::vector<Index> indices_of(Workspace& work, const System& system, const ast::Word& of) {
     std::vector<Index> indices;
     for (const ast::Word& word : words_of_index(of)) {
@@ -157,7 +158,7 @@ std::vector<Index> indices_of(Workspace& work, const System& system, const ast::
     return indices;
 }
 
-/// Reports a list that has not one value for each member.
+/// Reports a list that does not have one value for each member.
 void check_list(Workspace& work, const ast::Script& script, const ast::Statement& statement,
                 std::int64_t members) {
     const auto values = static_cast<std::int64_t>(statement.values.size());
@@ -224,7 +225,7 @@ std::vector<Declaration> expand_statement(Workspace& work, const System& system,
     return declarations;
 }
 
-/// Keeps declarations in order and drops those that are replaced.
+/// A list of declarations in order, without the declarations that others replace.
 class StatementList {
 public:
     void add(Declaration declaration) {
@@ -257,8 +258,8 @@ private:
         all_.push_back(std::move(declaration));
         dropped_.push_back(false);
     }
-    /// True if `later`, of the same level, is about one member and `earlier` about all of them, or
-    /// about a row of them.
+    /// Whether `later` is about a single member, and `earlier` about all members or about several.
+    /// Both statements belong to the same system.
     static bool is_finer(const Declaration& later, const Declaration& earlier) {
         return later.indices.size() < earlier.indices.size();
     }

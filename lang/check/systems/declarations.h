@@ -1,6 +1,7 @@
-// Declarations: the statements of a system or a stage, one for each name (internal to the checker).
-// `u[i]: e` is one statement; with `i: 1..3` it becomes three declarations, of u[1], u[2] and u[3].
-// In a list, `u[i]: e, e, e`, each has a value of its own; the last index of A[i, j] changes first.
+// Splits the statements of a system or a stage into declarations, one for each name (internal to
+// the checker). The statement `u[i]: e` with `i: 1..3` becomes three declarations, of u[1], u[2]
+// and u[3]. A list such as `u[i]: e1, e2, e3` gives each of these its own value. In a list for A[i,
+// j], the last index changes first.
 #pragma once
 
 #include "lang/check/names/check_names.h"
@@ -14,43 +15,49 @@ namespace cascade::checking {
 
 /// A statement of a system or of one of its bases.
 struct SystemStatement {
-    const ast::Script* script = nullptr;  ///< The script that it is written in.
+    const ast::Script* script = nullptr;  ///< The script with the statement.
     const ast::Statement* statement = nullptr;
-    std::uint32_t level = 0;  ///< 0 in the system that has no base, then 1, 2, …
+    std::uint32_t level = 0;  ///< 0 in the base of all bases, 1 in a system derived from it, …
 };
 
 struct Declaration {
     const ast::Script* script = nullptr;
     const ast::Statement* statement = nullptr;
-    std::string name;  ///< `ka`, `u[2]` for a member, `A[1,2]` for one of two indices.
-    std::vector<IndexValue> indices;    ///< The value of i for u[i]; none for u[2] and ka.
-    std::optional<std::size_t> listed;  ///< Its place in the list of the statement, if it has one.
+    std::string name;  ///< `ka`, or `u[2]` for a member, or `A[1,2]` if there are two indices.
+    std::vector<IndexValue> indices;    ///< For `u[i]`, the value of i.
+    std::optional<std::size_t> listed;  ///< The position of its value, if the statement gives a
+                                        ///< list.
     std::uint32_t level = 0;
-    std::string doc;  ///< Its own doc comment, or that of the declaration it has replaced.
-    /// Its own range, or that of the declaration it has replaced; null if there is none.
+    std::string doc;  ///< Its own doc comment, or the doc comment of the declaration that it
+                      ///< replaces.
+    /// Its own range, or the range of the declaration that it replaces. Null if neither has a
+    /// range.
     const ast::Range* range = nullptr;
     const ast::Script* range_script = nullptr;
 
     ast::StatementKind kind() const { return statement->kind; }
     ast::Expression value() const { return statement->values[listed.value_or(0)]; }
-    /// Is it `u: e after divide`?
+    /// Whether the declaration is written `u: e after divide`.
     bool is_restart() const { return !statement->after.empty(); }
     Span span() const { return statement->name.span; }
 };
 
 /// The declarations of a system, in order. Fills in `system.indices`.
 ///
-/// A declaration of a higher level replaces that of its name on lower levels: `p:` and `d =` a
-/// value or a definition, in its position; `p: e after divide` only one of these; `a' =` the whole
-/// rate; `a >= e` all bounds of the same kind. On one level `u[2]: e` replaces what `u[i]: e` says
-/// about u[2]; the same holds for definitions and rates.
+/// A declaration replaces declarations of the same name in bases. `p:` and `d =` replace a value or
+/// a definition, and take its position. `p: e after divide` replaces only a declaration with `after
+/// divide`. `a' =` replaces the whole rate. `a >= e` replaces all bounds of the same kind. In the
+/// same system, the value, definition or rate of a single member, such as `u[2]: e`, replaces that
+/// of the whole family, such as `u[i]: e`.
 std::vector<Declaration> system_declarations(Workspace& work, System& system,
                                              std::span<const SystemStatement> statements);
 
-/// Has it one value? Reports an error if its statement has several that are no list.
+/// Whether the declaration has one value. Reports an error if its statement has several values that
+/// are not a list.
 bool has_one_value(Workspace& work, const Declaration& declaration);
 
-/// The declarations of a statement of a stage, with the indices of its system.
+/// The declarations that a statement of a stage makes. Indices have the values that the stage's
+/// system gives them.
 std::vector<Declaration> stage_declarations(Workspace& work, const System& system,
                                             const ast::Script& script,
                                             const ast::Statement& statement);

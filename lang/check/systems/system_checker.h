@@ -1,7 +1,7 @@
 // Checks one `system` or `cells` block (internal to the checker).
 //
-// check_system.cpp takes its declarations, check_system_formulas.cpp checks their formulas, and
-// check_cells.cpp does what only blocks of cells need.
+// check_system.cpp collects the block's declarations, check_system_formulas.cpp checks their
+// formulas, and check_cells.cpp contains the checks for blocks of cells.
 #pragma once
 
 #include "lang/check/expressions/check_expression.h"
@@ -72,7 +72,7 @@ private:
     void check_invariants();
     void check_settings();
 
-    // Of cells.
+    // For cells.
     void add_cell_quantities();
     bool declare_of_cells(const Declaration& declaration);
     bool can_declare_in_cells(const Declaration& declaration);
@@ -88,14 +88,17 @@ private:
     SystemId index_;
     std::vector<Declaration> declarations_;
     std::unordered_map<std::string, Span> declared_;
-    IdVector<ItemId, const Declaration*> values_;             ///< Null for what every cell has.
-    IdVector<DefinitionId, const Declaration*> definitions_;  ///< Likewise.
+    // The declaration of each item. Null for items and definitions that every cell has without a
+    // declaration.
+    IdVector<ItemId, const Declaration*> values_;
+    IdVector<DefinitionId, const Declaration*> definitions_;
     std::vector<const Declaration*> invariants_, settings_;
     std::vector<const Declaration*> rate_statements_;
     IdVector<ItemId, RateStatements> rates_;
-    // Of cells:
+    // For cells.
     RateStatements velocity_, spin_;
-    std::map<std::string, const Declaration*, std::less<>> rules_;  ///< divide, die, …, by name.
+    std::map<std::string, const Declaration*, std::less<>> rules_;  ///< The declarations of divide,
+                                                                    ///< die, …, by name.
     std::vector<const Declaration*> restarts_;
 };
 

@@ -1,5 +1,5 @@
-// Orders systems topologically by their bases, reports cycles, and puts the statements of a base
-// before those of the system derived from it.
+// Orders systems topologically by their bases, and reports cycles. Puts the statements of a base
+// before the statements of the derived system.
 #include "lang/check/systems/system_inheritance.h"
 
 #include "lang/check/systems/check_systems.h"
@@ -26,9 +26,10 @@ namespace cascade::checking {
 
 namespace {
 
-// Several bases of one block of cells, `cells a: b, c { … }` (internal to the checker).
+// Blocks of cells with several bases, `cells a: b, c { … }` (internal to the checker).
 
-/// Does `later` replace `earlier`, if it is of a higher level and about the same subject?
+/// Whether `later` replaces `earlier`. Both have the same subject, and `later` belongs to a derived
+/// system.
 bool replaces(const ast::Statement& later, const ast::Statement& earlier) {
     if (later.kind == ast::StatementKind::rate_term || later.kind == ast::StatementKind::constraint)
         return false;
@@ -40,7 +41,7 @@ std::string_view text_of(const ast::Statement& statement) {
     return {statement.name.text.data(), statement.span.end - statement.name.span.begin};
 }
 
-/// The statements that no later one replaces, as statements of level 0.
+/// The statements that no later statement replaces, with their level set to 0.
 std::vector<SystemStatement> effective(const std::vector<SystemStatement>& statements) {
     std::unordered_map<std::string, std::vector<const SystemStatement*>> later;
     std::vector<SystemStatement> kept;
@@ -56,14 +57,14 @@ std::vector<SystemStatement> effective(const std::vector<SystemStatement>& state
     return kept;
 }
 
-/// Adds the statements of a further base to those of the bases before it. All terms of rates are
-/// kept, in order. What two bases say of one name must be the same, unless `block`, which is
-/// derived from them, says it itself; reports an error otherwise. Statements that both have from a
-/// common base stand once. Afterwards no statement replaces another one: all are of level 0.
+/// Adds the statements of a further base to the statements of earlier bases. All terms of rates
+/// remain, in order. If two bases give different values to the same name, reports an error, unless
+/// the derived `block` gives a value itself. A statement that both bases inherit from a common base
+/// appears once. Afterwards all statements are of level 0, and none replaces another.
 void join_statements(Workspace& work, std::vector<SystemStatement>& statements,
                      const std::vector<SystemStatement>& more, const ast::Block& block) {
     statements = effective(statements);
-    std::unordered_set<std::string> said;  // By the block itself.
+    std::unordered_set<std::string> said;  // The subjects of the block's own statements.
     for (const ast::Statement& own : block.statements) {
         if (own.kind != ast::StatementKind::rate_term)
             said.insert(subject_of(own) + " " + std::string(own.index.text));
@@ -86,7 +87,7 @@ void join_statements(Workspace& work, std::vector<SystemStatement>& statements,
         }
         const std::string subject = subject_of(statement) + " " + std::string(statement.index.text);
         const auto other = by_subject.find(subject);
-        // Of texts for readers, such as the title, the first base's count.
+        // Texts for readers, such as the title, are taken from the first base.
         const bool is_for_readers = is_setting_of(SettingBlock::system, statement.name.text);
         if (other == by_subject.end()) {
             statements.push_back(each);
@@ -95,11 +96,10 @@ void join_statements(Workspace& work, std::vector<SystemStatement>& statements,
         } else if (text_of(*other->second) != text_of(statement) && !said.contains(subject)) {
             Diagnostic diagnostic;
             diagnostic.span = block.joined.empty() ? block.base.span : block.joined.front().span;
-            diagnostic.message = fmt::format("the bases of '{}' differ in '{}'", block.name.text,
-                                             statement.name.text);
-            diagnostic.hint =
-                fmt::format("say in {} what holds: {}", block.name.text, text_of(statement));
-            diagnostic.notes.push_back({other->second->name.span, "one is here"});
+            diagnostic.message = fmt::format("the bases of '{}' give different values to '{}'",
+                                             block.name.text, statement.name.text);
+            diagnostic.hint = fmt::format("decide in {}: {}", block.name.text, text_of(statement));
+            diagnostic.notes.push_back({other->second->name.span, "one value is here"});
             diagnostic.notes.push_back({statement.name.span, "the other is here"});
             work.diagnostics.add(std::move(diagnostic));
         }
@@ -130,13 +130,14 @@ private:
     Workspace& work_;
     const std::vector<SystemBlock>& blocks_;
     std::unordered_map<std::string_view, std::uint32_t> own_, library_;
-    std::vector<std::vector<std::uint32_t>> bases_;  ///< Of each block, the first base first.
+    std::vector<std::vector<std::uint32_t>> bases_;  ///< For each block, its bases in the order in
+                                                     ///< which they are written.
     std::vector<bool> is_known_;
-    std::vector<std::size_t> places_;  ///< The index in the result, by block.
+    std::vector<std::size_t> places_;  ///< For each block, its index in the result.
     std::size_t copied_ = 0;
 };
 
-/// The block that a base names; reports errors.
+/// The block to which the name of a base refers. Reports errors.
 std::optional<std::uint32_t> Derivation::find_base(std::uint32_t index, const ast::Word& base) {
     if (base.empty()) return std::nullopt;
     const auto own = own_.find(base.text);

@@ -1,5 +1,5 @@
-// Inheritance: `system b: a { … }` has the statements of a, changed by its own (internal to the
-// checker).
+// Inheritance (internal to the checker): `system b: a { … }` has the statements of a, changed by
+// its own statements.
 #pragma once
 
 #include "lang/check/systems/declarations.h"
@@ -9,24 +9,25 @@
 
 namespace cascade::checking {
 
-/// A `system` block and the script that it is written in.
+/// A `system` block and the script in which it is written.
 struct SystemBlock {
     const ast::Script* script = nullptr;
     const ast::Block* block = nullptr;
     bool built_in = false;
 };
 
-/// A system with its own statements and those that it inherits.
+/// A system with its own statements and the inherited ones.
 struct DerivedSystem {
     SystemBlock from;
-    std::vector<SystemStatement> statements;  ///< Those of its bases first.
-    std::optional<std::size_t> base;          ///< An index into the same list.
-    std::vector<std::size_t> joined;          ///< Of cells: those of the bases after the first.
-    bool is_known = true;  ///< False if its base is unknown, which has been reported.
+    std::vector<SystemStatement> statements;  ///< Statements of its bases come first.
+    std::optional<std::size_t> base;          ///< The base's index in the list of systems.
+    std::vector<std::size_t> joined;          ///< For cells: indices of further bases.
+    bool is_known = true;  ///< False if its base is unknown. An error has then been reported.
 };
 
-/// The systems of `blocks`, each after those it is derived from. The base of a system is a system
-/// of the script, else a built-in one; `system a: a { … }` changes the built-in a.
+/// The systems of `blocks`. Each comes after the systems from which it is derived. A base is a
+/// system of the script or, if the script has no system of this name, a library system. `system a:
+/// a { … }` changes the library's system a.
 std::vector<DerivedSystem> derive_systems(Workspace& work, const std::vector<SystemBlock>& blocks);
 
 }  // namespace cascade::checking

@@ -1,5 +1,6 @@
-// The names that a definition reads are found in its text, before it can be checked. Members of
-// families are known only when it is, so a reader of one waits for the whole family.
+// Finds the names that a definition reads from its text, before the definition can be checked. If
+// the definition reads a member of a family, the whole family is checked first, because the text
+// does not show which member is read.
 #include "lang/check/expressions/read_setting.h"
 #include "lang/check/systems/typed_definitions.h"
 
@@ -22,8 +23,8 @@ bool is_constraint(const Declaration* declaration) {
     return declaration != nullptr && declaration->kind() == ast::StatementKind::constraint;
 }
 
-/// The nodes of the dependencies: definitions by their ids, and then one for each family, which
-/// depends on all its members.
+/// The nodes of the dependencies: definitions by their ids, followed by one node for each family. A
+/// family depends on all its members.
 class DefinitionReads {
 public:
     DefinitionReads(const Declarations& definitions, const NameTable& names)
@@ -58,7 +59,8 @@ private:
         }
     }
 
-    /// A member of the reader's own family is one before it, as in the order of writing.
+    /// If a definition reads its own family, it reads an earlier member in the order of writing. So
+    /// no dependency on the whole family is added.
     void add(DefinitionId reader, std::string_view name) {
         const auto family = families_.find(name);
         if (family != families_.end() && family_of(reader) != name) {
@@ -67,7 +69,8 @@ private:
         const Meaning* meaning = find(names_, name);
         if (meaning == nullptr || !meaning->is_definition()) return;
         const DefinitionId id = std::get<DefinitionId>(meaning->id);
-        // What a constraint determines is a number, and its constraint may read definitions of it.
+        // The unknown of a constraint is a number, whatever definitions the constraint reads. So
+        // its type does not depend on these definitions.
         if (is_constraint(definitions_[id])) return;
         reads_[reader.index()].push_back(id.index());
     }

@@ -6,9 +6,10 @@
 
 namespace cascade::checking {
 
-/// Checks the definitions of a system, each after those that it reads, since their types give its
-/// own. Writes their formulas and the types of their names. Null entries are skipped; so is the
-/// order if there is a cycle, which order_steps() reports.
+/// Checks the definitions of a system. Each is checked after the definitions that it reads, because
+/// their types determine its type. Stores their formulas and the types of their names. Skips
+/// entries of `definitions` that are null. Definitions in a cycle are checked in any order, and
+/// order_steps() reports the cycle.
 void check_typed_definitions(Workspace& work, SystemId system, Context context,
                              const IdVector<DefinitionId, const Declaration*>& definitions);
 

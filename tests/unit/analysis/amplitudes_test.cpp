@@ -10,7 +10,7 @@ namespace {
 
 using analysis::AmplitudeEquations;
 
-/// At the one onset of a parameter between two values.
+/// The amplitude equations at the only critical value of a parameter between two values.
 AmplitudeEquations onset(const std::string& text, const std::string& parameter, double low,
                          double high) {
     const auto analysed = analyse(text);
@@ -32,7 +32,7 @@ TEST(Amplitudes, SwiftHohenbergHasItsCoefficients) {
     for (const double b : {0.0, 0.5, 0.8, 1.2}) {
         const AmplitudeEquations by = onset(swift_hohenberg(b), "r", -0.5, 0.5);
         EXPECT_NEAR(by.quadratic, 2 * b, 1e-6);
-        // J(0) = −1, J(2k) = −9 and J(√3 k) = −4, up to what the grid does to short waves.
+        // J(0) = −1, J(2k) = −9 and J(√3 k) = −4, except for the error of the grid for short waves.
         EXPECT_NEAR(by.self, 3 - 38.0 / 9 * b * b, 0.005);
         EXPECT_NEAR(by.cross, 6 - 5 * b * b, 0.005);
         // Subcritical above b² = 27/38 (J. Burke and E. Knobloch, Physical Review E 73, 2006).
@@ -48,7 +48,8 @@ TEST(Amplitudes, ARowHasStripesOnly) {
 }
 
 /// x = A η with η = √(Du / Dv): J. Verdasca, A. De Wit, G. Dewel and P. Borckmans, Physics Letters
-/// A 168 (1992). Their h leaves out what v forces in the critical wave, which is small where v is.
+/// A 168 (1992). Their h omits the wave that v forces in the critical wave, which is small if v is
+/// small.
 TEST(Amplitudes, BrusselatorHasItsCoefficients) {
     const double feed = 3;
     const auto at = [&](double x) {
@@ -95,7 +96,7 @@ TEST(Amplitudes, KnowWhereTheyDoNotApply) {
              "lap(lap(u))) - (u-1)^3 }\ndomain { grid: 64, 64; spacing: 0.2 }\n"
              "stage a: s { }\n",
              "r", -0.5, 0.5));
-    // A total is kept, which answers a pattern without end.
+    // A conserved total responds to a pattern without limit.
     EXPECT_TRUE(
         none("system s { u: 0; w: 1; r: -0.1\nu' = r*u - (u + 2*lap(u) + lap(lap(u))) + "
              "u*(w - 1) - u^3\nw' = lap(w) }\n"
@@ -109,7 +110,7 @@ TEST(Amplitudes, KnowWhereTheyDoNotApply) {
 }
 
 TEST(Amplitudes, SpotsAreOfASpeciesWhereverItIsDeclared) {
-    // Schnakenberg's equations, whose u makes spots.
+    // Schnakenberg's equations, in which u has spots.
     const std::string a = "a: 0.1 in 0 .. 0.4", b = "b: 0.9", u = "u: 1 + normal(0, 0.01)",
                       v = "v: 0.9",
                       rates = "u' = a - u + u^2*v + lap(u)\nv' = b - u^2*v + 40*lap(v)";

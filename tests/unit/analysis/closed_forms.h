@@ -12,7 +12,7 @@
 
 namespace cascade::test {
 
-/// Held together, since an analysis refers to its program.
+/// A program and its analysis, which refers to the program.
 struct Analysed {
     std::unique_ptr<Checked> script;
     std::optional<analysis::StageAnalysis> analysis;

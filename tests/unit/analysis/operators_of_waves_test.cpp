@@ -1,4 +1,4 @@
-// What each operator does to a wave, against the step that is really taken.
+// The symbol of each operator, compared with closed forms.
 #include "tests/unit/analysis/closed_forms.h"
 
 #include <cmath>
@@ -66,12 +66,12 @@ TEST(OperatorsOfWaves, FollowTheStencil) {
         EXPECT_NEAR(std::abs(rate_of(rate, x, y, stencil) - expected), 0, 1e-9)
             << stencil << " " << rate;
     };
-    // The nine weights of Patra and Karttunen.
+    // The isotropic stencil with nine weights, by Patra and Karttunen.
     const double nine =
         (8 * (std::cos(x) + std::cos(y)) + 4 * std::cos(x) * std::cos(y) - 20) / (6 * h * h);
     expect("isotropic", "lap(u)", nine);
     expect("isotropic", "dx(u)", i * std::sin(x) / h);
-    // The wide differences, -1 16 -30 16 -1 and 1 -8 0 8 -1.
+    // The differences of fourth order, with the weights -1 16 -30 16 -1 and 1 -8 0 8 -1.
     const auto second = [&](double phase) {
         return (32 * std::cos(phase) - 2 * std::cos(2 * phase) - 30) / (12 * h * h);
     };
@@ -100,13 +100,13 @@ TEST(OperatorsOfWaves, FieldsOfConstraintsFollowTheWave) {
     constexpr double h = 0.5;
     const double s = -4 * (std::pow(std::sin(0.35), 2) + std::pow(std::sin(0.15), 2)) / (h * h);
     expect_rate("p\n 0 = lap(p) - 4 * p + u", 1 / (4 - s));
-    // The field's value enters, which is u / 4 in the flat state.
+    // The value of the field, u / 4 in the flat state, enters the rate.
     expect_rate("p * u - u^2 / 4\n 0 = lap(p) - 4 * p + u", 0.125 + 0.5 / (4 - s) - 0.25);
-    // What has no mean has a potential.
+    // A source without a mean has a potential.
     const std::string potential = "p\n 0 = lap(p) + u - mean(u over domain)";
     expect_rate(potential, -1 / s);
     EXPECT_EQ(rate_of(potential, 0, 0), 0.0);
-    // One field needs the other.
+    // One field depends on the other.
     expect_rate("q\n 0 = lap(p) - p + u\n 0 = lap(q) - 2 * q + 3 * p", 3 / ((1 - s) * (2 - s)));
 }
 
@@ -115,7 +115,8 @@ TEST(OperatorsOfWaves, TellWhatIsTheSameInAllCells) {
 }
 
 TEST(OperatorsOfWaves, OfFluxesAcrossAxesAreThoseOfTheTensor) {
-    // At 45 degrees a11 = a22 = (4 + 1)/2 and a12 = ±(4 − 1)/2; flux and diffuse agree in sign.
+    // At 45 degrees a11 = a22 = (4 + 1)/2 and a12 = ±(4 − 1)/2. Flux and diffuse have the same
+    // sign.
     const Complex by_flux = rate_of("div(tensor(2, 1, pi/4) * grad(u))", 0.2, 0.2);
     const Complex against = rate_of("div(tensor(2, 1, pi/4) * grad(u))", 0.2, -0.2);
     const Complex by_diffuse = rate_of("diffuse(u, 2, 1, pi/4)", 0.2, 0.2);
@@ -139,7 +140,7 @@ TEST(OperatorsOfWaves, OscillationsWithoutDecayAreStableWithNoStepOfEuler) {
         if (step.solver == Solver::euler || step.solver == Solver::rk2) {
             EXPECT_EQ(step.step, 0);
         }
-        // The imaginary axis up to 2 √2, and ω = 3.
+        // The method is stable on the imaginary axis up to 2 √2, and ω = 3.
         if (step.solver == Solver::rk4) {
             EXPECT_NEAR(step.step, 2 * std::sqrt(2.0) / 3, 1e-3);
         }
@@ -159,7 +160,7 @@ TEST(OperatorsOfWaves, RatesThatDependOnPlacesAreRefused) {
               "its rates read 'x', so that no state is flat");
     EXPECT_EQ(refusal_of(
                   "system s { u: 0; u' = disc(0.5, 0.5, 0.1) - u }\nstage a: s { iterations: 1 }"),
-              "'disc' in its rates differs from place to place, so that no state is flat");
+              "'disc' in its rates varies over the domain, so no state is flat");
     EXPECT_EQ(refusal_of("domain { surface: sphere }\n"
                          "system s { u: 0; u' = diffuse(u, 2, 1, 0) - u }\n"
                          "stage a: s { iterations: 1 }"),

@@ -1,4 +1,4 @@
-// What is said of stages in which nothing will grow, and of which nothing is said.
+// Remarks on stages in which nothing will grow, and stages without such a remark.
 #include "analysis/negative_diffusion.h"
 #include "analysis/outlook.h"
 #include "lang/library/library.h"
@@ -51,7 +51,7 @@ TEST(Outlook, SaysThatAStageEndsTooEarly) {
 
 TEST(Outlook, SaysNothingWhereAPatternMayGrow) {
     EXPECT_EQ(outlook_of("stage s: brusselator { " + noise + " }"), "");
-    // A spot starts it, strong noise might, and so might a side.
+    // A spot starts a pattern, and strong noise or a side might.
     EXPECT_EQ(outlook_of("stage s: gray_scott { }"), "");
     EXPECT_EQ(outlook_of("stage s: brusselator { decay: 6; u: [feed] + random(0, 2) }"), "");
     EXPECT_EQ(outlook_of("domain { grid: 64, 64; boundary: noflux }\n"

@@ -1,4 +1,4 @@
-// Plots: what is written in them, and where their colours are.
+// Plots: their texts, and the positions of their colours.
 #include "analysis/dispersion_plot.h"
 #include "analysis/map_plot.h"
 #include "tests/unit/analysis/closed_forms.h"
@@ -27,7 +27,7 @@ TEST(Plots, OfADispersionRelationNameTheFastestWave) {
     EXPECT_NE(svg->find("brusselator, stage 's': Turing"), std::string::npos);
     EXPECT_NE(svg->find(">9.573 cells</text>"), std::string::npos);
     EXPECT_NE(svg->find("real part"), std::string::npos);
-    EXPECT_EQ(svg->find("imaginary part"), std::string::npos);  // These waves stand.
+    EXPECT_EQ(svg->find("imaginary part"), std::string::npos);  // These are standing waves.
     const Image image = as_image(drawing, 2);
     EXPECT_EQ(image.width, 1280);
     EXPECT_GT(pixels_like(image, {0.13F, 0.36F, 0.64F}), 1000U);   // The curve.
@@ -47,7 +47,7 @@ TEST(Plots, OfMapsGrowUpwards) {
     map.classes = {Stability::stable, Stability::stable, Stability::turing, std::nullopt};
     const Drawing drawing = analysis::plot_map(map, {"title", "across", "up", {0.5, 0.5}});
     const Image image = as_image(drawing, 1);
-    // The upper left quarter of the box is blue, the lower one nearly white.
+    // The upper left quarter of the box is blue, the lower left quarter nearly white.
     EXPECT_NEAR(image.at(150, 100)[0], 0.34F, 0.01F);
     EXPECT_NEAR(image.at(150, 450)[0], 0.97F, 0.01F);
     EXPECT_NEAR(image.at(550, 100)[0], 0.80F, 0.01F);

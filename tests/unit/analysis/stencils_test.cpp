@@ -1,4 +1,4 @@
-// The table of differences: what follows from its weights fits what it says beside them.
+// The table of differences: the weights agree with the other columns and with the symbols.
 #include "analysis/wave_operators.h"
 #include "lang/program/stencils.h"
 
@@ -19,7 +19,8 @@ std::array<GridAxes, 3> axes_by_count() {
     return {GridAxes(Stencil::row), GridAxes(Stencil::plane), GridAxes(Stencil::volume)};
 }
 
-/// Σ weight exp(i θ·offset), at a face from half a cell after the first one.
+/// Σ weight exp(i θ·offset). For a difference at a face, offsets count from the face, half a cell
+/// after the first cell.
 std::complex<double> symbol_of(const Taps& taps, const Phases& phases) {
     std::complex<double> sum = 0;
     for (const auto& [at, weight] : taps.taps) {

@@ -9,7 +9,8 @@ namespace {
 
 using analysis::Stability;
 
-/// The length in cells of the wave whose Laplacian on a grid along an axis is −square.
+/// The length in cells of the wave along an axis whose Laplacian on the grid has the factor
+/// −square.
 double cells_of(double square) { return std::numbers::pi / std::asin(std::sqrt(square) / 2); }
 
 TEST(TuringConditions, BrusselatorHasItsThresholds) {
@@ -121,7 +122,7 @@ TEST(TuringConditions, DeflationFindsAllStatesOfACubic) {
     EXPECT_NEAR(found[2], 1, 1e-9);
 }
 
-/// Its rate at rest is a − 1, where a is the sum of all weights.
+/// The rate of the mean is a − 1, where a is the sum of all weights.
 TEST(TuringConditions, KernelsFollowTheirParameters) {
     const auto analysed = analyse(
         "system s { u: 0; a: 0.5 in 0 .. 2; w: 1 in 0.7 .. 3\n"
@@ -136,7 +137,7 @@ TEST(TuringConditions, KernelsFollowTheirParameters) {
     EXPECT_NEAR(by_width[0].value, std::sqrt(2.0), 1e-5);
 }
 
-/// The state at 0 has no size that says how far it may move with the parameter.
+/// A state at 0 gives no scale for its change with the parameter.
 TEST(TuringConditions, StatesAreFollowedFromZero) {
     const auto analysed =
         analyse("system s { u: 0; b: 0 in -3 .. 3; u' = tanh(b) - u + lap(u) }\nstage s: s { }");

@@ -1,4 +1,4 @@
-// What `cascade bench` and `--timing` print of numbers that are known.
+// The output of `cascade bench` and `--timing` for known numbers.
 #include "app/bench_table.h"
 #include "app/time_table.h"
 

@@ -1,4 +1,4 @@
-// What was typed is in the file as soon as it was typed, and is found again as it was.
+// Typed lines are written to the file at once, and are read again unchanged.
 #include "app/history_file.h"
 
 #include "core/file.h"

@@ -1,8 +1,10 @@
-// The command line: what becomes of arguments, and what is said about wrong ones.
+// The command line: how arguments are parsed, and messages about wrong ones.
 #include "app/options.h"
 
 #include "app/exit_status.h"
+#include "core/version.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 namespace cascade {
@@ -243,7 +245,7 @@ TEST(Options, help_goes_to_standard_output) {
 TEST(Options, version) {
     const Leave version = left({"--version"});
     EXPECT_EQ(version.status, exit_status::success);
-    EXPECT_THAT(version.text, testing::StartsWith("cascade 0.1.0\n"));
+    EXPECT_THAT(version.text, testing::StartsWith(fmt::format("cascade {}\n", cascade::version())));
 }
 
 struct WrongUse {
@@ -267,7 +269,8 @@ INSTANTIATE_TEST_SUITE_P(
         WrongUse{{"a.cascade"}, "no command 'a.cascade'; did you mean 'cascade run a.cascade'?"},
         WrongUse{
             {"fly"},
-            "the commands are run, sweep, check, analyze, bench, compile, systems, new, palettes, fmt, mesh, "
+            "the commands are run, sweep, check, analyze, bench, compile, systems, examples, new, "
+            "import, palettes, fmt, mesh, "
             "repl, export, view"},
         WrongUse{{"run"}, "cascade run: a script is missing"},
         WrongUse{{"check"}, "cascade check: a script is missing"},
@@ -275,8 +278,9 @@ INSTANTIATE_TEST_SUITE_P(
         WrongUse{{"run", "a", "--gird=4x4"}, "no option --gird=4x4; did you mean --grid?"},
         WrongUse{{"run", "a", "b"}, "'b' is one argument too many"},
         WrongUse{{"run", "a", "b.png"}, "'b.png' is one argument too many; did you mean -o b.png?"},
-        WrongUse{{"run", "a", "-o", "b.mov"},
-                 "'b.mov' is a film in a format that is not written (the endings of films are "},
+        WrongUse{
+            {"run", "a", "-o", "b.mov"},
+            "'b.mov' is a film in a format that Cascade cannot write (the endings of films are "},
         WrongUse{{"run", "a", "--fps", "61"}, "'61' is not a number of frames in a second"},
         WrongUse{{"run", "a", "--seconds", "0"}, "'0' is not the length of a film"},
         WrongUse{{"run", "a", "--fps", "5", "--seconds", "2"}, "--fps excludes --seconds"},
@@ -296,7 +300,7 @@ INSTANTIATE_TEST_SUITE_P(
         WrongUse{{"run", "a", "--range", "3,3"}, "'3,3' is not a range"},
         WrongUse{{"run", "a", "--range", "nan,1"}, "'nan,1' is not a range"},
         WrongUse{{"run", "a", "-o", "a.jpg"},
-                 "'a.jpg' has no ending of a file that can be written"},
+                 "the ending of 'a.jpg' is not that of a file that can be written"},
         WrongUse{{"run", "a", "-o", "a.png", "-o", "a.xyz"}, ".npz and .cells.vtp their cells"},
         WrongUse{{"run", "a", "-o", "a.vdb"}, "--volume a.vdb writes it"},
         WrongUse{{"run", "a", "--volume", "a.vtk"}, "'a.vtk' does not end in .vti or .vdb"},
@@ -306,6 +310,8 @@ INSTANTIATE_TEST_SUITE_P(
         WrongUse{{"run", "a", "--stop-at", "9"}, "'9' is not a place to stop at"},
         WrongUse{{"run", "a", "--dump", "irr"}, "did you mean 'ir'?"},
         WrongUse{{"run", "a", "--save", ""}, "--save: it must not be empty"},
+        WrongUse{{"run", "a", "--save", "a.npz"}, "'a.npz' has the ending of a file"},
+        WrongUse{{"run", "a", "--save", "a.txt"}, "write a, or a.txt/ for a folder"},
         WrongUse{{"run", "a", "-o"}, "output"},
         WrongUse{{"compile", "a", "--per-cell", "a,,b"}, "'a,,b' is not a list of names"}));
 

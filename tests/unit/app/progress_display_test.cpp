@@ -1,4 +1,4 @@
-// Progress: what a bar and a line look like, and how often they are written.
+// Progress: the text of a bar and of a line, and how often they are written.
 #include "app/progress_display.h"
 
 #include <gmock/gmock.h>
@@ -24,7 +24,7 @@ Progress half_way() {
     return progress;
 }
 
-/// Columns of a text of letters, digits and block elements.
+/// The number of columns of a text of letters, digits and block elements.
 int columns_of(const std::string& text) {
     int count = 0;
     for (const char c : text) count += (static_cast<unsigned char>(c) & 0xc0) != 0x80 ? 1 : 0;
@@ -71,7 +71,7 @@ TEST(Progress, nothing_is_made_up_before_it_is_known) {
     EXPECT_EQ(progress_line(progress), "stage 2/3 'small': 3,500 of 7,000 steps");
 }
 
-/// A display whose clock and stream are ours.
+/// A display with a clock and a stream of the test.
 struct Watched {
     Time now{};
     std::string written;

@@ -1,4 +1,4 @@
-// What is offered for completion depends on the words before.
+// The names that completion offers depend on the words before.
 #include "app/prompt_names.h"
 
 #include "run/script/script.h"

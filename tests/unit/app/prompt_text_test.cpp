@@ -1,4 +1,4 @@
-// When a typed line is complete, and how a word can go on.
+// When a typed line is complete, and how a word can continue.
 #include "app/prompt_text.h"
 
 #include "app/line_reader.h"

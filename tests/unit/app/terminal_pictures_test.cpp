@@ -1,4 +1,4 @@
-// What terminals answer.
+// Answers of terminals, and pictures in pixels.
 #include "app/terminal_pictures.h"
 
 #include <gmock/gmock.h>
@@ -34,7 +34,7 @@ TEST(TerminalPictures, AreAsHighInLinesAsInPixels) {
     out.descriptor = -1;  // No window: 80 columns and 24 lines.
     TerminalPictures pictures;
     pictures.protocol = PictureProtocol::sixel;
-    // Enlarged to the size that it has in characters.
+    // Enlarged to the size of the picture in characters.
     const std::string small = pictures.draw(Image(16, 8), out);
     EXPECT_THAT(small, HasSubstr("\"1;1;160;80#"));
     EXPECT_THAT(small, HasSubstr("\n\n\n\n\x1b[4A\x1b"

@@ -1,4 +1,4 @@
-// What all texture coordinates of ours must keep.
+// Properties of all texture coordinates that Cascade makes.
 #pragma once
 
 #include "atlas/texture_facts.h"
@@ -23,7 +23,8 @@ inline Result<MeshTexture> unwrapped(const SurfaceMesh& mesh, std::int64_t texel
     return unwrap(mesh, texels, team, never);
 }
 
-/// The chart of each triangle: common edges at the same place in the texture connect.
+/// The chart of each triangle. Triangles are connected by common edges with the same position in
+/// the texture.
 inline std::vector<std::uint32_t> charts_of(const SurfaceMesh& mesh) {
     SurfaceMesh cut;
     cut.triangles = mesh.triangles;
@@ -42,8 +43,8 @@ inline std::vector<std::uint32_t> charts_of(const SurfaceMesh& mesh) {
     return connected_components(cut);
 }
 
-/// The samples between the two nearest charts, in texels of a texture: the smallest number of
-/// steps, also diagonal, from a texel of one chart to one of another; at most `most`.
+/// The distance of the two nearest charts in texels: the smallest number of steps, also diagonal
+/// ones, from a texel of one chart to a texel of the other; at most `most`.
 inline int least_gap(const SurfaceMesh& mesh, std::int64_t side, int most) {
     const std::vector<std::uint32_t> charts = charts_of(mesh);
     const TextureLayout layout(mesh, side, side);

@@ -1,4 +1,4 @@
-// What is said of texture coordinates, against coordinates made for it.
+// Facts about texture coordinates, for coordinates made for the tests.
 #include "atlas/texture_facts.h"
 
 #include "mesh/edge_pairs.h"
@@ -39,7 +39,8 @@ TEST(TextureFacts, OfASquareItself) {
 }
 
 TEST(TextureFacts, OfAStretchedSquare) {
-    // Four times as wide as high: both directions change by 2 from the square of the same area.
+    // Four times as wide as high: compared with the square of the same area, lengths change by 2 in
+    // both directions.
     const TextureFacts facts = texture_facts(square([](float x, float y) {
         return TexturePlace{x, y / 4};
     }));
@@ -81,7 +82,7 @@ TEST(TextureFacts, OfTrianglesThatCannotBeDrawn) {
     EXPECT_EQ(facts.covered, 0);
 }
 
-// The built-in shapes have coordinates: the torus a rectangle, whose ring is stretched.
+// Built-in shapes have coordinates. Those of the torus are a rectangle, which stretches rings.
 TEST(TextureFacts, OfATorus) {
     const TextureFacts facts = texture_facts(*torus_mesh(1, 0.4, 0.1));
     EXPECT_EQ(facts.mirrored, 0);

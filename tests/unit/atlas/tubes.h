@@ -1,4 +1,4 @@
-// Parts of cylinders, which can be rolled out.
+// Parts of cylinders, which can be unrolled into the plane without distortion.
 #pragma once
 
 #include "mesh/edge_pairs.h"

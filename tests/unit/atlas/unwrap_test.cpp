@@ -1,4 +1,4 @@
-// Texture coordinates of ours: charts of shapes whose distortion has bounds, and hard surfaces.
+// New texture coordinates: charts of shapes with bounded distortion, and difficult surfaces.
 #include "mesh/animals.h"
 #include "mesh/edge_pairs.h"
 #include "mesh/make_mesh.h"
@@ -27,8 +27,8 @@ struct Shape {
 
 class Shapes : public ::testing::TestWithParam<Shape> {};
 
-// The bounds are somewhat above what is reached. A sphere cannot be flat: of n equal charts each is
-// a cap of area 4π/n at best, and the mean distortion of three is above 1.05.
+// The bounds are slightly above the results. A sphere cannot be flat: at best, n equal charts are
+// caps of the area 4π/n, and the mean distortion of three caps is above 1.05.
 INSTANTIATE_TEST_SUITE_P(
     Unwrap, Shapes,
     ::testing::Values(Shape{"sphere", [] { return sphere_mesh(1, 0.06); }, 6, 1.10},
@@ -57,7 +57,7 @@ TEST_P(Shapes, LieFlatWithoutOverlaps) {
     EXPECT_EQ(facts.without_area, 0u);
 }
 
-/// All triangles have one scale: the picture is as fine everywhere.
+/// All triangles have the same scale, so texels have the same size everywhere.
 TEST_P(Shapes, HaveAreasInProportion) {
     SurfaceMesh mesh = *GetParam().make();
     mesh.texture = *test::unwrapped(mesh);
@@ -93,7 +93,7 @@ TEST_P(Shapes, KeepTheirPadding) {
     }
 }
 
-/// What can be rolled out is not distorted; a closed tube is cut.
+/// A surface that can be rolled out is not distorted. A closed tube is cut.
 TEST(Unwrap, RollsOutTubes) {
     for (const double turn : {0.9, 1.0}) {
         SurfaceMesh mesh = test::tube(turn, 5, 24, 20);
@@ -113,7 +113,7 @@ TEST(Unwrap, CutsRibbonsToLength) {
     EXPECT_GT(texture_facts(mesh).covered, 0.3);
 }
 
-// Coordinates are found at any scale and place.
+// Coordinates are found for models of any size and position.
 TEST(Unwrap, KnowsNoUnits) {
     for (const double scale : {1e-60, 1e60}) {
         SurfaceMesh mesh = *sphere_mesh(1, 0.3);

@@ -1,4 +1,4 @@
-// The turn that brings a model upright and to look along z.
+// The rotation that makes a model stand upright and look along z.
 #include "core/axis.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::array axes = {Axis::x, Axis::y, Axis::z};
 
-/// The 12 ways to stand.
+/// All 12 combinations of `up` and `facing`.
 std::vector<Stance> all_stances() {
     std::vector<Stance> stances;
     for (const Axis up : axes) {

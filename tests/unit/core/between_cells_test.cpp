@@ -1,4 +1,4 @@
-// The curve between cells.
+// Curves between cells.
 #include "core/between_cells.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 
 using Cells = std::array<float, cells_between>;
 
-/// Six cells of a function, the third of which is at `x`.
+/// The values of a function in six cells, the third of which is at `x`.
 template <typename Function>
 Cells cells_at(double x, const Function& function) {
     Cells cells{};
@@ -36,7 +36,8 @@ TEST(BetweenCells, CurvesGoThroughCellsAndAreExactOnLines) {
     EXPECT_EQ(value_between<float>({9, 7, 1, 5, -2, 0}, 1), 5);
 }
 
-// Waves of 8 cells are found to 2 % of their height, of 12 cells to ½ %, wherever their crests are.
+// Waves of 8 cells are reproduced to 2 % of their height, waves of 12 cells to ½ %, for any
+// position of the crests.
 TEST(BetweenCells, SmoothWavesAreFollowed) {
     const auto most_off = [](double length, double phase) {
         const auto wave = [&](double x) {
@@ -108,7 +109,7 @@ TEST(BetweenCells, CurvesInRangeLeaveTheRangeOfNoFourCells) {
     EXPECT_TRUE(differs);
 }
 
-// The limit bites at crests only, and leaves them without a kink.
+// The limit takes effect at crests only, and makes no kink there.
 TEST(BetweenCells, CurvesInRangeRiseWhereValuesRise) {
     const Cells rising = {0, 1, 3, 4, 6, 7}, crest = {0, 3, 5, 5, 3, 0};
     for (float part = 0; part <= 1; part += 0.125F) {

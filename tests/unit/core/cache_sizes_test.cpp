@@ -1,4 +1,4 @@
-// The caches of a machine as a folder describes them, and what one thread may take of them.
+// The caches of a machine as described by a folder, and the share of one thread.
 #include "core/cache_sizes.h"
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 namespace cascade::test {
 namespace {
 
-/// A folder as Linux describes the caches of a processor.
+/// A folder like the one in which Linux describes the caches of a processor.
 class CacheFolder {
 public:
     CacheFolder()

@@ -1,4 +1,4 @@
-// Numbers of things in words.
+// Numbers with nouns, in singular and plural.
 #include "core/counted.h"
 
 #include <gtest/gtest.h>

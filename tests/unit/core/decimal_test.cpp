@@ -1,4 +1,4 @@
-// Decimal numbers.
+// Reading and writing decimal numbers.
 #include "core/decimal.h"
 
 #include <gtest/gtest.h>

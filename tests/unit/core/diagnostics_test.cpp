@@ -1,4 +1,4 @@
-// Diagnostics: collecting them, and what messages look like.
+// Diagnostics: collecting and rendering messages.
 #include "core/diagnostics.h"
 
 #include <gmock/gmock.h>
@@ -12,7 +12,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-/// One message about the bytes [begin, end) of a text, as the user sees it.
+/// The rendered message about the bytes [begin, end) of a text.
 std::string draw(std::string text, std::uint32_t begin, std::uint32_t end, std::string hint = "") {
     Sources sources;
     const SourceId source = sources.add("leopard.cascade", std::move(text));
@@ -73,7 +73,7 @@ TEST(Diagnostics, NothingStrangeReachesTheTerminal) {
     EXPECT_THAT(drawn,
                 HasSubstr("    1 | a\xef\xbf\xbd[31m\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd\n"));
     EXPECT_THAT(drawn, Not(HasSubstr("\x1b")));
-    EXPECT_THAT(drawn, Not(HasSubstr("\xe2\x80\xae")));  // Turns the writing direction.
+    EXPECT_THAT(drawn, Not(HasSubstr("\xe2\x80\xae")));  // It changes the writing direction.
 }
 
 TEST(Diagnostics, LongLinesAreCutAroundTheSpan) {

@@ -1,4 +1,4 @@
-// The table of formats, and the lists of endings that messages make of it.
+// The table of formats, and lists of endings in messages.
 #include "core/file_format.h"
 
 #include <gtest/gtest.h>

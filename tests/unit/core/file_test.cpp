@@ -62,7 +62,7 @@ TEST_F(Files, ReadingHasALimit) {
     const auto refused = read_file(path, 99);
     ASSERT_FALSE(refused);
     EXPECT_NE(refused.error().message.find("at most 99 bytes"), std::string::npos);
-    // A device has no size; the limit ends it.
+    // A device has no size, so the limit applies while reading.
     EXPECT_FALSE(read_file("/dev/zero", 1000));
     EXPECT_EQ(read_file("/dev/null", 1000).value(), "");
 }
@@ -94,7 +94,7 @@ TEST_F(Files, APlainFileIsNoLinkNoPipeAndNoDevice) {
     }
     EXPECT_NE(read_plain_file(folder_ / "pipe", 10)
                   .error()
-                  .message.find("a pipe or a device and no file"),
+                  .message.find("a pipe or a device, not a file"),
               std::string::npos);
 }
 

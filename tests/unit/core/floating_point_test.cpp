@@ -1,4 +1,4 @@
-// The environment of arithmetic: what it does, and that it ends.
+// The environment of arithmetic: its effect, and that the previous one is restored.
 #include "core/floating_point.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 constexpr float smallest_normal = std::numeric_limits<float>::min();
 constexpr float denormal = smallest_normal / 4;
 
-// Through volatile, so that the compiler computes nothing of this itself.
+// volatile, so that the compiler does not compute the product itself.
 float product(float a, float b) {
     const volatile float x = a;
     const volatile float y = b;

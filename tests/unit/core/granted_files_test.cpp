@@ -29,12 +29,12 @@ protected:
     }
     void TearDown() override { fs::remove_all(root_); }
 
-    /// What is read, or why not.
+    /// The content of the file, or the message.
     std::string outcome(const std::string& name, const ReadAccess& access = {}) const {
         const auto bytes = GrantedFiles(root_ / "own", access).read(name, 100);
         return bytes ? *bytes : bytes.error().message;
     }
-    /// Is it refused as what lies outside is, whatever is there?
+    /// Expects the refusal of a file outside, which must not depend on whether the file exists.
     void expect_outside(const std::string& name) const {
         EXPECT_EQ(outcome(name), "'" + name + "' lies outside of the script's folder");
     }
@@ -76,7 +76,8 @@ TEST_F(GrantedFilesTest, LooksInGrantedFoldersToo) {
     ReadAccess access;
     access.folders = {root_ / "other"};
     EXPECT_EQ(outcome("../other/c", access), "other/c");
-    // By the name, and by its last part, where the own folder does not have it.
+    // In a granted folder a file is found by its whole name and by its last part, if the own folder
+    // lacks it.
     EXPECT_EQ(outcome("c", access), "other/c");
     EXPECT_EQ(outcome("deep/d", access), "other/deep/d");
     EXPECT_EQ(outcome("models/c", access), "other/c");
@@ -100,13 +101,13 @@ TEST_F(GrantedFilesTest, TellsWhyANameCannotBeUsed) {
     EXPECT_THAT(message, HasSubstr("File name too long"));
     EXPECT_LT(message.size(), 300U);
     EXPECT_LT(outcome("../" + std::string(200, 'x') + "/" + std::string(200, 'y')).size(), 300U);
-    // Nobody is waited for.
+    // A pipe is refused without waiting.
     ASSERT_EQ(::mkfifo((root_ / "own/pipe").c_str(), 0600), 0);
-    EXPECT_EQ(outcome("pipe"), "'pipe' is a pipe or a device and no file");
+    EXPECT_EQ(outcome("pipe"), "'pipe' is a pipe or a device, not a file");
     ReadAccess all;
     all.everything = true;
-    EXPECT_EQ(outcome("pipe", all), "'pipe' is a pipe or a device and no file");
-    EXPECT_EQ(outcome("/dev/zero", all), "'/dev/zero' is a pipe or a device and no file");
+    EXPECT_EQ(outcome("pipe", all), "'pipe' is a pipe or a device, not a file");
+    EXPECT_EQ(outcome("/dev/zero", all), "'/dev/zero' is a pipe or a device, not a file");
 }
 
 TEST_F(GrantedFilesTest, OpensWithoutLeavingTheFolder) {

@@ -1,4 +1,4 @@
-// Files that are written piece by piece.
+// Files that are written in parts.
 #include "core/growing_file.h"
 
 #include "core/file.h"

@@ -1,4 +1,4 @@
-// Known values of the hashes, computed apart from this code.
+// Known values of hashes, computed by other code.
 #include "core/hash.h"
 
 #include <gtest/gtest.h>
@@ -26,8 +26,8 @@ TEST(Pcg4d, KnownValues) {
               (Words{0x50a95531, 0x1479dfd1, 0x1f12c6c2, 0x26b43426}));
 }
 
-// One changed bit of the input changes half of the upper bits, of which numbers are made. The two
-// highest bits of a word are left out: fewer bits of the products lie above them.
+// One changed bit of the input changes half of the upper bits, from which numbers are made. The two
+// highest bits of a word are left out, since they influence few bits of the products.
 TEST(Pcg4d, EveryInputBitMatters) {
     for (std::size_t word = 0; word < 4; ++word) {
         for (int bit = 0; bit < 30; ++bit) {

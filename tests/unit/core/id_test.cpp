@@ -1,4 +1,4 @@
-// Typed ids: what compiles with them and what does not, and the lists that they are places of.
+// Typed ids: which operations compile, and lists with ids as indices.
 #include "core/id.h"
 
 #include <gmock/gmock.h>

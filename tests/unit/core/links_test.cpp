@@ -1,5 +1,4 @@
-// Tables of links without weights, which are those with weights to the bit, in memory of earlier
-// ones.
+// Tables of links without weights equal those with weights to the bit, also in reused memory.
 #include "core/links.h"
 
 #include "core/grid.h"
@@ -33,7 +32,7 @@ void expect_same(const Links& a, const Links& b, const PlaneLayout& layout) {
 }
 
 TEST(Links, WithoutWeightsAreThoseWithThem) {
-    Links placed;  // Of one size after another.
+    Links placed;  // Used for lists of different sizes.
     for (const std::size_t cells : {1u, 15u, 16u, 103u, 40000u, 640u, 700u}) {
         for (const std::int64_t width : {1, 24, 40, 512}) {
             SCOPED_TRACE(::testing::Message() << cells << " cells in rows of " << width);
@@ -70,7 +69,7 @@ TEST(Links, AreTheSameWhereMostSlicesAreCopied) {
     LinkList list = test::random_links(700, 4);
     Links links;
     links.assign({list.ends, list.neighbours}, layout, Precision::single);
-    // Cells lose their last link, and others come after them and go again.
+    // Cells lose their last link, and cells after them are added and removed.
     std::vector<std::size_t> counts{700};
     for (const std::size_t count : {700U, 690U, 695U, 650U, 700U}) {
         std::vector<bool> changed(count, false);
@@ -99,7 +98,7 @@ TEST(Links, AreTheSameWhereMostSlicesAreCopied) {
     }
 }
 
-// Lane 0 leads near in its second entry, lane 1 in its first.
+// Lane 0 has a near neighbour in its second entry, lane 1 in its first.
 TEST(Links, SayWhichLanesOfAnEntryAreFilled) {
     const PlaneLayout layout(rows_of(3, 3));
     const std::size_t ends[] = {2, 3, 3};

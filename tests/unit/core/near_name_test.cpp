@@ -12,11 +12,11 @@ namespace {
 const std::vector<std::string> parameters = {"a", "b", "beta", "diff_a", "diff_b", "ka"};
 
 TEST(NearName, FindsOneEdit) {
-    EXPECT_EQ(nearest_name("betta", parameters), "beta");  // A letter too many.
-    EXPECT_EQ(nearest_name("bea", parameters), "beta");    // One too few.
-    EXPECT_EQ(nearest_name("beto", parameters), "beta");   // A wrong one.
+    EXPECT_EQ(nearest_name("betta", parameters), "beta");  // One letter too many.
+    EXPECT_EQ(nearest_name("bea", parameters), "beta");    // One letter too few.
+    EXPECT_EQ(nearest_name("beto", parameters), "beta");   // A wrong letter.
     EXPECT_EQ(nearest_name("btea", parameters), "beta");   // Two swapped count as one edit.
-    EXPECT_EQ(nearest_name("BETA", parameters), "beta");   // Case is no difference.
+    EXPECT_EQ(nearest_name("BETA", parameters), "beta");   // Case does not count.
 }
 
 TEST(NearName, AllowsAThirdOfTheLength) {

@@ -73,7 +73,8 @@ TEST(Palette, EveryPaletteGoesFromDarkToLight) {
 }
 
 TEST(Palette, PerceptualMapsRiseEvenlyInLightness) {
-    // Their defining property. The maps were made in CAM02-UCS, so L* is only nearly linear.
+    // Lightness is linear in perceptual maps. They were made in CAM02-UCS, so L* is only nearly
+    // linear.
     for (const char* name : {"viridis", "magma", "inferno", "plasma", "cividis"}) {
         const Palette& palette = *find_palette(name);
         const double low = lightness(colour_at(palette, 0));
@@ -87,8 +88,8 @@ TEST(Palette, PerceptualMapsRiseEvenlyInLightness) {
 }
 
 TEST(Palette, KnownColoursOfThePerceptualMaps) {
-    // Colours number 0, 128 and 255 of the published tables of 256, in 8 bits; 0.5 lies between
-    // numbers 127 and 128.
+    // The colours 0, 128 and 255 of the published tables of 256, in 8 bits. 0.5 lies between the
+    // colours 127 and 128.
     const auto expect = [](const char* name, double position, int red, int green, int blue) {
         const Colour colour = colour_at(*find_palette(name), position);
         EXPECT_NEAR(static_cast<double>(colour[0]) * 255, red, 1.5) << name << " " << position;

@@ -53,8 +53,8 @@ TEST(Team, TheCallerIsNumberZero) {
 TEST(Team, NobodyPassesABarrierEarly) {
     for (const int size : {1, 2, 4, 9}) {
         Team team(size);
-        // Each thread adds the values its neighbours had before the barrier; a thread that runs
-        // ahead or lags behind changes the sums.
+        // Each thread adds the values that its neighbours had before the barrier. A thread that
+        // runs ahead or is late changes the sums.
         std::vector<std::vector<std::uint64_t>> values(
             2, std::vector<std::uint64_t>(static_cast<std::size_t>(size), 1));
         constexpr int rounds = 2000;
@@ -66,7 +66,7 @@ TEST(Team, NobodyPassesABarrierEarly) {
                 team.barrier();
             }
         });
-        // Twice as much each round, modulo 2^64: 0 after 64 rounds. Start so that it shows.
+        // Sums double in each round, modulo 2^64, so they are 0 after 64 rounds.
         for (const std::uint64_t value : values[rounds % 2]) EXPECT_EQ(value, 0u);
 
         for (auto& copy : values) copy.assign(copy.size(), 1);
@@ -112,7 +112,7 @@ TEST(Team, WorksInFlushedArithmetic) {
     const volatile float smallest = 1.17549435e-38f;
     team.run([&](int index) { results[static_cast<std::size_t>(index)] = smallest * 0.5f; });
     for (const float result : results) EXPECT_EQ(result, 0.0f);
-    EXPECT_GT(smallest * 0.5f, 0.0f);  // And the caller's own environment is back.
+    EXPECT_GT(smallest * 0.5f, 0.0f);  // The caller's own environment is restored.
 }
 
 TEST(Team, HandsOnWhatAThreadThrows) {

@@ -1,4 +1,4 @@
-// Memory of planes: zeroed, aligned, and touched only where it is used.
+// Memory of planes: zeroed, aligned, and accessed only where it is used.
 #include "core/plane.h"
 #include "core/shared_plane.h"
 
@@ -21,7 +21,8 @@ Memory plane_of(std::size_t bytes) {
     return {static_cast<std::uint8_t*>(allocate_plane(bytes)), free_plane};
 }
 
-/// Sizes on both sides of where planes are shifted and of where they come from the system.
+/// Sizes around the limits from which planes are shifted and from which they are allocated by the
+/// system.
 constexpr std::size_t memory_sizes[] = {0,       1,       63,      65535,    65536,
                                         4194303, 4194304, 6291455, 16777216, 33554433};
 
@@ -52,12 +53,12 @@ TEST(PlaneMemory, PlanesDoNotOverlap) {
     }
 }
 
-/// Whole pages of a plane that are in memory.
+/// The number of whole pages of a plane that are in memory.
 std::size_t resident_pages(const std::uint8_t* plane, std::size_t bytes) {
     const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
     const std::size_t to_page = (page - reinterpret_cast<std::uintptr_t>(plane) % page) % page;
     std::vector<unsigned char> is_resident((bytes - to_page) / page);
-    // mincore() takes the address of memory that it does not change.
+    // mincore() takes a non-const address, but does not change the memory.
     void* const first = const_cast<std::uint8_t*>(plane) + to_page;
     if (::mincore(first, is_resident.size() * page, is_resident.data()) != 0) return SIZE_MAX;
     return static_cast<std::size_t>(std::count_if(is_resident.begin(), is_resident.end(),

@@ -22,7 +22,7 @@ float number(std::int64_t i, std::int64_t j, std::int64_t k) {
     return static_cast<float>(100000 * k + 1000 * j + i + 1);
 }
 
-/// Cells hold distinct numbers, everything else NaN.
+/// Cells contain distinct numbers, and all other memory NaN.
 Field numbered(const Grid& grid) {
     Field field{PlaneLayout(grid)};
     float* begin = field.origin() - field.layout().offset(0, 0);
@@ -35,14 +35,14 @@ Field numbered(const Grid& grid) {
     return field;
 }
 
-/// The cell that stands at place i of an axis of n cells.
+/// The cell whose value is at index i of an axis of n cells, also beyond its ends.
 std::int64_t beyond(Boundary boundary, std::int64_t i, std::int64_t n) {
     if (boundary == Boundary::periodic) return (i + n) % n;
     return i < 0 ? 0 : (i == n ? n - 1 : i);
 }
 
-/// All of memory is as the boundary says: the halo with its edges and corners, and nothing else
-/// written. `has_rows`: are the rows above and below filled, too?
+/// Expects that the halo with its edges and corners is filled by the boundary, and nothing else is
+/// written. `has_rows`: the rows above and below are also filled.
 void expect_filled(const Field& field, const Grid& grid, bool has_rows = true) {
     const std::int64_t pad = PlaneLayout::row_pad;
     const std::int64_t halo = grid.depth > 1 ? 1 : 0;
@@ -70,7 +70,7 @@ struct PlaneCase {
 
 class Halo : public ::testing::TestWithParam<PlaneCase> {
 protected:
-    /// The grid with every mixture of boundaries.
+    /// The grid with every combination of boundaries.
     static std::vector<Grid> grids() {
         std::vector<Grid> all;
         for (const Boundary x : either) {
@@ -123,7 +123,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, Halo,
                                     std::to_string(tested.param.depth);
                          });
 
-/// What stands at a place of the halo by the definition: x first, then y, then z.
+/// The value at a position of the halo by definition: x first, then y, then z.
 float expected_beyond(const Field& cells, const Grid& grid, const SideRules& sides,
                       const Field& values, std::array<std::int64_t, 3> at) {
     const std::int64_t counts[3] = {grid.width, grid.height, grid.depth};
@@ -144,7 +144,7 @@ float expected_beyond(const Field& cells, const Grid& grid, const SideRules& sid
     return cells.at(at[0], at[1], at[2]);
 }
 
-/// The values of a side that halo from these rows needs.
+/// The values of a side that are needed for the halo of these rows.
 std::shared_ptr<const SideValues> values_beside(const Field& values, Side side, RowRange rows) {
     const SideCells cells = SideCells::of_rows(values.layout(), side, rows);
     SideValues part{cells.first, {}};
@@ -168,7 +168,7 @@ TEST_P(Halo, SidesWithValues) {
         }
         const bool wraps = mixture % 3 == 1;
         if (wraps) sides.at[0].kind = sides.at[1].kind = SideKind::periodic;
-        // Beyond the ends of a side its values go on as the field does.
+        // Beyond the ends of a side its values continue like the field.
         values.fill_halo(Boundaries(wraps ? Boundary::periodic : Boundary::no_flux,
                                     Boundary::no_flux, Boundary::no_flux));
         Field field = numbered(grid);
@@ -208,7 +208,7 @@ TEST(PlaneLayout, RowsAreAlignedAndHaveRoomForAVector) {
         const PlaneLayout layout(Grid{width, 3, Boundary::periodic});
         EXPECT_EQ(layout.stride % PlaneLayout::row_pad, 0);
         EXPECT_EQ(layout.offset(0, 0) % PlaneLayout::row_pad, 0);
-        // A vector that starts at any cell ends before the next row's own space.
+        // A vector that starts at any cell ends before the cells of the next row.
         EXPECT_LE(layout.offset(width - 1, 0) + PlaneLayout::row_pad, layout.offset(0, 1));
         EXPECT_GE(layout.offset(-1, -1), 0);
         EXPECT_LT(layout.offset(width, 3), layout.size());
@@ -226,7 +226,7 @@ TEST(Plane, CellsAreAlignedZeroAndMovable) {
     EXPECT_EQ(moved.origin(), address);
     EXPECT_NE(copy.origin(), address);
     EXPECT_EQ(copy.at(32, 6), 5.0f);
-    EXPECT_TRUE(field.empty());  // NOLINT: looks at what a move leaves.
+    EXPECT_TRUE(field.empty());  // NOLINT: checks a moved-from object.
     EXPECT_FALSE(moved.empty());
 }
 

@@ -1,4 +1,4 @@
-// What coarser grids keep of a plane.
+// Planes on coarser grids.
 #include "core/resample.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Memory of freed planes that is used again: zeroed, and of one plane at a time.
+// Memory of freed planes is reused: zeroed, and for one plane at a time.
 #include "core/plane.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ bool is_filled_with(const SpareMemory& memory, std::size_t bytes, std::uint8_t v
                        [value](std::uint8_t byte) { return byte == value; });
 }
 
-/// Sizes that take as many pages from the system as each other, or more.
+/// Sizes that need the same number of pages, and larger ones.
 constexpr std::size_t spare_sizes[] = {5'000'000, 5'000'000, 4'500'000, 9'000'000,
                                        5'000'000, 5'000'000, 40'000'000};
 

@@ -25,10 +25,10 @@ TEST(Spread, MeanDeviationAndEnds) {
     EXPECT_DOUBLE_EQ(spread.deviation(), std::sqrt(26.0 / 3));
     EXPECT_EQ(spread.smallest, 1);
     EXPECT_EQ(spread.largest, 8);
-    EXPECT_FALSE(spread.is_even());
+    EXPECT_FALSE(spread.is_uniform());
 }
 
-/// Some of them not finite, if wanted.
+/// Random numbers, some of them not finite unless `are_finite`.
 std::vector<float> numbers(std::size_t count, bool are_finite) {
     std::vector<float> values;
     for (std::size_t k = 0; k < count; ++k) {
@@ -85,18 +85,18 @@ TEST(Spread, OfBothIsThatOfAll) {
 }
 
 TEST(Spread, RoundingAndWhatDiesAwayAreEven) {
-    EXPECT_TRUE(of({}).is_even());
-    EXPECT_TRUE(of({3, 3}).is_even());
-    EXPECT_TRUE(of({1, 1 + 9e-8}).is_even());
-    EXPECT_FALSE(of({1, 1.0001}).is_even());
-    EXPECT_TRUE(of({1e-13, 5e-13}).is_even(1));
-    EXPECT_FALSE(of({1e-11, 5e-11}).is_even(1));
+    EXPECT_TRUE(of({}).is_uniform());
+    EXPECT_TRUE(of({3, 3}).is_uniform());
+    EXPECT_TRUE(of({1, 1 + 9e-8}).is_uniform());
+    EXPECT_FALSE(of({1, 1.0001}).is_uniform());
+    EXPECT_TRUE(of({1e-13, 5e-13}).is_uniform(1));
+    EXPECT_FALSE(of({1e-11, 5e-11}).is_uniform(1));
 }
 
 TEST(Spread, NoUnitIsTooSmall) {
     for (const double unit : {1e-9, 1e-18, 1e-38, 1e-100}) {
-        EXPECT_FALSE(of({unit, 2 * unit}).is_even()) << unit;
-        EXPECT_TRUE(of({unit, (1 + 9e-8) * unit}).is_even()) << unit;
+        EXPECT_FALSE(of({unit, 2 * unit}).is_uniform()) << unit;
+        EXPECT_TRUE(of({unit, (1 + 9e-8) * unit}).is_uniform()) << unit;
         EXPECT_FALSE(of({unit, (1 + 9e-8) * unit}).is_one_number()) << unit;
     }
 }

@@ -1,4 +1,4 @@
-// Temporary files: names that nobody meets twice, and nothing of killed processes that stays.
+// Temporary files: unique names, and removal of files of killed processes.
 #include "core/temporary_file.h"
 
 #include "core/file.h"
@@ -86,7 +86,8 @@ TEST_F(TemporaryFiles, IsGoneUnlessItGetsItsName) {
 
 TEST_F(TemporaryFiles, OnlyWhatIsCertainlyDeadIsRemoved) {
     const auto digits = [](char digit) { return ".cascade-" + std::string(32, digit) + ".tmp"; };
-    // A killed process's, one that somebody writes still, a young one, and files of other people.
+    // A file of a killed process, a file that is still being written, a recent one, and files of
+    // other programs.
     for (const std::string& name : {digits('1'), digits('2'), digits('3')}) {
         std::ofstream(folder_ / name) << "half";
     }
@@ -116,7 +117,7 @@ TEST_F(TemporaryFiles, AFileThatIsWrittenIsLocked) {
 }
 
 TEST_F(TemporaryFiles, ManyProcessesOfOneNumberDoNotMeet) {
-    // As in two containers, nothing but the system's random numbers tells these apart.
+    // As with two containers, only the system's random numbers make these names different.
     std::vector<std::thread> threads;
     for (int t = 0; t < 4; ++t) {
         threads.emplace_back([this, t] {
@@ -135,7 +136,7 @@ TEST_F(TemporaryFiles, APipeThatNobodyReadsIsRefusedAtOnce) {
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
     const auto refused = write_file(pipe, "x");
     ASSERT_FALSE(refused);
-    EXPECT_NE(refused.error().message.find("nobody reads this pipe"), std::string::npos);
+    EXPECT_NE(refused.error().message.find("no program reads this pipe"), std::string::npos);
     EXPECT_TRUE(fs::is_fifo(pipe));
 }
 
@@ -162,7 +163,7 @@ TEST_F(TemporaryFiles, ASignalEndsTheWaitForAReader) {
     const Descriptor reader(::open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
     struct sigaction action = {}, before = {};
     action.sa_handler = [](int) {};
-    action.sa_flags = SA_RESTART;  // As the program's own handlers have it.
+    action.sa_flags = SA_RESTART;  // As in the program's own handlers.
     ASSERT_EQ(::sigaction(SIGUSR1, &action, &before), 0);
     const pthread_t waiting = ::pthread_self();
     std::atomic<bool> is_over{false};

@@ -1,4 +1,4 @@
-// Textures baked from cells: what is in which texel.
+// Textures baked from cells: the content of texels.
 #include "atlas/texture_layout.h"
 #include "core/file.h"
 #include "core/hash.h"
@@ -30,7 +30,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// A value in each cell by where it is.
+/// A value in each cell, by its position.
 template <typename Function>
 std::vector<float> values_of(const SurfaceMesh& mesh, const SurfaceCells& cells,
                              const Function& function) {
@@ -139,7 +139,7 @@ TEST(Bake, TexelsOfASquareAreWhatThePlacesSay) {
     const SurfaceCells cells = test::cells_of(mesh, 500);
     const std::vector<float> values = values_of(mesh, cells, [](Vector3d) { return 0; });
     PaintedCells look = painted(values);
-    // A colour for each quarter of each texel: the mean is one of light.
+    // A colour for each quarter of each texel; the mean must be of linear light.
     look.colour = [&](std::span<const float>, const SurfacePlace& place) -> Colour {
         const Vector3d p = position_of(mesh, place);
         const bool is_left = p.x * 16 - std::floor(p.x * 16) < 0.5;
@@ -185,7 +185,7 @@ TEST(Bake, ConstantsStayAndLinearFunctionsNearly) {
     }
 }
 
-/// The sphere with a pattern that does not know of the seam.
+/// A sphere with a pattern that is smooth across the seam.
 struct BakedSphere {
     SurfaceMesh mesh = test::sphere_with_texture(24);
     SurfaceCells cells = test::cells_of(mesh, 4000);
@@ -284,7 +284,7 @@ TEST(Bake, NormalsLeanAwayFromWhatRises) {
     };
     const Vector3d wanted = unit(Vector3d{-0.3, 0.2, 1});
     EXPECT_LT(length(middle() - wanted), 0.02);
-    // Mirrored in the texture, the first direction is the other way.
+    // In a mirrored texture the first tangent is reversed.
     for (auto& corners : mesh.texture) {
         for (TexturePlace& place : corners) place[0] = 1 - place[0];
     }
@@ -440,7 +440,7 @@ TEST(Bake, FilesAreAModelAndItsMaps) {
     EXPECT_THAT(map_paths(model, {.heights = true, .normals = true}),
                 ElementsAre(model, folder / "a.b_color.png", folder / "a.b_height.png",
                             folder / "a.b_normal.png"));
-    // Heights and normals are no colours, and who displaces the surface learns by how much.
+    // Maps of heights and normals have no sRGB chunk, and the text with the range of heights.
     for (const char* name : {"a.b_color.png", "a.b_height.png", "a.b_normal.png"}) {
         const std::string bytes = read_file(folder / name, 1u << 30).value();
         const bool is_colour = std::string_view(name) == "a.b_color.png";
@@ -452,7 +452,7 @@ TEST(Bake, FilesAreAModelAndItsMaps) {
     for (const auto& path : map_paths(model, {.heights = true, .normals = true})) {
         EXPECT_TRUE(std::filesystem::remove(path)) << path;
     }
-    // The same as OpenEXR: heights in lengths, colours in linear light.
+    // The same maps as OpenEXR: heights in lengths, colours in linear light.
     ASSERT_TRUE(write_maps(model, sphere.mesh, result, {}, MapFormat::exr).has_value());
     EXPECT_FALSE(std::filesystem::exists(folder / "a.b_color.png"));
     const test::ReadExr heights = test::read_exr(folder / "a.b_height.exr");

@@ -1,4 +1,4 @@
-// Cells as files: what NumPy and a reader of XML find in them.
+// Files of cells, read by NumPy and by a reader of XML.
 #include "export/cell_writer.h"
 #include "export/placed_cells.h"
 #include "export/glb.h"
@@ -21,7 +21,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Cells of a square with a channel that is x and one with a NaN.
+/// Cells of a square with two channels: x, and one with a NaN.
 struct CellsOfSquare {
     SurfaceMesh mesh = test::flat_square(4);
     SurfaceCells cells = test::cells_of(mesh, 60);
@@ -36,7 +36,7 @@ struct CellsOfSquare {
     CellResults results() const { return {colours, channels}; }
 };
 
-/// A folder in which a Python script looks at files.
+/// A folder in which a Python script checks files.
 class PythonFolder {
 public:
     PythonFolder() { std::filesystem::create_directories(folder_); }
@@ -50,7 +50,7 @@ public:
     }
 
 private:
-    /// One that has NumPy: the first that is found, or the system's.
+    /// A Python with NumPy: the first in PATH, or the system's.
     static std::string python() {
         for (const std::string name : {"python3", "/usr/bin/python3"}) {
             if (std::system((name + " -c 'import numpy' 2>/dev/null").c_str()) == 0) return name;
@@ -251,7 +251,7 @@ TEST(PointValues, AreThoseOfTheCellsAround) {
     ASSERT_EQ(values[0].values.size(), square.mesh.points.size());
     for (std::size_t p = 0; p < square.mesh.points.size(); ++p) {
         const double x = square.mesh.points[p].x;
-        const double tolerance = x > 0.3 && x < 0.7 ? 0.1 : 0.25;  // At sides cells are inside.
+        const double tolerance = x > 0.3 && x < 0.7 ? 0.1 : 0.25;  // Cells are inside of sides.
         EXPECT_NEAR(values[0].values[p], x, tolerance);
     }
     EXPECT_EQ(values_at(places, filter, square.channels, two)[0].values, values[0].values);

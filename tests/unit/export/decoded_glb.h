@@ -1,4 +1,4 @@
-// GLB files taken apart.
+// Decodes GLB files for tests.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 
 namespace cascade::test {
 
-/// A GLB file, read by the text of the format.
+/// A GLB file, decoded by the specification of the format.
 class Decoded {
 public:
     explicit Decoded(const std::string& glb) {

@@ -1,4 +1,4 @@
-// Surfaces for tests of files: shapes with texture coordinates and something at their points.
+// Surfaces for tests of files: shapes with texture coordinates and values at their points.
 #pragma once
 
 #include "export/channels.h"
@@ -39,8 +39,8 @@ inline SurfaceMesh flat_square(std::uint32_t n) {
     return mesh_of(std::move(soup));
 }
 
-/// The unit sphere as `rows` bands of 2 · rows quadrilaterals, longitude and latitude its texture
-/// coordinates, with a seam at longitude 0.
+/// The unit sphere as `rows` bands of 2 · rows quadrilaterals. Texture coordinates are longitude
+/// and latitude, with a seam at longitude 0.
 inline SurfaceMesh sphere_with_texture(std::uint32_t rows) {
     PolygonSoup soup;
     const std::uint32_t columns = 2 * rows;
@@ -66,7 +66,7 @@ inline SurfaceMesh sphere_with_texture(std::uint32_t rows) {
     return mesh_of(std::move(soup));
 }
 
-/// At each point its coordinate x as a channel.
+/// A channel with the coordinate x of each point.
 inline Channel x_channel(const SurfaceMesh& mesh) {
     Channel channel{"u", {}};
     for (const Vector3d& p : mesh.points) channel.values.push_back(static_cast<float>(p.x));

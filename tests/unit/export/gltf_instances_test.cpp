@@ -1,4 +1,5 @@
-// Copies of meshes in glTF files by EXT_mesh_gpu_instancing, also those that are written here.
+// Reading copies of meshes in glTF files by EXT_mesh_gpu_instancing, also from files that Cascade
+// writes.
 #include "export/instanced_model.h"
 #include "mesh/make_mesh.h"
 #include "unit/mesh/built_gltf.h"
@@ -22,7 +23,7 @@ TEST(GltfInstances, CopiesAreScaledTurnedAndMovedInTheirNode) {
     file.json["extensionsRequired"] = {extension};
     attributes_of(file)["TRANSLATION"] = file.add<float>("VEC3", {0, 0, 0, 10, 0, 0});
     attributes_of(file)["SCALE"] = file.add<float>("VEC3", {1, 1, 1, 2, 3, 1});
-    // The second copy by a quarter turn about z, in fractions of 32767.
+    // The second copy has a quarter turn about z, in fractions of 32767.
     attributes_of(file)["ROTATION"] =
         file.add<std::int16_t>("VEC4", {0, 0, 0, 32767, 0, 0, 23170, 23170}, true);
     file.node(0)["translation"] = {0, 0, 5};
@@ -39,7 +40,7 @@ TEST(GltfInstances, AnyOfTheAttributesInOtherNumbersAndBelowOtherNodes) {
     expect_points(file.points(), {{1, 0, 0}, {2, 0, 0}, {1, -2, 0}});
     attributes_of(file) = {{"SCALE", file.add<float>("VEC3", {1, 1, 1, 1, 1, -1, 2, 2, 2})}};
     EXPECT_EQ(file.points().size(), 9u);
-    // Other attributes do not place anything.
+    // Other attributes give no positions.
     attributes_of(file) = {{"_COLOR_0", file.add<float>("VEC3", {1, 1, 1, 1, 1, 1})}};
     expect_points(file.points(), {{1, 0, 0}, {2, 0, 0}, {1, 2, 0}});
 }
@@ -126,7 +127,7 @@ TEST(GltfInstances, WhatIsWrittenComesBackAsItWentOut) {
     EXPECT_EQ(seen.triangles, 160u);
     EXPECT_EQ(seen.triangles, wanted.triangles);
     EXPECT_NEAR(seen.area, wanted.area, 1e-3 * wanted.area);
-    // The same colours, which are in another order.
+    // Both have the same colours, in different orders.
     for (std::size_t c = 0; c < 3; ++c) {
         std::vector<float> lights = some->attributes.at(c).values,
                            others = all->attributes.at(c).values;

@@ -1,4 +1,4 @@
-// The look of cells that are painted grey.
+// Paints cells grey.
 #pragma once
 
 #include "export/painted_cells.h"
@@ -7,7 +7,7 @@
 
 namespace cascade::test {
 
-/// Grey as bright as the first channel.
+/// A grey with the level of the first channel.
 inline Colour grey(std::span<const float> values, const SurfacePlace&) {
     return {values[0], values[0], values[0]};
 }

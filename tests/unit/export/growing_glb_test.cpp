@@ -1,5 +1,5 @@
-// Moments of a model that grows, put together again as a renderer does: the mesh plus the weighted
-// differences of its morph targets.
+// Moments of an animated model, computed as by a renderer: the mesh plus the weighted differences
+// of its morph targets.
 #include "export/glb.h"
 #include "picture/srgb.h"
 #include "unit/export/decoded_glb.h"
@@ -26,7 +26,7 @@ GlbMoment moment_at(const SurfaceMesh& mesh, double part, bool rises) {
     return moment;
 }
 
-/// Compares what is shown at the time of a moment, or between two, with what it is to be.
+/// Compares the animation at a time with expected colours and positions.
 void expect_moment(const Decoded& file, double time, const std::vector<double>& light,
                    const std::vector<double>& places) {
     const auto& mesh = file.json["meshes"][0];
@@ -98,7 +98,7 @@ TEST(GrowingGlb, ShowsEachMomentAtItsTime) {
             expect_moment(file, 0.5 * static_cast<double>(k), light_of_moment(k),
                           places_of_moment(k));
         }
-        // Half way between two moments is their mean.
+        // Half way between two moments the mean of both is shown.
         auto light = light_of_moment(1), places = places_of_moment(1);
         const auto mix = [](std::vector<double>& a, const std::vector<double>& b) {
             for (std::size_t k = 0; k < a.size(); ++k) a[k] = (a[k] + b[k]) / 2;

@@ -1,4 +1,4 @@
-// How much of the sky is seen between heights.
+// How much light of the sky arrives between heights.
 #include "export/height_occlusion.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ TEST(HeightOcclusion, LevelGroundSeesTheWholeSky) {
     for (const float part : seen(cells, std::vector<float>(200, 3.0F))) EXPECT_EQ(part, 1);
 }
 
-// A wall along y: in direction φ it is d / cos φ away.
+// A wall along y: in the direction φ its distance is d / cos φ.
 TEST(HeightOcclusion, AWallHidesWhatIsBelowItsEdge) {
     const FlatCells cells{64, 64, 0.5, {false, false}};
     constexpr double wall = 6;
@@ -47,7 +47,7 @@ TEST(HeightOcclusion, AWallHidesWhatIsBelowItsEdge) {
                 cosine > 1e-9 ? wall * cosine / (static_cast<double>(away) * cells.side) : 0;
             expected += 1 / (1 + rise * rise) / 16;
         }
-        // Steps and slopes between cells are a part of an eighth of the distance.
+        // The error from cells is larger near the wall.
         EXPECT_NEAR(parts[static_cast<std::size_t>(32 * 64 + 40 - away)], expected, 0.03) << away;
     }
     EXPECT_EQ(parts[32 * 64 + 50], 1);  // On top of it.
@@ -69,7 +69,7 @@ TEST(HeightOcclusion, APitIsDarkerTheDeeperItIs) {
     }
 }
 
-// A plane that repeats looks the same from wherever it is begun, if its sides repeat.
+// Shifting a periodic plane only shifts the result.
 TEST(HeightOcclusion, SidesThatRepeatAreSeenAcross) {
     FlatCells cells{24, 16};
     const auto at = [](std::int64_t i, std::int64_t j) {

@@ -1,5 +1,5 @@
-// Files of copies, decoded again: as instances by the text of the format, merged by our own
-// readers.
+// Files of copies: instances are decoded by the specification of the format, merged triangles by
+// our own readers.
 #include "export/instanced_model.h"
 #include "export/group_colours.h"
 #include "mesh/model_file.h"
@@ -44,7 +44,7 @@ Instances thorns(std::size_t count) {
     return copies;
 }
 
-/// A copy as a file has it.
+/// A copy of a mesh, as read from a file.
 struct Found {
     Vector3d place, scale;
     Quaternion turn;
@@ -101,7 +101,8 @@ TEST(InstancedModel, FilesHaveEachCopy) {
         ASSERT_NE(same, found.end());
         EXPECT_EQ(same->triangles, copies.meshes[copy.mesh].triangles.size());
         EXPECT_LT(length(same->scale - copy.scale), 1e-8);
-        // A rounded quaternion has another length, which readers may leave: far below a pixel.
+        // The length of a rounded quaternion is not exactly 1, and readers may not normalise it.
+        // The error is far below a pixel.
         for (const Vector3d axis : {Vector3d{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}) {
             EXPECT_LT(length(turned(same->turn, axis) - turned(copy.turn, axis)), 2e-4);
         }

@@ -1,4 +1,4 @@
-// Levels of detail keep the look of the model: its colours from afar, its normals, its maps.
+// Levels of detail look like the model: its colours from afar, its normals, its maps.
 #include "export/levels.h"
 
 #include "atlas/unwrap.h"
@@ -137,7 +137,7 @@ TEST(Levels, AreAllInOneGlbFileAndInOnesOfTheirOwn) {
             json["accessors"][mesh["primitives"][0]["indices"].get<std::size_t>()];
         EXPECT_EQ(corners["count"], 3 * all[k + 1].mesh.triangles.size());
     }
-    // Programs that do not know the extension, such as our reader, see the finest level.
+    // Programs without support for the extension, such as our reader, read the finest level.
     for (std::size_t k = 0; k < 3; ++k) {
         const auto read = read_model((*paths)[k], {});
         ASSERT_TRUE(read) << read.error().message;
@@ -220,7 +220,7 @@ TEST(LevelMaps, HaveTheNormalsOfTheFineSurface) {
 }
 
 TEST(LevelMaps, KnowWhereADisplacedSurfaceWas) {
-    // A sphere raised to half its size again has the colours of the sphere, and its own normals.
+    // A sphere raised to 1.5 times its size has the colours of the sphere and its own normals.
     Team team(1);
     Painted fine(*sphere_mesh(1, 0.05));
     fine.heights.assign(fine.cells.places.size(), 0.5F);

@@ -1,4 +1,4 @@
-// Models as files: our own readers get back what was written.
+// Written model files, read again by our own readers.
 #include "export/glb.h"
 #include "export/model_writer.h"
 #include "mesh/model_file.h"
@@ -94,7 +94,7 @@ TEST(ModelWriter, ObjIsReadBackExactly) {
         EXPECT_NEAR(attribute(read, "green").values[p], colours[p][1], 0.003F);
     }
     EXPECT_THAT(encode_obj(flat_square(1), {}), HasSubstr("v 1 0 0\n"));
-    // Places of the texture that corners share are written once.
+    // Texture coordinates that several corners share are written once.
     std::set<TexturePlace> places;
     for (const auto& corners : mesh.texture) places.insert(corners.begin(), corners.end());
     std::size_t written = 0;
@@ -160,7 +160,7 @@ TEST(ModelWriter, StlFilesOfModelsFarAwayAreMoved) {
         for (Vector3d& p : mesh.points) p = p * scale + by;
         return mesh;
     };
-    // Near enough: as it is.
+    // Close to the origin: not moved.
     for (const Vector3d by : {Vector3d{}, {3, 0, 0}, {40.1, -20, 7}}) {
         EXPECT_EQ(stl_origin(moved(by, 1)), Vector3d{});
     }
@@ -176,7 +176,7 @@ TEST(ModelWriter, StlFilesOfModelsFarAwayAreMoved) {
             EXPECT_NEAR(read.total_area(), mesh.total_area(), 1e-5 * mesh.total_area());
         }
     }
-    // Exact numbers stay where they are.
+    // A model with exact coordinates is not moved.
     SurfaceMesh square = flat_square(2);
     for (Vector3d& p : square.points) p = p + Vector3d{1 << 20, 0, 0};
     EXPECT_EQ(stl_origin(square), Vector3d{});
@@ -225,7 +225,7 @@ TEST(ModelWriter, WritesByTheEnding) {
         ASSERT_TRUE(write_model(folder / name, mesh, {}).has_value());
         expect_same(read_back(read_model(folder / name)), mesh, 2e-7);
     }
-    // An STL file has no points in common and no texture.
+    // In an STL file triangles share no points, and there is no texture.
     ASSERT_TRUE(write_model(folder / "a.stl", mesh, {}).has_value());
     const SurfaceMesh printed = read_back(read_model(folder / "a.stl"));
     EXPECT_EQ(printed.triangles.size(), mesh.triangles.size());

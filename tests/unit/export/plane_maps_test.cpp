@@ -1,4 +1,4 @@
-// Maps of a plane: what is in which texel, and that they repeat without a seam.
+// Maps of a plane: the content of texels, and that maps repeat without a seam.
 #include "export/plane_maps.h"
 #include "picture/srgb.h"
 #include "unit/export/grey_look.h"
@@ -33,7 +33,7 @@ std::vector<float> values_of(const FlatCells& cells, const Function& function) {
     return values;
 }
 
-/// A pattern with hard edges that repeats, as values of all kinds.
+/// A periodic pattern with sharp edges, for all maps.
 struct Pattern {
     explicit Pattern(std::int64_t shift = 0) {
         values = values_of(cells, [&](std::int64_t i, std::int64_t j) {
@@ -72,8 +72,8 @@ TEST(PlaneMaps, TheLongerSideHasTheTexelsThatAreAskedFor) {
     EXPECT_EQ(texture_size({100, 1}, 8), (Size{8, 1}));
 }
 
-// Begun three cells later, the texture is the same one moved by three cells: its sides are places
-// like all others.
+// If the plane is shifted by three cells, the texture is only shifted, so its sides are like all
+// other positions.
 TEST(PlaneMaps, APeriodicPlaneHasNoSeam) {
     const Pattern here, moved(3);
     const MaterialMaps one = baked(here.cells, here.painted, 120);
@@ -85,7 +85,7 @@ TEST(PlaneMaps, APeriodicPlaneHasNoSeam) {
         for (std::int64_t y = 0; y < 80; ++y) {
             for (std::int64_t x = 0; x < 120; ++x) {
                 for (std::size_t c = 0; c < 3; ++c) {
-                    // Places between cells are rounded otherwise.
+                    // Positions between cells are rounded differently.
                     EXPECT_NEAR(b[k]->at(x, y)[c], a[k]->at((x + 15) % 120, y)[c], 2e-5) << k;
                 }
             }
@@ -93,7 +93,7 @@ TEST(PlaneMaps, APeriodicPlaneHasNoSeam) {
     }
 }
 
-/// The largest difference of two columns side by side, of those inside and of the first and last.
+/// The largest difference of neighbouring columns inside, and that of the first and last columns.
 std::array<double, 2> largest_jumps(const Image& image) {
     std::array<double, 2> jumps{};
     for (std::int64_t x = 0; x < image.width; ++x) {
@@ -115,7 +115,7 @@ TEST(PlaneMaps, NoJumpIsLargerAcrossASideThatRepeats) {
         const auto [inside, across] = largest_jumps(*image);
         EXPECT_LE(across, inside);
     }
-    // Where it does not repeat, the two sides are strangers.
+    // Without periodic sides, the two sides do not influence each other.
     FlatCells cells{24, 16, 1, {false, true}};
     const auto ramp =
         values_of(cells, [](std::int64_t i, std::int64_t) { return static_cast<double>(i) / 23; });
@@ -178,7 +178,8 @@ TEST(PlaneMaps, NormalsAreThoseOfTheHeights) {
     }
 }
 
-// Green grows where the surface faces upwards in the picture, at sides that do not repeat, too.
+// Green is larger where the surface faces upwards in the picture, also at sides that are not
+// periodic.
 TEST(PlaneMaps, GreenIsUp) {
     const FlatCells cells{8, 8, 1, {false, false}};
     const auto heights =
@@ -199,7 +200,8 @@ TEST(PlaneMaps, ValuesStayInRangeAtEdges) {
     for (int k = 0; k < 256; ++k) sharp.push_back(random() % 2 == 0 ? 0.2F : 0.8F);
     PaintedCells painted = {1, sharp, grey, sharp};
     const MaterialMaps maps = baked(cells, painted, 160);
-    // Single cells of noise are passed by a little, straight edges by nothing.
+    // Interpolated values may leave the range of the cells a little at single cells of noise, but
+    // not at straight edges.
     EXPECT_GE(maps.heights.low, 0.2F - 0.06F * 0.6F);
     EXPECT_LE(maps.heights.high, 0.8F + 0.06F * 0.6F);
     std::vector<float> half(256, 0.2F);

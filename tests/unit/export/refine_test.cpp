@@ -20,7 +20,7 @@ double longest_edge(const SurfaceMesh& mesh) {
     return longest;
 }
 
-/// As fine as asked for, the same surface, and all that belongs to it in its place.
+/// Expects edges of the wanted length, the same surface, and all attributes at the right positions.
 void expect_refined(const SurfaceMesh& mesh, const RefinedMesh& fine) {
     test::expect_manifold(fine.mesh);
     const MeshFacts before = facts_of(mesh), after = facts_of(fine.mesh);

@@ -1,4 +1,4 @@
-// Colours of baked maps on both sides of the seams of our own texture coordinates.
+// Colours of baked maps on both sides of seams, with texture coordinates made by Cascade.
 #include "atlas/unwrap.h"
 #include "export/bake.h"
 #include "mesh/animals.h"
@@ -14,7 +14,7 @@ namespace {
 
 using test::never;
 
-/// A map as renderers read it: linear between the middles of texels, repeated.
+/// Reads a map as renderers do: interpolated linearly between the centres of texels, and repeated.
 double seen_at(const Image& map, double u, double v) {
     const double x = u * static_cast<double>(map.width) - 0.5;
     const double y = (1 - v) * static_cast<double>(map.height) - 0.5;
@@ -32,10 +32,10 @@ double seen_at(const Image& map, double u, double v) {
 }
 
 struct SeamErrors {
-    double seam_length = 0;  ///< In lengths of the model.
-    double jump = 0;         ///< The largest difference between both sides of a seam,
-    double mean_jump = 0;    ///< and the mean,
-    double error = 0;        ///< and the largest difference from the colour of the cells there.
+    double seam_length = 0;  ///< The length of all seams, in lengths of the model.
+    double jump = 0;         ///< The largest difference between both sides of a seam.
+    double mean_jump = 0;    ///< The mean difference.
+    double error = 0;        ///< The largest difference from the colour of the cells there.
     double step = 0;         ///< The largest slope of the pattern, per texel.
 };
 
@@ -107,8 +107,8 @@ SeamErrors seam_errors(SurfaceMesh mesh, std::int64_t texels) {
     return errors;
 }
 
-/// What a texel can show: the middle of one at a seam is up to ½ away, and so is that of the other
-/// side, in a map stretched by up to a half.
+/// Bounds for differences at seams: the centres of the texels on both sides are up to ½ texel away,
+/// in a map that is stretched by up to a half.
 SeamErrors expect_no_seam(const SurfaceMesh& mesh, std::int64_t texels) {
     const SeamErrors errors = seam_errors(mesh, texels);
     EXPECT_GT(errors.seam_length, 1) << "there are seams to look at";

@@ -1,4 +1,4 @@
-// Animated PNG files, taken apart by hand.
+// Animated PNG files, decoded by the test.
 #include "film_fixture.h"
 
 #include "tests/unit/picture/png_chunks.h"

@@ -1,4 +1,4 @@
-// Films by ffmpeg, if it is there; and what is said if it is not there or fails.
+// Films by ffmpeg, if it is installed, and messages if it is missing or fails.
 #include "film/frames_in_film.h"
 #include "film_fixture.h"
 
@@ -14,7 +14,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// The folders in which programs are looked for, for as long as it exists.
+/// Sets the folders in which programs are searched, while the object exists.
 class SearchedFolders {
 public:
     explicit SearchedFolders(const std::string& folders) : before_(std::getenv("PATH")) {
@@ -40,7 +40,7 @@ protected:
         std::filesystem::permissions(path("bin/ffmpeg"), std::filesystem::perms::owner_all);
     }
 
-    /// All pixels of a film, by ffmpeg's own decoder or another one.
+    /// All pixels of a film, decoded by ffmpeg's own decoder or another one.
     std::string decoded(const std::string& name, const std::string& format = "rgb24",
                         const std::string& decoder = "") const {
         const std::string command = "ffmpeg -v error " + decoder + " -i '" + path(name).string() +
@@ -91,7 +91,7 @@ TEST_F(Ffmpeg, KeepsOpacityInWebmAndLaysMp4OnWhite) {
     }
     const std::vector<FilmFrame> frames(3, film_frame(image));
     for (const std::string name : {"a.webm", "a.mp4"}) write(name, frames);
-    // The pixel in the middle of a stretch of the last row.
+    // A level of the pixel at x in the last row.
     const auto level = [](const std::string& pixels, std::size_t x, std::size_t channel) {
         return static_cast<unsigned char>(pixels[(31 * 64 + x) * 4 + channel]);
     };
@@ -140,7 +140,7 @@ TEST_F(Ffmpeg, HasTheLastWordWhereItFails) {
     EXPECT_EQ(files(), 1U) << "nothing but bin";
 }
 
-/// What becomes of a film of 40 frames of 60 kB.
+/// The result of writing a film of 40 frames of 60 kB.
 Result<void> filmed(const std::filesystem::path& path, const std::atomic<bool>& cancel) {
     const std::vector<FilmFrame> frames(40, film_frame(Image(160, 128)));
     FilmSettings settings;
@@ -162,11 +162,11 @@ TEST_F(Ffmpeg, IsNotBelievedWhereItLies) {
         EXPECT_EQ(files(), 1U) << program;
         return done ? "done" : done.error().message;
     };
-    const std::string too_early = "it ended before it had everything";
+    const std::string too_early = "it ended before all frames were written";
     EXPECT_THAT(said("exit 0\n"), HasSubstr(too_early));
     EXPECT_THAT(said("head -c 100000 >/dev/null; exit 0\n"), HasSubstr(too_early));
     EXPECT_THAT(said("head -c 2457599 >/dev/null; exit 0\n"), HasSubstr(too_early)) << "a byte";
-    const std::string no_film = "what it wrote is no whole film";
+    const std::string no_film = "it did not write a complete film";
     EXPECT_THAT(said("cat >/dev/null; exit 0\n"), HasSubstr(no_film));
     EXPECT_THAT(said("cat >/dev/null; echo GIF89a >\"$file\"; exit 0\n"), HasSubstr(no_film));
     EXPECT_THAT(said("cat >/dev/null; rm \"$file\"; exit 0\n"), HasSubstr(no_film));
@@ -185,12 +185,12 @@ TEST_F(Ffmpeg, DoesNotOutliveTheEndOfTheProgram) {
         const SearchedFolders folders(path("bin").string() + ":/bin:/usr/bin");
         const auto tried = check_film_size(path("a.mp4"), 640, 480, cancel);
         ASSERT_FALSE(tried);
-        EXPECT_THAT(tried.error().message, HasSubstr("it did not get on, and was ended"));
+        EXPECT_THAT(tried.error().message, HasSubstr("it made no progress and was stopped"));
     }
     const SearchedFolders folders(path("bin").string() + ":/bin:/usr/bin");
     const auto done = filmed(path("a.mp4"), cancel);
     ASSERT_FALSE(done);
-    EXPECT_THAT(done.error().message, HasSubstr("it did not get on, and was ended"));
+    EXPECT_THAT(done.error().message, HasSubstr("it made no progress and was stopped"));
     EXPECT_EQ(files(), 1U);
 }
 

@@ -1,4 +1,4 @@
-// What tests of films share: a folder, and frames to write.
+// For tests of films: a folder, and frames to write.
 #pragma once
 
 #include "core/file.h"
@@ -47,7 +47,8 @@ protected:
     std::filesystem::path folder_;
 };
 
-/// A disc of few colours that moves over an even ground, so that less than a frame changes.
+/// A disc of few colours that moves over a uniform background, so that only a part of each frame
+/// changes.
 inline FilmFrame disc_frame(std::int64_t width, std::int64_t height, double x, double y) {
     Image image(width, height, {0.2F, 0.4F, 0.6F});
     for (std::int64_t j = 0; j < height; ++j) {
@@ -66,7 +67,8 @@ inline std::vector<FilmFrame> moving_disc(int count = 5) {
     return frames;
 }
 
-/// A slope of all of red and green, far more than 256 colours, and a ground that does not change.
+/// A gradient over all levels of red and green, with far more than 256 colours, and a background
+/// that does not change.
 inline FilmFrame many_colours(float blue) {
     Image image(96, 96);
     for (std::int64_t y = 0; y < 96; ++y) {
@@ -78,7 +80,7 @@ inline FilmFrame many_colours(float blue) {
     return film_frame(image);
 }
 
-/// The disc on a ground that is transparent.
+/// The disc on a transparent background.
 inline FilmFrame with_hole(FilmFrame frame, std::int64_t hole_end) {
     for (std::int64_t x = 0; x < hole_end; ++x) {
         for (std::size_t c = 0; c < 4; ++c) {

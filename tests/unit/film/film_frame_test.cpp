@@ -1,4 +1,4 @@
-// Frames in bytes, what changes between them, and how long they are shown.
+// Frames as bytes, the changed part of a frame, and how long frames are shown.
 #include "film_fixture.h"
 
 #include "film/colour_table.h"
@@ -87,7 +87,7 @@ TEST(FewColours, AreChosenFromManyFrames) {
             EXPECT_NEAR(colour >> shift & 0xff, found >> shift & 0xff, 60) << std::hex << colour;
         }
     }
-    // Few enough are themselves.
+    // With few colours, each is kept exactly.
     const std::vector<FilmFrame> disc = moving_disc();
     const std::vector<PackedColour> own = chosen_colours(disc, 256);
     EXPECT_TRUE(std::is_sorted(own.begin(), own.end()));

@@ -1,4 +1,4 @@
-// GIF films, read by giflib and shown as browsers do.
+// GIF films, read by giflib and composed as by browsers.
 #include "film_fixture.h"
 
 #include <gif_lib.h>

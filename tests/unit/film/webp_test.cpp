@@ -12,7 +12,7 @@ namespace {
 struct ShownWebp {
     std::vector<std::string> frames;  ///< Pixels in RGBA.
     std::vector<int> ends;            ///< When the frames end, in ms.
-    std::uint32_t repeats = 99;       ///< 0 is for ever.
+    std::uint32_t repeats = 99;       ///< 0 means for ever.
 };
 
 ShownWebp shown_webp(const std::string& file) {
@@ -37,7 +37,7 @@ ShownWebp shown_webp(const std::string& file) {
     return film;
 }
 
-/// Where nothing is seen colours do not matter.
+/// Sets transparent pixels to one colour, since their colours do not matter.
 std::string seen(std::string pixels) {
     for (std::size_t k = 0; k < pixels.size(); k += 4) {
         if (pixels[k + 3] == 0) pixels.replace(k, 4, 4, '\0');

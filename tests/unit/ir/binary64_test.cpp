@@ -1,4 +1,5 @@
-// Functions in binary64 against the C library in long double, whose numbers have 64 bits.
+// Functions in binary64, compared with the C library in long double, whose significands have 64
+// bits.
 #include "tests/support/random_stream.h"
 #include "tests/unit/ir/number_function.h"
 
@@ -20,7 +21,7 @@ static_assert(std::numeric_limits<long double>::digits >= 64, "exact values have
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Largest errors in ulp are those of spec/numerics.md.
+/// The largest errors, in ulp, are those of spec/numerics.md.
 struct Function {
     const char* name;
     ValueId (KernelBuilder::*expand)(ValueId);
@@ -83,7 +84,7 @@ void expect_accurate(const Function& function, const std::vector<double>& x) {
     for (const Form form : test::forms()) worst_error(function, x, form);
 }
 
-// Words at equal distances: all exponents, both signs, NaN and infinities.
+// Words at equal distances cover all exponents, both signs, NaN and infinities.
 TEST(Binary64, FunctionsAreAccurateForAllMagnitudes) {
     std::vector<double> x;
     constexpr std::uint64_t stride = 0x0000200000001357;
@@ -239,7 +240,7 @@ TEST(Binary64, FunctionsOfTwoNumbers) {
     const auto positive = [](auto& stream) { return std::exp2(4 * fine_number(stream)); };
     expect_accurate("pow", &KernelBuilder::power, power, 1.5,
                     pairs(4, positive, [](auto& stream) { return 5 * fine_number(stream); }));
-    // Results near both ends of the range.
+    // Results close to both ends of the range.
     expect_accurate("pow", &KernelBuilder::power, power, 1.5,
                     pairs(5, positive, [](auto& stream) { return 250 * fine_number(stream); }));
     expect_accurate("pow", &KernelBuilder::power, power, 1.5,

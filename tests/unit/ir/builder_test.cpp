@@ -1,4 +1,4 @@
-// The builder: numbering, folding, composed operations, dropping of what nobody needs.
+// The builder: numbering, folding, composed operations, removal of unused values.
 #include "ir/builder.h"
 
 #include "core/floating_point.h"
@@ -113,7 +113,7 @@ TEST(Builder, FinishDropsWhatNoResultNeeds) {
     EXPECT_EQ(verify(kernel), "");
 }
 
-// ---- Composed operations, on constants: what folding makes of them is what running would.
+// ---- Composed operations on constants: folding gives the same as running.
 
 float folded(ValueId (KernelBuilder::*function)(ValueId, ValueId), float a, float b) {
     KernelBuilder builder;
@@ -157,7 +157,7 @@ TEST(Clamp, OfNumbers) {
     EXPECT_EQ(folded(&KernelBuilder::clamp_above, -1, 0), -1);
 }
 
-// ---- Whole powers are products.
+// ---- Powers with whole exponents are products.
 
 std::string text_of_power(float exponent) {
     KernelBuilder builder;

@@ -1,4 +1,4 @@
-// Kernels as data: their text, their hash, and what verify() finds wrong with them.
+// Kernels as data: their text, their hash, and errors that verify() finds.
 #include "ir/builder.h"
 
 #include <gmock/gmock.h>
@@ -9,7 +9,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// new = a + speed · lap(a), the old value where a mask is set.
+/// new = a + speed · lap(a), but the old value where a mask is set.
 CellKernel heat_kernel() {
     KernelBuilder builder;
     const FieldSlot a = builder.field_slot("a");

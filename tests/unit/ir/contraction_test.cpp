@@ -1,4 +1,4 @@
-// What contraction makes of kernels, as text.
+// Kernels after contraction, as text.
 #include "ir/builder.h"
 #include "ir/contraction.h"
 
@@ -9,7 +9,7 @@
 namespace cascade {
 namespace {
 
-/// Fields and numbers that are the same in all cells, to make formulas of.
+/// Fields and uniforms for formulas.
 struct Names {
     KernelBuilder& builder;
     ValueId field(const char* name) const { return builder.field(builder.field_slot(name)); }
@@ -34,7 +34,7 @@ std::string text(const std::function<ValueId(const Names&)>& formula) {
     return print(kernel);
 }
 
-/// Nothing is contracted.
+/// Returns whether contraction leaves a formula unchanged.
 bool stays(const std::function<ValueId(const Names&)>& formula) {
     return text(formula) == print(kernel_of(formula));
 }
@@ -88,7 +88,7 @@ TEST(Contraction, FusesAProductWithEachSumThatReadsIt) {
     EXPECT_EQ(code.find(" = subtract "), std::string::npos) << code;
 }
 
-// What else reads the product does not matter to the sum.
+// A product is fused with a sum even if other instructions read the product.
 TEST(Contraction, FusesAProductThatIsAlsoReadOtherwise) {
     const std::string code = text([](const Names& n) {
         const ValueId shared = n.product(n.field("a"), n.field("b"));

@@ -1,4 +1,5 @@
-// Functions of one number against the C library in double precision, whose error is 2^−29 of ours.
+// Functions of one number, compared with the C library in double precision, whose error is 2^−29 of
+// the tested error.
 #include "tests/support/not_finite.h"
 #include "tests/support/random_stream.h"
 #include "tests/unit/ir/number_function.h"
@@ -25,7 +26,7 @@ struct Function {
     float largest_argument;
 };
 
-// Named, so that failures say which; the C library's functions are overloaded.
+// Functions with names for messages. The C library's functions are overloaded.
 constexpr Function exp_function = {"exp", &KernelBuilder::exponential,
                                    [](double x) { return std::exp(x); }, 1.0, infinity};
 constexpr Function log_function = {"log", &KernelBuilder::logarithm,
@@ -80,7 +81,7 @@ void expect_accurate(const Function& function, const std::vector<float>& x) {
     for (const Form form : test::forms()) expect_accurate(function, x, form);
 }
 
-// Every 4099th of all words: all exponents, both signs, NaN and infinities.
+// Every 4099th of all words: these cover all exponents, both signs, NaN and infinities.
 TEST(Elementary, AccurateForAllMagnitudes) {
     std::vector<float> x;
     for (std::uint64_t word = 0; word < 0x100000000ULL; word += 4099) {

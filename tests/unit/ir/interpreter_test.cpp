@@ -1,5 +1,5 @@
-// The interpreter: where values come from and go to, rows and blocks, and random kernels against an
-// evaluation of one cell after the other.
+// The interpreter: inputs and outputs, rows and blocks, and random kernels compared with an
+// evaluation of one cell after another.
 #include "ir/interpreter.h"
 
 #include "core/floating_point.h"
@@ -19,7 +19,7 @@ namespace {
 
 using test::oracle;
 
-/// A kernel that computes a cell after the other from the tests' own table of meanings.
+/// A kernel that computes one cell after another with the tests' own definitions of operations.
 class CellByCell : public Backend {
 public:
     std::string_view name() const override { return "cell by cell"; }
@@ -81,7 +81,7 @@ private:
             return oracle(instruction.op, words[a], words[b], words[c]);
         }
 
-        /// Elements to a neighbour; along an axis of one cell there is none but the cell itself.
+        /// The offset of a neighbour in elements. Along an axis of one cell it is the cell itself.
         std::int64_t step(const PlaneLayout& layout, int dx, int dy, int dz) const {
             return (stencil_.x ? dx : 0) + (stencil_.y ? dy * layout.stride : 0) +
                    (stencil_.z ? dz * layout.slice_stride : 0);
@@ -175,8 +175,8 @@ std::vector<Field> run_on(const CellKernel& kernel, Field& field, const Grid& gr
     return results;
 }
 
-// 2^24 + 1 + 1 is 2^24 from the left, and 2^24 + 2 if the small ones are added first: what the
-// order of the sum is, shows.
+// 2^24 + 1 + 1 is 2^24 if added from the left, and 2^24 + 2 if the small numbers are added first,
+// so the result shows the order.
 TEST(Laplacian, HasTheOrderOfTheSpecification) {
     KernelBuilder builder;
     builder.result("r", builder.laplacian(builder.field_slot("a")));
@@ -200,8 +200,7 @@ TEST(Laplacian, HasTheOrderOfTheSpecification) {
     EXPECT_EQ(value(1, 1, 1, 1), -8);
 }
 
-// 4c is not rounded by itself: it may be larger than the largest number as long as what remains is
-// not.
+// 4c is not rounded separately: it may exceed the largest number if the result does not.
 TEST(Laplacian, OfHugeNumbersOverflowsAtItsEndOnly) {
     KernelBuilder builder;
     builder.result("r", builder.laplacian(builder.field_slot("a")));
@@ -242,7 +241,7 @@ TEST(Laplacian, OnLines) {
     }
 }
 
-// ((((N + S) + E) + W) + U) + D − 6c: what is lost by rounding shows the order.
+// ((((N + S) + E) + W) + U) + D − 6c: the rounding error shows the order.
 TEST(Laplacian, OfAVolumeHasTheOrderOfTheSpecification) {
     KernelBuilder builder;
     builder.result("r", builder.laplacian(builder.field_slot("a")));
@@ -273,7 +272,7 @@ TEST(Laplacian, OfAVolumeHasTheOrderOfTheSpecification) {
     EXPECT_GT(reversed_is_different, 20);
 }
 
-// On a field that holds its own place every neighbour says where it stands.
+// In a field whose values are positions, the value of a neighbour is its position.
 TEST(Neighbour, OfAllDirections) {
     KernelBuilder builder;
     std::vector<std::array<int, 3>> offsets;
@@ -346,7 +345,7 @@ TEST(Interpreter, ResultsOfEveryKind) {
     }
 }
 
-// x ← x / 2 + 1 tends to 2 and stays there; a million times, with two registers.
+// x ← x / 2 + 1 converges to 2; a million times, with two registers.
 TEST(Interpreter, AMillionOperations) {
     KernelBuilder builder;
     ValueId x = builder.field(builder.field_slot("x"));
@@ -364,7 +363,8 @@ TEST(Interpreter, AMillionOperations) {
     for (std::int64_t i = 0; i < 10; ++i) EXPECT_EQ(results[0].at(i, 0), 2);
 }
 
-// Folded and run: the same kernel with its constants as uniforms gives the same bits.
+// Folding and running agree: the same kernel with uniforms in place of constants gives the same
+// bits.
 TEST(Interpreter, FoldingIsRunning) {
     test::RandomStream stream(11);
     const Grid grid{1, 1, Boundary::periodic};

@@ -1,4 +1,4 @@
-// Costs of kernels that were counted by hand.
+// Costs of kernels, compared with costs counted by hand.
 #include "ir/builder.h"
 #include "ir/kernel_cost.h"
 
@@ -7,7 +7,7 @@
 namespace cascade {
 namespace {
 
-/// new = a + d · lap(a), d the same in all cells, or a plane.
+/// new = a + d · lap(a), where d is a uniform or a plane.
 CellKernel diffusion(bool plane, Precision precision = Precision::single) {
     KernelBuilder builder(precision);
     const FieldSlot a = builder.field_slot("a");
@@ -36,7 +36,7 @@ TEST(KernelCost, AMultiplyAddIsOneOperationWithItsSign) {
     builder.result("r", sum);
     CellKernel kernel = std::move(builder).finish();
     EXPECT_EQ(cost_of(kernel, Stencil::plane, 0).operations, 1);
-    kernel.results = {ValueId(2)};  // The sign itself is written: now it takes an operation.
+    kernel.results = {ValueId(2)};  // The negated value is written: one more operation.
     EXPECT_EQ(cost_of(kernel, Stencil::plane, 0).operations, 2);
 }
 
@@ -57,13 +57,14 @@ TEST(KernelCost, APlaneIsALoadMore) {
 }
 
 TEST(KernelCost, LinksCostAPlaceAWeightAndAValueEach) {
-    // Three operations a link, a product and a sum; the cell, and of each link three words.
+    // Three operations for each link, a product and a sum. Loads: the cell and three words for each
+    // link.
     const KernelCost cost = cost_of(diffusion(false), Stencil::linked, 6);
     EXPECT_EQ(cost.operations, 20);
     EXPECT_EQ(cost.loads, 19);
     EXPECT_EQ(cost.load_bytes, 76);
     EXPECT_EQ(cost.link_bytes, 48);
-    // In binary64 places stay what they are.
+    // In binary64 indices have the same size.
     EXPECT_EQ(cost_of(diffusion(false, Precision::binary64), Stencil::linked, 6).load_bytes,
               8 + 6 * (4 + 8 + 8));
 }
@@ -87,7 +88,7 @@ TEST(KernelCost, SumsOfOtherKindsOverLinks) {
     builder.result("r", builder.add(flow, builder.add(squares, gradient)));
     const KernelCost cost = cost_of(std::move(builder).finish(), Stencil::linked, 4);
     EXPECT_EQ(cost.operations, 4 * (5 + 4 + 3) + 2);
-    // Places, two tables of weights, two fields gathered; and both in the cell.
+    // Indices, two tables of weights, two gathered fields, and both fields in the cell.
     EXPECT_EQ(cost.loads, 4 * (1 + 2 + 2) + 2);
 }
 

@@ -1,4 +1,4 @@
-// Reductions of values of links, by the interpreter, against loops over the list of links.
+// Reductions over links by the interpreter, compared with loops over the list of links.
 #include "core/floating_point.h"
 #include "core/links.h"
 #include "ir/builder.h"
@@ -140,8 +140,8 @@ TEST_P(LinkReductions, AreThoseOfTheList) {
     }));
 }
 
-// A mean over links, then the sum of squares of what differs from it: a loop waits for another one,
-// and both ask for the same field.
+// A mean over links, then the sum of squared differences from it: the second loop needs the result
+// of the first, and both read the same field.
 TEST_P(LinkReductions, MayNeedEachOther) {
     const LinkedCells cells(test::random_links(GetParam(), GetParam()));
     const std::vector<float> f = random_values(GetParam());
@@ -176,8 +176,8 @@ TEST_P(LinkReductions, MayNeedEachOther) {
     }
 }
 
-// In the last, most links lead farther than an offset of 16 bits, so that many entries are filled
-// up with links that lead neither to the cell nor to a neighbour.
+// With the last size, most offsets of links exceed 16 bits, so many entries are padded with links
+// that lead neither to the cell nor to a neighbour.
 INSTANTIATE_TEST_SUITE_P(Sizes, LinkReductions,
                          ::testing::Values(1, 15, 16, 39, 40, 41, 103, 640, 700, 40000));
 
@@ -213,7 +213,7 @@ TEST(LinkReduction, IsNotANumberIfAValueIs) {
     }
 }
 
-// A link of a cell to itself is a link like others; padding is none, although it leads there, too.
+// A link of a cell to itself counts. Padding does not count, although it may also lead to the cell.
 TEST(LinkReduction, CountsLinksOfTheListAlone) {
     KernelBuilder b;
     b.field_slot("f");
@@ -233,7 +233,7 @@ TEST(LinkReduction, FlushesDenormalValues) {
     EXPECT_TRUE(std::signbit(results[0][0]));
 }
 
-// The difference is denormal, so the first sum would be -0, and 0 if a 0 came after it.
+// The difference is denormal, so the first sum would be -0, and 0 after a 0 is added.
 TEST(LinkReduction, ASumIsNeverMinusZero) {
     KernelBuilder b;
     const ValueId theirs = b.theirs(b.field_slot("f"));
@@ -281,7 +281,7 @@ TEST(LinkCost, CountsWhatIsComputedForEachLink) {
     EXPECT_EQ(cost.link_bytes, 6 * 4);
 }
 
-/// Sums over links that share what is computed for a link, or sums of a field each.
+/// Sums over links that share computations for a link, or sums of one field each.
 CellKernel kernel_of_sums(std::size_t results, bool is_shared) {
     KernelBuilder b;
     const auto length = [&](const std::string& name) {

@@ -1,4 +1,4 @@
-// Sums over the links of cells, by the interpreter, against sums over the list of links.
+// Sums over the links of cells by the interpreter, compared with sums over the list of links.
 #include "core/links.h"
 #include "ir/builder.h"
 #include "ir/interpreter.h"
@@ -76,7 +76,7 @@ TEST_P(LinkSums, AreThoseOfTheList) {
     }
 }
 
-// In the last, most links lead farther than an offset of 16 bits.
+// With the last size, most offsets of links exceed 16 bits.
 INSTANTIATE_TEST_SUITE_P(Sizes, LinkSums,
                          ::testing::Values(1, 15, 16, 39, 40, 41, 103, 640, 700, 40000));
 
@@ -92,7 +92,7 @@ TEST(Links, FillTheLastRowWithCellsLikeTheLast) {
     list.weights = {1, 1, 2, 3, 2, 3};
     const Links links(list, layout, Precision::binary64);
     const LinkTable<double> table = links.table<double>();
-    // Slice 1 is the second row, whose cell 0 is cell 4; those after it are like it.
+    // Slice 1 is the second row, whose cell 0 is cell 4. Later rows are similar.
     ASSERT_EQ(table.starts[2] - table.starts[1], 2U);
     for (std::int64_t lane = 0; lane < 4; ++lane) {
         const std::int64_t link = table.starts[1] * LinkTable<double>::slice_cells + lane;

@@ -1,5 +1,5 @@
-// Smooth noise and lattices of seeds: the formulas that the specification writes down, computed
-// here in double precision, and what must hold for all of them.
+// Smooth noise and lattices of seeds: the formulas of the specification, computed here in double
+// precision, and properties of all of them.
 #include "core/hash.h"
 #include "tests/unit/ir/space_fields.h"
 
@@ -139,7 +139,7 @@ TEST(Noise, DrawsKeysAndOctavesAreIndependent) {
         return sum / static_cast<double>(one.size()) / variance;
     };
     EXPECT_NEAR(correlation(one), 1, 1e-2);
-    // Some 1100 independent lattice points: 5 / √1100.
+    // About 1100 independent lattice points, so the tolerance is 5 / √1100.
     for (std::uint32_t draw = 1; draw < 12; ++draw) {
         EXPECT_LT(std::fabs(correlation(cells_of(noise(grid, 0.03f, 1, some_key, draw)))), 0.15);
     }
@@ -196,8 +196,8 @@ double covered(const Field& field) { return moments_of(cells_of(field)).mean; }
 TEST(Seeds, CoverTheAreaOfTheirDiscs) {
     const Grid grid{512, 256, Boundary::periodic};
     const double disc = std::acos(-1.0) * 0.02 * 0.02;
-    // 10 by 5 seeds, twice as many in a diamond lattice, on an area of ½. Jitter moves no disc onto
-    // another.
+    // 10 by 5 seeds, and twice as many in a diamond lattice, on an area of ½. With this jitter no
+    // discs overlap.
     for (const float jitter : {0.0f, 0.01f, 0.025f}) {
         EXPECT_NEAR(covered(seeds(grid, LatticeKind::square, 0.1f, 0.02f, jitter)), 100 * disc,
                     0.002);
@@ -243,7 +243,7 @@ TEST(Seeds, GoOnAcrossPeriodicSidesOnly) {
     const Field periodic =
         seeds({200, 200, Boundary::periodic}, LatticeKind::square, 0.25f, 0.2f, 0.04f);
     for (std::int64_t k = 0; k < 200; ++k) {
-        // A rim is met by few cells; a seam would be met by many.
+        // Few cells at the side are at the rim of a disc; a seam would affect many cells.
         EXPECT_TRUE(periodic.at(0, k) == 0 || periodic.at(0, k) == 1);
     }
     const Field closed =

@@ -1,4 +1,4 @@
-// Runs functions of one or two numbers that a builder expands, on many arguments at once.
+// Runs functions of one or two numbers, as expanded by a builder, on many arguments at once.
 #pragma once
 
 #include "core/floating_point.h"
@@ -15,10 +15,10 @@
 
 namespace cascade::test {
 
-/// How a function is computed: as it is expanded, or contracted.
+/// How a function is computed: as expanded, or contracted.
 enum class Form { strict, contracted };
 
-/// Those that this processor has.
+/// The forms that this processor can compute.
 inline std::vector<Form> forms() {
     return has_multiply_add() ? std::vector{Form::strict, Form::contracted}
                               : std::vector{Form::strict};
@@ -60,9 +60,9 @@ std::vector<Number> apply_to_all(const Expand& expand, const std::vector<Number>
 inline double flushed(float x) { return std::fabs(x) < 0x1p-126f ? std::copysign(0.0, x) : x; }
 inline double flushed(double x) { return std::fabs(x) < 0x1p-1022 ? std::copysign(0.0, x) : x; }
 
-/// How far `value` is from `exact`, in units in the last place of binary32 numbers of its size.
-/// Infinite where one of them is a NaN, an infinity or of a sign that the other is not. Where the
-/// exact value is denormal a zero of its sign is right.
+/// The error of `value` in units in the last place of binary32 numbers of its size. Infinite if
+/// only one of both is NaN or infinite, or if their signs differ. If the exact value is denormal, a
+/// zero of its sign is right.
 inline double error_in_ulp(float value, double exact) {
     constexpr double wrong = std::numeric_limits<double>::infinity();
     if (std::isnan(exact) || std::isnan(value))
@@ -75,7 +75,7 @@ inline double error_in_ulp(float value, double exact) {
     return std::fabs(value - exact) / std::ldexp(1.0, std::max(std::ilogb(exact), -126) - 23);
 }
 
-/// The same of binary64 numbers.
+/// The error of a binary64 value in units of the last place.
 inline double error_in_ulp(double value, long double exact) {
     constexpr double wrong = std::numeric_limits<double>::infinity();
     constexpr long double largest = std::numeric_limits<double>::max();

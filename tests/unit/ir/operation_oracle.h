@@ -1,5 +1,5 @@
-// The meaning of the operations of the table, written a second time for the tests: in double
-// precision, with denormals flushed by hand, and so without any special environment.
+// A second definition of the operations of the table, for tests: in double precision and with
+// explicit flushing of denormals, so that no special environment is needed.
 #pragma once
 
 #include "ir/cell_kernel.h"
@@ -23,8 +23,9 @@ inline double read_number(std::uint32_t word) {
     return to_number(is_tiny ? word & 0x80000000u : word);
 }
 
-/// Rounds to 24 bits as if exponents had no end, then flushes what is below 2^−126. A result of one
-/// operation on two binary32 numbers, rounded to binary64 and then again, is rounded as if once.
+/// Rounds to 24 bits as if the range of exponents were unlimited, then flushes numbers below
+/// 2^−126. A result of one operation on two binary32 numbers, rounded to binary64 and then again,
+/// is rounded as if once.
 inline std::uint32_t write_number(double value) {
     if (std::fabs(value) >= 0x1p-100 || std::isnan(value)) {
         return to_bits(static_cast<float>(value));
@@ -34,8 +35,8 @@ inline std::uint32_t write_number(double value) {
     return to_bits(static_cast<float>(enlarged * 0x1p-200));
 }
 
-/// x · y + z of three binary32 numbers, whose last bit says whether digits are missing after it
-/// (rounding to odd): rounded to fewer digits it is then right.
+/// x · y + z of three binary32 numbers, rounded to odd: the last bit is 1 if further digits are
+/// lost. Rounding this again to fewer digits gives the right result.
 inline double multiply_add(double x, double y, double z) {
     const double product = x * y;  // Exact.
     const double sum = product + z;
@@ -48,7 +49,7 @@ inline double multiply_add(double x, double y, double z) {
 
 inline std::uint32_t truth(bool value) { return value ? to_bits(1.0f) : 0u; }
 
-/// The word that an operation other than a source makes of three words.
+/// The result of an operation (other than a source) on three words.
 inline std::uint32_t oracle(Op op, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     const double x = read_number(a);
     const double y = read_number(b);

@@ -1,5 +1,5 @@
-// What every operation does with special values: one word at a time, in the loops of the
-// interpreter with every choice of scalar operands, and folded.
+// Every operation with special values: for single words, in the loops of the interpreter with every
+// combination of scalar operands, and folded.
 #include "core/floating_point.h"
 #include "core/plane.h"
 #include "ir/builder.h"
@@ -49,7 +49,7 @@ Words hostile_words(test::RandomStream& stream, Op op) {
     if (stream.chance(10)) words.b = words.a;
     if (is_shift(op)) words.b = stream.below(32);
     if (op == Op::scale_by_power) words.b = whole_power(stream);
-    // What is left when the rounded product is taken away is what one rounding keeps.
+    // After the rounded product is subtracted, only the part that a single rounding keeps remains.
     if (op == Op::multiply_add && stream.chance(30)) {
         words.c = oracle(Op::multiply, words.a, words.b, 0) ^ 0x80000000u;
     }
@@ -97,9 +97,9 @@ TEST(Operations, FoldingIsWhatTheTableSays) {
     }
 }
 
-/// Operands of one operation on a row of cells; those in `scalars` are the same in all of them.
+/// Operands of one operation on a row of cells. Operands in `scalars` are the same in all cells.
 struct Row {
-    // More than a block, and no whole number of vectors.
+    // More than a block, and not a whole number of vectors.
     static constexpr std::int64_t cells = 300;
     std::vector<Field> fields;
     std::vector<float> uniforms;
@@ -172,7 +172,7 @@ TEST(Operations, LoopsAreWhatTheTableSays) {
     }
 }
 
-// A few of the rules, said outright.
+// A few of the rules, stated explicitly.
 TEST(Operations, SpecialValues) {
     const FlushDenormals environment;
     const auto value = [](Op op, float a, float b = 0, float c = 0) {

@@ -1,4 +1,4 @@
-// x^y against the C library in double precision.
+// x^y, compared with the C library in double precision.
 #include "tests/support/not_finite.h"
 #include "tests/support/random_stream.h"
 #include "tests/unit/ir/number_function.h"
@@ -39,7 +39,7 @@ void expect_accurate(const std::vector<float>& x, const std::vector<float>& y) {
     for (const Form form : test::forms()) expect_accurate(x, y, form);
 }
 
-/// Arguments that `draw(stream)` makes, as two lists.
+/// Two lists of arguments from `draw(stream)`.
 template <typename Draw>
 void expect_accurate_for(std::uint64_t seed, const Draw& draw) {
     test::RandomStream stream(seed);

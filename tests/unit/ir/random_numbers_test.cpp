@@ -1,4 +1,4 @@
-// Random numbers of cells: the function that the specification writes down, and its statistics.
+// Random numbers of cells: the formula of the specification, and its statistics.
 #include "core/floating_point.h"
 #include "core/hash.h"
 #include "core/plane.h"
@@ -42,7 +42,7 @@ Field random_field(const Grid& grid, std::uint64_t key, std::int64_t step,
     return Field(random_plane<float>(grid, key, step, expand));
 }
 
-// The same numbers, with 52 digits.
+// Binary64 gives the random numbers of binary32 with more digits: 52 bits.
 TEST(RandomNumbers, HaveMoreDigitsInBinary64) {
     const Grid grid{300, 40, Boundary::periodic};
     for (const std::int64_t draw : {0, 1, 27999, 1048575}) {
@@ -63,7 +63,7 @@ TEST(RandomNumbers, HaveMoreDigitsInBinary64) {
                     static_cast<double>((static_cast<long double>(digits) + 0.5L) * 0x1p-51L - 1);
                 ASSERT_EQ(plane.at(i, j), exact) << i << ", " << j;
                 ASSERT_NEAR(plane.at(i, j), rough.at(i, j), 0x1p-23);
-                // Where log(a) is nearly 0 single has few digits of it.
+                // If log(a) is nearly 0, it has few digits in single precision.
                 ASSERT_NEAR(normal.at(i, j), rough_normal.at(i, j), 1e-3);
             }
         }
@@ -96,7 +96,7 @@ TEST(RandomNumbers, OfLateStepsDiffer) {
 
 TEST(RandomNumbers, NoTwoStepsAreDrawnByTheSameWord) {
     std::vector<std::uint32_t> words;
-    // All steps up to 2^20 and, of the others, some near each power of two, where exponents change.
+    // All steps up to 2^20, and some steps near each higher power of two, where exponents change.
     for (std::int64_t step = 0; step < 1 << 20; ++step) words.push_back(draw_of_step(step));
     for (int bit = 20; bit < 31; ++bit) {
         const std::int64_t power = std::int64_t{1} << bit;
@@ -147,7 +147,7 @@ TEST(RandomNumbers, AreUniformAndSymmetric) {
     // Mean 0 and variance 1/3, within five standard deviations of their estimates.
     EXPECT_NEAR(sum / count, 0, 5 * std::sqrt(1.0 / 3 / count));
     EXPECT_NEAR(squares / count, 1.0 / 3, 5 * std::sqrt(4.0 / 45 / count));
-    // χ² of 63 degrees of freedom has the standard deviation √126.
+    // χ² with 63 degrees of freedom has the standard deviation √126.
     double chi_square = 0;
     for (const double bin : bins)
         chi_square += (bin - count / 64) * (bin - count / 64) * 64 / count;
@@ -216,7 +216,7 @@ TEST(RandomNumbers, NormalOnesAreNormal) {
     const Field field = random_field(grid, some_key, 0, &KernelBuilder::random_normal);
     const double count = static_cast<double>(grid.cell_count());
     double sum = 0, squares = 0, fourth = 0, largest = 0;
-    std::vector<double> bins(40);  // Of 0.2, from −4 to 4; the tails in the outer ones.
+    std::vector<double> bins(40);  // Bins of 0.2 from −4 to 4; the outer bins contain the tails.
     for (std::int64_t j = 0; j < grid.height; ++j) {
         for (std::int64_t i = 0; i < grid.width; ++i) {
             const double value = field.at(i, j);

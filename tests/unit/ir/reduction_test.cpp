@@ -34,7 +34,7 @@ TEST(Reduction, OfWholeNumbersIsExactForEveryShape) {
     }
 }
 
-/// In binary32 a sum of ten million tenths would be off by percents.
+/// In binary32 the sum of ten million tenths would be wrong by several percent.
 TEST(Reduction, RoundsOnce) {
     const std::vector<float> cells(10'000'000, 0.1f);
     const double exact = 1e7 * static_cast<double>(0.1f);

@@ -1,4 +1,4 @@
-// Fields of functions of place: shapes, noise and lattices on a grid, run by the interpreter.
+// Fields of functions of position (shapes, noise and lattices) on a grid, run by the interpreter.
 #pragma once
 
 #include "core/floating_point.h"
@@ -15,7 +15,7 @@ namespace cascade::test {
 /// A key of random numbers.
 inline constexpr std::uint64_t some_key = 0x0123456789abcdefULL;
 
-/// Coordinates as the language has them.
+/// Coordinates as in the language.
 inline Space space_of(KernelBuilder& builder, const Grid& grid) {
     const auto longest = static_cast<float>(grid.longest_side());
     const auto axis = [&](std::int64_t side, ValueId cell, Boundary boundary) {
@@ -45,7 +45,7 @@ Field field_of(const Grid& grid, const Expand& expand) {
     return out;
 }
 
-/// The cells of a field, slice by slice and row by row.
+/// The values of a field, slice by slice and row by row.
 inline std::vector<double> cells_of(const Field& field) {
     std::vector<double> cells;
     const PlaneLayout& layout = field.layout();

@@ -1,4 +1,5 @@
-// Kernels that are interpreted until they are compiled: when that is, and what becomes of them.
+// Kernels that are interpreted until they are compiled: when they are compiled, and when
+// compilation is skipped.
 #include "ir/interpreter.h"
 #include "ir/tiered_backend.h"
 #include "tests/support/kernel_comparison.h"
@@ -36,7 +37,7 @@ private:
     std::shared_ptr<std::atomic<int>> calls_;
 };
 
-/// What a test sees of a compiler, and what it makes it do.
+/// Lets a test observe and control a compiler.
 struct Workshop {
     enum class Way { compiles, refuses, has_no_memory };
 
@@ -61,7 +62,7 @@ struct Workshop {
     }
 };
 
-/// Compiles when it is allowed to, into counted kernels.
+/// A compiler that waits for permission and makes counted kernels.
 class SlowBackend final : public Backend {
 public:
     explicit SlowBackend(std::shared_ptr<Workshop> workshop) : workshop_(std::move(workshop)) {}
@@ -88,7 +89,7 @@ public:
 
 private:
     std::shared_ptr<Workshop> workshop_;
-    KernelPointer made_;  ///< Tests of find() compile one kernel alone.
+    KernelPointer made_;  ///< The kernel for tests of find(), which compile only one.
 };
 
 class TieredBackendTest : public ::testing::Test {
@@ -103,17 +104,18 @@ protected:
         return random_kernel(7, options);
     }
     KernelPointer begin(When when) { return backend_->begin(kernel(), Stencil::plane, when); }
-    /// Waits until a kernel is as it will be.
+    /// Waits until the form of a kernel is final.
     static void settle(const Kernel& kernel) {
         while (kernel.is_provisional()) std::this_thread::yield();
     }
     int native_calls() const { return *shop_->native_calls; }
-    /// More often than kernels are interpreted before they wait.
+    /// Runs a kernel more often than kernels are interpreted before they wait.
     void run_often(const Kernel& kernel, std::atomic<int>& calls) const {
         for (; calls < interpreted_calls + 50; ++calls) inputs_.run(kernel);
     }
 
-    /// Calls for the whole grid before one waits: a row counts as 64 cells more than it has.
+    /// The number of interpreted calls for the whole grid before a call waits. Each row counts as
+    /// 64 cells more than it has.
     static constexpr int interpreted_calls = cells_worth_compiling / (9 * (40 + 64));
 
     Grid grid_{40, 9, Boundary::periodic};
@@ -213,13 +215,13 @@ TEST_F(TieredBackendTest, ABackendEndsWithWhatIsWantedAndNoMore) {
     std::thread end([&] { backend_.reset(); });
     shop_->allow(10);
     end.join();
-    // The kernel that was only expected may have been begun before the end.
+    // Compilation of the kernel that was only expected may have begun before the end.
     EXPECT_GE(shop_->count(shop_->done), 2);
     for (const KernelPointer& kernel : {first, second, unused}) {
         EXPECT_EQ(same_bits(inputs_.run(*kernel), expected_), "");
     }
     EXPECT_EQ(native_calls(), 2);
-    // Nobody is left to wake.
+    // No thread is left to wake.
     for (int k = 0; k < 1000; ++k) inputs_.run(*unused);
     EXPECT_TRUE(unused->is_provisional());
 }
@@ -240,7 +242,7 @@ TEST_F(TieredBackendTest, AbandonedKernelsStayAsTheyAre) {
 
 TEST_F(TieredBackendTest, SwapsUnderRunningThreadsAreSafe) {
     for (int round = 0; round < 50; ++round) {
-        // A backend each, for a kernel that is found would not be begun.
+        // A separate backend, since a stored kernel would not be compiled.
         TieredBackend backend(std::make_unique<SlowBackend>(shop_));
         const KernelPointer begun = backend.begin(kernel(), Stencil::plane, When::now);
         std::vector<std::string> differences(3);

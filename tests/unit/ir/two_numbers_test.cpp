@@ -25,7 +25,7 @@ struct FunctionOfTwo {
     double largest_error;  ///< In ulp: as stated in spec/numerics.md.
 };
 
-/// a − b · floor(a / b) in long double, whose 64 bits hold every rest of such numbers.
+/// a − b · floor(a / b) in long double, whose 64 bits represent every remainder of such numbers.
 double floored_rest(double a, double b) {
     const long double rest = std::fmod(static_cast<long double>(a), static_cast<long double>(b));
     return static_cast<double>(rest != 0 && (rest < 0) != (b < 0) ? rest + b : rest);
@@ -120,7 +120,7 @@ TEST(TwoNumbers, ModulusIsExactOrRoundedOnce) {
         if (!(std::fabs(number / divisor) < 0x1p24f)) continue;
         a.push_back(number);
         b.push_back(divisor);
-        a.push_back(divisor * static_cast<float>(stream.below(1000)));  // About a whole quotient.
+        a.push_back(divisor * static_cast<float>(stream.below(1000)));  // Whole quotients.
         b.push_back(divisor);
     }
     for (const Form form : test::forms()) {
@@ -170,7 +170,7 @@ TEST(TwoNumbers, SmoothStepRisesBetweenItsEnds) {
     EXPECT_TRUE(std::isnan(smooth(1, 3, nan)));
 }
 
-// Whole numbers, over every 4099th word, against C.
+// Rounding to whole numbers, for every 4099th word, compared with C.
 TEST(WholeNumbers, AreThoseOfC) {
     std::vector<float> x;
     for (std::uint64_t word = 0; word < 0x100000000ULL; word += 4099) {

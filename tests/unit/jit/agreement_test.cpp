@@ -26,7 +26,7 @@ std::unique_ptr<Backend> jit_of(int lanes, int optimise) {
     return made ? std::move(*made) : nullptr;
 }
 
-/// Compares one kernel on one grid; the text says where it differs, or what was written besides.
+/// Compares one kernel on one grid. The text describes the first difference or a stray write.
 std::string difference(Backend& jit, const CellKernel& kernel, const Grid& grid,
                        std::uint64_t seed) {
     const auto compiled = jit.compile(kernel, grid.stencil());
@@ -49,7 +49,7 @@ struct Backends {
     std::unique_ptr<Backend> optimised[3] = {jit_of(4, 2), jit_of(8, 2), jit_of(16, 2)};
 };
 
-// Each kernel is compiled twice, in two widths; all combinations come round.
+// Each kernel is compiled for two widths; over all kernels every combination occurs.
 void compare_random_kernels(Precision precision, std::uint64_t count, bool links = false,
                             std::uint64_t first_seed = 1) {
     Backends backends;
@@ -84,15 +84,15 @@ TEST(JitAgreement, RandomKernelsOfLinkedCells) {
     compare_random_kernels(Precision::binary64, 800, true);
 }
 
-/// Kernels that were never tried before.
+/// Kernels from new seeds.
 TEST(JitAgreement, NewRandomKernels) {
-    const std::uint64_t seed = new_seed() + 2;  // Those of the other tests begin at 1.
+    const std::uint64_t seed = new_seed() + 2;  // Seeds of the other tests begin at 1.
     compare_random_kernels(Precision::single, 800, false, seed);
     compare_random_kernels(Precision::binary64, 800, false, seed);
     compare_random_kernels(Precision::single, 200, true, seed);
 }
 
-// Contraction makes kernels that are valid, and mean the same to both.
+// Contracted kernels are valid, and both executors agree on them.
 TEST(JitAgreement, ContractedKernels) {
     if (!has_multiply_add()) GTEST_SKIP() << "this processor has no multiply-add";
     Backends backends;
@@ -120,7 +120,7 @@ TEST(JitAgreement, ContractedKernels) {
     EXPECT_GT(fused, 200u);
 }
 
-/// All sums over links, of two fields, and what depends on a cell's own place.
+/// All sums over links of two fields, and values that depend on a cell's position.
 CellKernel kernel_of_links(Precision precision) {
     KernelBuilder builder(precision);
     const FieldSlot a = builder.field_slot("a"), b = builder.field_slot("b");
@@ -136,7 +136,7 @@ CellKernel kernel_of_links(Precision precision) {
     return std::move(builder).finish();
 }
 
-/// Reductions in two loops over links.
+/// A kernel with reductions in two loops over links.
 CellKernel kernel_of_reductions(Precision precision) {
     KernelBuilder builder(precision);
     const FieldSlot a = builder.field_slot("a"), b = builder.field_slot("b");
@@ -153,7 +153,7 @@ CellKernel kernel_of_reductions(Precision precision) {
     return std::move(builder).finish();
 }
 
-// One cell, rows of one cell, slices filled in part: links to all of them.
+// One cell, rows of one cell, partly filled slices, with links to all cells.
 TEST(JitAgreement, EveryShapeOfRowsOfLinkedCells) {
     Backends backends;
     for (const CellKernel& kernel :
@@ -172,8 +172,7 @@ TEST(JitAgreement, EveryShapeOfRowsOfLinkedCells) {
     }
 }
 
-// Most links lead farther than an offset of 16 bits, and entries of a slice have bases of their
-// own.
+// Most offsets of links exceed 16 bits, so entries of a slice have bases of their own.
 TEST(JitAgreement, LinksThatLeadFar) {
     Backends backends;
     for (const CellKernel& kernel :
@@ -202,7 +201,7 @@ TEST(JitAgreement, LargeKernels) {
     }
 }
 
-// Beyond a size, code comes from the simple generator.
+// Kernels above a size are compiled by the simple code generator.
 TEST(JitAgreement, HugeKernels) {
     Backends backends;
     KernelBuilder builder;
@@ -222,7 +221,7 @@ TEST(JitAgreement, HugeKernels) {
     }
 }
 
-/// A kernel that depends on everything that depends on place.
+/// A kernel that reads everything that depends on position.
 CellKernel kernel_of_place() {
     KernelBuilder builder;
     const ValueId lap = builder.laplacian(builder.field_slot("a"));
@@ -254,7 +253,7 @@ TEST(JitAgreement, EveryShapeOfGrid) {
     for (std::int64_t width = 1; width <= 67; ++width) {
         for (std::int64_t height = 1; height <= 5; ++height) {
             for (const Boundary boundary : {Boundary::periodic, Boundary::no_flux}) {
-                // Each width and height also with one of three depths above 1.
+                // Each width and height is also tested with one of three depths above 1.
                 for (const std::int64_t depth : {std::int64_t{1}, 2 + (width + height) % 3}) {
                     const Grid grid{width, height, boundary, depth};
                     for (const auto& backend : backends.optimised) {
@@ -266,7 +265,7 @@ TEST(JitAgreement, EveryShapeOfGrid) {
     }
 }
 
-// The loop for wide planes prefetches and is another copy of the body.
+// For wide planes the loop prefetches, with another copy of the body.
 TEST(JitAgreement, WidePlanes) {
     Backends backends;
     for (const std::int64_t width : {127, 128, 129, 300, 1030}) {
@@ -281,7 +280,7 @@ TEST(JitAgreement, WidePlanes) {
     }
 }
 
-/// Two species that diffuse and little besides: there is more to load than to compute.
+/// Two species that diffuse, with little arithmetic: loads are the limit.
 CellKernel diffusion_kernel(Precision precision) {
     KernelBuilder builder(precision);
     for (const char* name : {"a", "b"}) {
@@ -293,7 +292,8 @@ CellKernel diffusion_kernel(Precision precision) {
     return std::move(builder).finish();
 }
 
-/// Where columns −1 and width of the rows do not hold what `columns` says; else empty.
+/// The first row whose columns −1 and width are not as `columns` says, as text; empty if there is
+/// none.
 template <typename Number>
 std::string wrong_columns(const Field& field, RowRange rows, HaloColumns columns) {
     const std::int64_t width = field.layout().width;
@@ -338,7 +338,7 @@ TEST(JitAgreement, ColumnsOfTheHaloAreFilledWhereThatIsAsked) {
                     if (width <= 16) continue;
                     HostileInputs inputs(kernel, grid, 3);
                     inputs.fill_columns({0, width - 1});
-                    const Patch part{{0, height}, {.begin = 16}};  // It fills none.
+                    const Patch part{{0, height}, {.begin = 16}};  // Fills no column.
                     ASSERT_EQ(stray_writes(inputs.run(*native, part), part), "");
                 }
             }
@@ -346,7 +346,7 @@ TEST(JitAgreement, ColumnsOfTheHaloAreFilledWhereThatIsAsked) {
     }
 }
 
-// Where loads are scarce a loop hands vectors on from one execution to the next.
+// If loads are the limit, the loop carries vectors from one iteration to the next.
 TEST(JitAgreement, KernelsOfManyLoads) {
     Backends backends;
     for (const Precision precision : {Precision::single, Precision::binary64}) {
@@ -397,8 +397,8 @@ TEST(JitAgreement, PartsOfTheCellsMakeTheWhole) {
     }
 }
 
-// Identities that LLVM takes for granted and that are none where denormals are flushed. The
-// kernels are written by hand, as the builder folds some of them.
+// Identities that LLVM uses, but that do not hold if denormals are flushed. The kernels are written
+// by hand, since the builder folds some of them.
 TEST(JitAgreement, FlushingIsNotOptimisedAway) {
     using Code = IdVector<ValueId, Instruction>;
     const auto word = [](std::uint32_t bits) { return Instruction{Op::constant, {}, bits}; };
@@ -441,7 +441,8 @@ TEST(JitAgreement, FlushingIsNotOptimisedAway) {
     }
 }
 
-// The same where a factor of 1, and then a 0 that is added, would be dropped.
+// Multiply-adds with a factor of 1 or an addend of 0 must not be removed, since they flush denormal
+// numbers.
 TEST(JitAgreement, MultiplyAddsFlush) {
     if (!has_multiply_add()) GTEST_SKIP() << "this processor has none";
     Backends backends;
@@ -468,7 +469,7 @@ TEST(JitAgreement, MultiplyAddsFlush) {
     }
 }
 
-// LLVM's folding of this looks behind the end of the block that is being written.
+// LLVM's folding of this kernel would read beyond the end of the unfinished block.
 TEST(JitAgreement, ChoicesAreComparedInFrontOfTheLoops) {
     for (const bool in_row : {false, true}) {
         KernelBuilder builder;
@@ -485,7 +486,7 @@ TEST(JitAgreement, ChoicesAreComparedInFrontOfTheLoops) {
     }
 }
 
-// LLVM would draw conclusions from a loop that is not finished.
+// LLVM would draw wrong conclusions from an unfinished loop.
 TEST(JitAgreement, TheFirstRowIsNumberZero) {
     for (const Precision precision : {Precision::single, Precision::binary64}) {
         KernelBuilder builder(precision);
@@ -497,7 +498,7 @@ TEST(JitAgreement, TheFirstRowIsNumberZero) {
     }
 }
 
-// The comparison above can fail: a kernel that differs in one operation is noticed.
+// The comparison itself works: a kernel that differs in one operation is found.
 TEST(JitAgreement, AnotherKernelDiffers) {
     const auto jit = jit_of(0, 2);
     KernelBuilder first, second;

@@ -1,4 +1,4 @@
-// What the native backend keeps, refuses and survives.
+// What the native backend caches and refuses, and how it handles failures.
 #include "core/floating_point.h"
 #include "ir/builder.h"
 #include "jit/jit.h"
@@ -122,7 +122,7 @@ TEST(JitDump, ShowsIntermediateCodeAndAssembly) {
     ASSERT_TRUE(code);
     EXPECT_THAT(*code, HasSubstr("fadd <16 x float>"));
     EXPECT_THAT(*code, HasSubstr("preserve-sign,preserve-sign"));
-    // Flags that would let LLVM change the value.
+    // Flags that would allow LLVM to change values.
     for (const char* flag : {"fadd fast", "nnan", "ninf", "nsz", "arcp", "contract", "reassoc"}) {
         EXPECT_THAT(*code, Not(HasSubstr(flag)));
     }

@@ -1,4 +1,5 @@
-// Compiled kernels on disk: found again, the same bits, and no accident or stranger does harm.
+// Compiled kernels on disk are found again with the same bits, and damaged or foreign files do no
+// harm.
 #include "core/hash.h"
 #include "ir/builder.h"
 #include "jit/code_cache.h"
@@ -22,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder that is gone behind the test.
+/// A folder that is removed after the test.
 class CacheTest : public ::testing::Test {
 protected:
     CacheTest() {
@@ -89,7 +90,7 @@ TEST_F(CacheTest, ResultsAreTheSameWithoutWithAndFromTheCache) {
 }
 
 TEST_F(CacheTest, WhatWasKeptIsWhatRuns) {
-    // An image of another kernel under this one's key: its results show where the code came from.
+    // An image of another kernel under this kernel's key: the results show that the image was used.
     const CellKernel kernel = some_kernel(1);
     run_kernel(*jit_with(folder_), kernel, small_grid, 1);
     const std::string key = environment_key(2) + kernel_key(kernel, {Stencil::plane, 0});
@@ -195,7 +196,7 @@ TEST_F(CacheTest, EveryDamagedByteAndEveryLengthIsNoticed) {
     ASSERT_TRUE(found);
     EXPECT_EQ(found->bytes, some_image().bytes);
     EXPECT_EQ(found->entry, some_image().entry);
-    // Another key's file, as if two keys had one hash.
+    // A file of another key, as if both keys had the same hash.
     cache.keep("another key", some_image());
     write(file, read(files()[0] == file ? files()[1] : files()[0]));
     EXPECT_FALSE(cache.find("a key"));
@@ -237,7 +238,7 @@ TEST_F(CacheTest, TheOldestGoWhereThereIsNoRoom) {
     const std::string large(1000, 'x');
     for (int k = 0; k < 20; ++k) {
         CodeCache(folder_, 1 << 20).keep(std::to_string(k), {large, 0});
-        // Times of files are coarse: each is made a minute younger than the one before.
+        // Times of files are coarse, so each file is made a minute younger than the previous one.
         for (const fs::path& file : files()) {
             fs::last_write_time(file, fs::last_write_time(file) - std::chrono::minutes(1));
         }
@@ -264,7 +265,7 @@ TEST_F(CacheTest, WhatKilledProcessesLeftIsRemoved) {
 }
 
 TEST_F(CacheTest, NothingIsRemovedButWhatWasKeptHere) {
-    // Of all who may have a file in a folder that CASCADE_KERNEL_CACHE names.
+    // Files of all kinds of owners in a folder that CASCADE_KERNEL_CACHE names.
     fs::create_directories(folder_);
     fs::permissions(folder_, fs::perms::owner_all);
     const std::string digits(32, 'a');

@@ -1,4 +1,4 @@
-// Kernels of cells that crawl, of random formulas: native code and the interpreter compute the same
+// Kernels of random formulas for cells that crawl: native code and the interpreter compute the same
 // bits.
 #include "ir/interpreter.h"
 #include "jit/jit.h"
@@ -19,7 +19,7 @@
 namespace cascade::test {
 namespace {
 
-/// Makes formulas of numbers and of vectors that are read by a cell or, inside of a sum, by a link.
+/// Makes formulas of numbers and vectors, for a cell or, inside a sum, for a link.
 class RandomFormulas {
 public:
     explicit RandomFormulas(std::uint64_t seed) : random_(seed) {}

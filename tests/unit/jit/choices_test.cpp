@@ -1,5 +1,5 @@
-// Small kernels in which conditions choose between constants: where LLVM's folding would like to
-// compute with constants itself, and does not flush denormals when it does.
+// Small kernels in which conditions select constants. LLVM would fold computations with these
+// constants without flushing denormals.
 #include "ir/interpreter.h"
 #include "ir/multiply_add.h"
 #include "jit/jit.h"
@@ -19,7 +19,8 @@ constexpr std::uint32_t telling_words[] = {
     0x7f800000, 0xff800000, 0x7fc00000, 0x7f7fffff, 0x41200000,  // infinities, NaN, largest, 10
 };
 
-/// Arithmetic, comparisons and choices on two masks, constants and, in half of them, a field.
+/// A kernel of arithmetic, comparisons and selections on two masks, constants and, in half of the
+/// kernels, a field.
 class ChoiceKernel {
 public:
     explicit ChoiceKernel(std::uint64_t seed) : stream_(seed) {

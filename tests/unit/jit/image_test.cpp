@@ -1,4 +1,4 @@
-// Object files linked to images, and what is told of the processor without LLVM.
+// Object files linked to images, and facts about the processor without LLVM.
 #include "ir/builder.h"
 #include "jit/code.h"
 #include "jit/jit.h"
@@ -46,7 +46,7 @@ std::unique_ptr<llvm::TargetMachine> machine_of_this_host() {
     return std::move(choose_target("", {}).value().machine);
 }
 
-/// As choose_target() makes it on such a machine.
+/// The machine that choose_target() makes on AArch64.
 std::unique_ptr<llvm::TargetMachine> machine_of_aarch64() {
     LLVMInitializeAArch64TargetInfo();
     LLVMInitializeAArch64Target();
@@ -69,8 +69,8 @@ std::uint32_t word_at(const CodeImage& image, std::uint64_t place) {
     return word;
 }
 
-/// The words that code of AArch64 refers to: ADRP puts their page into a register, and ADD to it,
-/// or LDR of 16 bytes by it, has their place within the page.
+/// The words to which AArch64 code refers: ADRP puts their page into a register, and the following
+/// ADD or LDR of 16 bytes contains their offset in the page.
 std::vector<std::uint32_t> words_read(const CodeImage& image) {
     std::vector<std::uint32_t> words;
     for (std::uint64_t place = image.entry; place < image.bytes.size(); place += 4) {

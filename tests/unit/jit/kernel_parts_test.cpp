@@ -1,4 +1,4 @@
-// Kernels of many results: how they are divided, and that this changes no bit.
+// Kernels of many results: how they are divided, and that dividing changes no bit.
 #include "ir/kernel_parts.h"
 
 #include "ir/builder.h"
@@ -19,7 +19,7 @@ enum class Coupling { none, ring, all };
 struct Family {
     std::size_t species = 0;
     Coupling coupling = Coupling::none;
-    bool stores_rates = false;  ///< As results after the new values.
+    bool stores_rates = false;  ///< The rates are results after the new values.
     Precision precision = Precision::single;
 };
 
@@ -80,7 +80,7 @@ TEST(KernelParts, EachResultIsInOneOfPartsOfEqualSize) {
     }
 }
 
-// Parts would add up all species again and again.
+// Each part would have to add up all species again.
 TEST(KernelParts, ResultsThatShareMostOfTheirWorkStayTogether) {
     const std::vector<KernelPart> parts = parts_of(kernel_of({64, Coupling::all}));
     ASSERT_EQ(parts.size(), 1u);

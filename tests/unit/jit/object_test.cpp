@@ -1,4 +1,4 @@
-// Object files: a symbol of the name that was asked for, and nothing that would have to be linked.
+// Object files: a symbol with the wanted name, and no undefined symbols.
 #include "ir/builder.h"
 #include "ir/interpreter.h"
 #include "ir/multiply_add.h"
@@ -74,7 +74,7 @@ Result<std::vector<std::uint8_t>> object_of(const CellKernel& kernel, Stencil st
     return compile_object({{{name, kernel}}}, stencil, target);
 }
 
-/// A kernel with every operation of the table, but for what only some targets have.
+/// A kernel with every operation of the table, except those that only some targets have.
 CellKernel kernel_with_all_operations() {
     for (std::uint64_t seed = 1;; ++seed) {
         RandomKernelOptions options;
@@ -140,8 +140,8 @@ std::vector<std::string> targets_of_this_machine() {
     return targets;
 }
 
-// The processors' instructions differ, the bits do not; and what a processor has no instruction for
-// is refused.
+// Code for different processors gives the same bits, and operations without an instruction on a
+// processor are refused.
 TEST(JitObject, AllTargetsComputeTheSameBits) {
     const auto interpreter = make_interpreter();
     int number = 0, compared = 0;

@@ -1,5 +1,5 @@
 // Scaling by powers of two and rounding to whole numbers, for all exponents: the interpreter,
-// instructions of the processor and the sequences that stand in for them give the bits of the C
+// instructions of the processor and the sequences that replace these give the bits of the C
 // library.
 #include "jit/jit.h"
 #include "tests/unit/ir/number_function.h"
@@ -38,7 +38,7 @@ std::vector<Number> numbers(std::uint64_t stride) {
     return all;
 }
 
-/// Denormal numbers are zeros, of a result before it is rounded to them.
+/// Flushes denormal numbers to zero, results before they are rounded.
 template <typename Number>
 Number flushed(long double x) {
     const auto number = static_cast<Number>(x);
@@ -109,7 +109,7 @@ void check_rounding() {
 TEST(WholeNumbers, RoundingIsToEven) { check_rounding<float>(); }
 TEST(WholeNumbers, RoundingIsSoInBinary64) { check_rounding<double>(); }
 
-/// Powers of constant numbers and by them, of which LLVM knows more.
+/// Scaling of constants and by constants, which LLVM may fold.
 template <typename Number>
 void check_constants() {
     const std::vector<Number> x = numbers<Number>(1);

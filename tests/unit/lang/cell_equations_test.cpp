@@ -1,4 +1,4 @@
-// Equations of a cell with numbers that are known: the builder then computes what a kernel would.
+// Equations of a cell with constant numbers: the builder then folds them to the result of a kernel.
 #include "lang/lower/cell_equations.h"
 
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ TEST(CellEquations, AreSolvedWhateverTheOrderOfTheirRows) {
     EXPECT_LT(error_of({{1, 2, 0}, {2, 4, 1}, {0, 3, 1}}, {0.5, -3, 2}), 1e-13);
 }
 
-/// Without an exchange of rows a small number in the corner would cost all digits.
+/// Without an exchange of rows, a small pivot would lose all digits.
 TEST(CellEquations, LoseNoDigitsWhereAPivotIsSmall) {
     EXPECT_LT(error_of({{1e-17, 1}, {1, 1}}, {1, 2}), 1e-14);
     EXPECT_LT(error_of({{1, 1, 1}, {1, 1 + 1e-16, 2}, {1, 3, -1}}, {1, 2, 3}), 1e-13);

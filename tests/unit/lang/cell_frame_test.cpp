@@ -1,4 +1,4 @@
-// The frame of a cell: its formulas, computed, against rotations of vectors.
+// The frame of a cell: the values of its formulas, compared with rotations of vectors.
 #include "lang/check/systems/cell_frame.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ Vector turned(const Quaternion& q, const Vector& v) {
     return result;
 }
 
-/// The values of a formula of numbers and vectors; items and definitions have the given ones.
+/// The value of a formula of numbers and vectors, with given values of items and definitions.
 double value_of(const Formula& formula, const Quaternion& items, const Vector& definition) {
     IdVector<NodeId, Vector> values;
     for (const Node& node : formula.nodes) {
@@ -90,7 +90,7 @@ TEST(CellFrame, StartsWithTheAxesThatAreAskedFor) {
             for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(y[k], up[k], 2e-4);
             Vector across = ez;
             for (std::size_t k = 0; k < 3; ++k) across[k] -= dot(ez, up) * up[k];
-            if (std::sqrt(dot(across, across)) < 1e-2) continue;  // Any direction across ey.
+            if (std::sqrt(dot(across, across)) < 1e-2) continue;  // ez has no direction.
             const Vector ahead = unit(across);
             for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(z[k], ahead[k], 2e-4);
         }
@@ -126,7 +126,7 @@ TEST(CellFrame, TurnsWithItsAngularVelocity) {
             EXPECT_NEAR((other[k] - one[k]) / (2 * step), expected[k], 1e-8);
         }
     }
-    // The length goes to 1.
+    // The length converges to 1.
     for (int n = 0; n < 2000; ++n) {
         const Quaternion change = rate_of(q);
         for (std::size_t k = 0; k < 4; ++k) q[k] += 0.01 * change[k];

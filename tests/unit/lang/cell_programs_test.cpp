@@ -1,6 +1,7 @@
-// The blocks of cells of the library against the programs of K. W. Fleischer, D. H. Laidlaw, B. L.
-// Currin, A. H. Barr, "Cellular Texture Generation", SIGGRAPH 1995, table 1, row by row: loops over
-// all pairs of cells in double precision that know nothing of formulas, kernels and links.
+// The library's blocks of cells, compared with the programs of K. W. Fleischer, D. H. Laidlaw, B.
+// L. Currin, A. H. Barr, "Cellular Texture Generation", SIGGRAPH 1995, table 1, row by row. The
+// programs are loops over all pairs of cells in double precision, without formulas, kernels and
+// links.
 #include "pairs_of_cells.h"
 
 #include <gtest/gtest.h>
@@ -15,10 +16,10 @@ namespace {
 
 constexpr std::size_t cell_count = 50;
 
-/// φ(a, b) of the paper: is b above a, softly.
+/// φ(a, b) of the paper: a soft comparison, 1 if b is far above a.
 double phi(double a, double b) { return (std::tanh(b - a) + 1) / 2; }
 
-/// ω of table 1, row 3: from one direction to another.
+/// ω of table 1, row 3: the rotation from one direction to another.
 Vector3d rotation(const Vector3d& from, const Vector3d& to) {
     const Vector3d axis = cross(from, to);
     const double cosine = std::clamp(dot(from, to) / (length(from) * length(to)), -1.0, 1.0);
@@ -48,7 +49,7 @@ protected:
         }
         return tissue;
     }
-    /// Parameters as the blocks have them.
+    /// Cells with the default parameters of the blocks.
     static HandMadeTissue cells_of(const std::string& block,
                                    const std::map<std::string, double>& parameters) {
         HandMadeTissue tissue = cells_of(block);
@@ -204,7 +205,7 @@ TEST_F(CellPrograms, BecomeOneOfTwoKinds) {
     const auto value = [&](const char* name, std::size_t cell) {
         return tissue.values(name)[cell];
     };
-    // The amounts bound: Λ of a0 to a1, and of a2 to itself.
+    // The bound amounts: Λ of a0 with a1, and of a2 with a2.
     const Values of_a0 = touching(tissue, [&](auto i, auto j) {
         return contact_of(tissue, i, j) * value("a0", i) * value("a1", j);
     });

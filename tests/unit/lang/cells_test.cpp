@@ -88,7 +88,7 @@ TEST(CellsInTheProgram, HaveAPlaceAFrameARadiusAndAnAge) {
     EXPECT_EQ(only_number(system.rates[rules.age]), 1);
     EXPECT_EQ(only_number(system.rates[rules.radius]), 0);
     EXPECT_EQ(system.quantities[rules.radius].range->low, 0.005);
-    // Conditions hold what they read of definitions.
+    // Conditions contain the definitions that they read.
     for (const Formula* rule : rules_of(rules)) {
         for (const Node& node : rule->nodes) EXPECT_FALSE(node.is<DefinitionId>());
     }

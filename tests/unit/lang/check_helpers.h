@@ -1,4 +1,4 @@
-// What the tests of checker and lowering share: a text, checked, and its faults as short lines.
+// For tests of checker and lowering: a checked text, and its messages as short lines.
 #pragma once
 
 #include "lang/check/check.h"
@@ -14,7 +14,7 @@
 
 namespace cascade::test {
 
-/// A text and what the front end made of it. Held by pointer: views point into its sources.
+/// A text and its result from the front end. Held by pointer, since views point into its sources.
 struct Checked {
     Sources sources;
     Diagnostics diagnostics;
@@ -51,7 +51,7 @@ inline std::unique_ptr<Checked> check_text(const std::string& text,
 /// Statements of a stage, for tests of other parts of a script.
 inline constexpr const char* any_stage = "\nsystem_name: turing_spots\n";
 
-/// The system of a name that the script has.
+/// The system of this name, which the script must have.
 inline const System& system_named(const Program& program, std::string_view name) {
     for (const System& system : program.systems) {
         if (system.name == name && !system.built_in) return system;
@@ -60,7 +60,7 @@ inline const System& system_named(const Program& program, std::string_view name)
     return program.systems.front();
 }
 
-/// The number that a formula is, or a number that no test expects.
+/// The number if a formula is a single number, otherwise a number that no test expects.
 inline double only_number(const Formula& formula) {
     const auto* number = formula.nodes.front().as<double>();
     return formula.nodes.size() == 1 && number != nullptr ? *number : -1e300;

@@ -1,4 +1,4 @@
-// What is refused of vectors and neighbours in systems of cells that crawl, and in those of fields.
+// Vectors and neighbours that are refused in systems of cells that crawl and in systems of fields.
 #include "check_helpers.h"
 
 #include <gmock/gmock.h>
@@ -9,7 +9,7 @@
 namespace cascade::test {
 namespace {
 
-/// The first fault of the rate of a number in a block of cells, without its place; "" if none.
+/// The first message about a rate in a block of cells, without its position; "" if there is none.
 std::string fault_of(const std::string& rate, const std::string& before = "") {
     const auto checked =
         check_text(before + "cells c {\n  k: 2; q: 0\n  v = 2 * p\n  q' = k * dot(v, v) + q + " +
@@ -22,7 +22,7 @@ std::string fault_of(const std::string& rate, const std::string& before = "") {
 TEST(CheckLinks, VectorsAreNoNumbers) {
     EXPECT_EQ(fault_of("v"), "a number and a vector cannot be added");
     EXPECT_EQ(fault_of("tanh(v)"),
-              "a vector is not a number | dot(a, b) and length(v) make a number of it");
+              "a vector is not a number | dot(a, b) and length(v) turn it into a number");
     EXPECT_EQ(fault_of("dot(k, v)"),
               "a vector is needed here | such as p, normal or vector(1, 0, 0)");
     EXPECT_EQ(
@@ -32,23 +32,23 @@ TEST(CheckLinks, VectorsAreNoNumbers) {
     EXPECT_EQ(fault_of("length(if(k, v, q))"),
               "if chooses between two numbers, two vectors or two colours");
     EXPECT_EQ(fault_of("max(v over touching)"),
-              "a vector is not a number | dot(a, b) and length(v) make a number of it");
+              "a vector is not a number | dot(a, b) and length(v) turn it into a number");
     EXPECT_EQ(fault_of("length(if(k, v, unit(mix(v, ez, 0.5))))"), "");
 }
 
 TEST(CheckLinks, ValuesOfTwoCellsAreKnownInside) {
     EXPECT_EQ(
         fault_of("contact"),
-        "'contact' is of two cells and known inside of sums only | sum(contact over touching)");
+        "'contact' relates two cells and is known inside sums only | sum(contact over touching)");
     EXPECT_EQ(
         fault_of("sum(own(contact) over touching)"),
-        "'contact' is of two cells and known inside of sums only | sum(contact over touching)");
+        "'contact' relates two cells and is known inside sums only | sum(contact over touching)");
     EXPECT_EQ(fault_of("own(q)"),
-              "own(e) has a meaning inside of sums over neighbours only | names outside are the "
+              "own(e) can be used inside sums over neighbours only | names outside are the "
               "cell's own");
     EXPECT_EQ(
         fault_of("both(overlap)", "fn both(a) = a + sum(a over touching)\n"),
-        "'overlap' is of two cells and known inside of sums only | sum(overlap over touching)");
+        "'overlap' relates two cells and is known inside sums only | sum(overlap over touching)");
     EXPECT_EQ(fault_of("both(q)", "fn both(a) = a + sum(a * gap over touching)\n"), "");
     EXPECT_EQ(fault_of("sum(sum(distance over touching) over near(k))"), "");
 }
@@ -59,14 +59,14 @@ TEST(CheckLinks, NearTakesOneDistance) {
               "'near' takes one distance | such as sum(e over near(0.1))");
     EXPECT_EQ(
         fault_of("sum(q over near(2 * q))"),
-        "the distance of 'near' is the same for all cells | a number or a parameter can stand "
+        "the distance of 'near' is the same for all cells | only a number or a parameter can be used "
         "here");
     EXPECT_EQ(fault_of("product(q over touching)"),
               "product cannot be taken over neighbours | mean, sum, min and max can");
 }
 
 TEST(CheckLinks, CellsReadTheModelWhereTheyAre) {
-    EXPECT_EQ(fault_of("attr(\"fur\")").find("attr has a meaning on models only"), 0u);
+    EXPECT_EQ(fault_of("attr(\"fur\")").find("attr can be used on models only"), 0u);
 }
 
 TEST(CheckLinks, FieldsHaveNoNeighboursAndCellsNoGrid) {
@@ -79,11 +79,11 @@ TEST(CheckLinks, FieldsHaveNoNeighboursAndCellsNoGrid) {
                     "fields have none"));
     EXPECT_THAT(fault("own(u)"), ::testing::EndsWith("it belongs in a system of cells that crawl"));
     EXPECT_THAT(fault("contact"),
-                ::testing::EndsWith("'contact' is known to cells that crawl only"));
+                ::testing::EndsWith("'contact' can be used by cells that crawl only"));
     EXPECT_EQ(
         fault_of("dx(q)"),
-        "dx cannot stand here | cells that crawl are no grid; lap(e) and sums over neighbours "
-        "have a meaning");
+        "dx cannot be used here | cells that crawl have no grid; lap(e) and sums over neighbours "
+        "work");
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
-// Domains with a mask: what is read; what is refused is in
-// tests/scripts/domain.
+// Domains with a mask: the program of correct scripts. tests/scripts/domain has refused scripts.
 #include "check_helpers.h"
 #include "lang/lower/lower.h"
 

@@ -1,5 +1,5 @@
-// Domains that are models: what becomes of their settings. What is refused is in
-// tests/scripts/domain.
+// Domains that are models: the program of correct settings. tests/scripts/domain has refused
+// scripts.
 #include "check_helpers.h"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,4 @@
-// Domains on a surface: what is read; what is refused is in
-// tests/scripts/domain.
+// Domains on a surface: the program of correct scripts. tests/scripts/domain has refused scripts.
 #include "check_helpers.h"
 #include "lang/program/evaluate.h"
 

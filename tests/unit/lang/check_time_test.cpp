@@ -1,5 +1,5 @@
-// The settings of time: what they become, and their defaults. Wrong forms are in
-// tests/scripts/settings/time.cascade.
+// The settings of time: their values in the program, and defaults.
+// tests/scripts/settings/time.cascade has wrong forms.
 #include "check_helpers.h"
 
 #include <gmock/gmock.h>
@@ -76,6 +76,8 @@ TEST(CheckTime, HowAStageEnds) {
     EXPECT_EQ(end_of(""), (std::pair<std::int64_t, std::int64_t>{1000, 100}));
     EXPECT_EQ(end_of("duration: 5"), (std::pair<std::int64_t, std::int64_t>{1'000'000'000, 0}));
     EXPECT_EQ(end_of("duration: 5; interval: 7").second, 7);
+    EXPECT_EQ(end_of("iterations: 50; every: 2").second, 0);
+    EXPECT_EQ(time_of("iterations: 50; every: 2.5").every, 2.5);
     EXPECT_EQ(end_of("until: steady(0.01)").first, 1'000'000);
     EXPECT_EQ(end_of("until: steady(0.01); iterations: 50").first, 50);
     const StageTime adaptive = time_of("solver: rk23; iterations: 50");

@@ -1,5 +1,4 @@
-// What functions, families and derived systems stand for: the same program as when it is all
-// written out by hand.
+// Functions, families and derived systems give the same program as statements written out by hand.
 #include "check_helpers.h"
 
 #include <gmock/gmock.h>
@@ -35,18 +34,18 @@ TEST(Functions, AreWrittenOut) {
         "system s { u: 2 * exp(-(x/3)^2) + exp(-(y/(1/2))^2)\n"
         "u' = 2 * exp(-((u + 1)/3)^2) }\n" +
             run_s);
-    // Parameters hide built-in values; a function's name and a quantity's are separate.
+    // Parameters hide built-in values. Functions and quantities may have the same name.
     expect_same_program("fn f(x, t) = x + t * y\nsystem s { f: 1; u: f(4, 5); u' = f(u, f) }\n" +
                             run_s,
                         "system s { f: 1; u: 4 + 5 * y; u' = u + f * y }\n" + run_s);
-    // In pictures, bounds, settings and numbers too.
+    // Functions can be used in pictures, bounds, settings and numbers, too.
     expect_same_program(
         "fn half(a) = a / 2\nfn grey(v) = palette(v, 0, half(2), \"grey\")\n"
         "system s { u: 1; u' = 1; u >= half(p); p: 1; speed: half(1); iterations: half(8) }\n"
         "stage a: s { }\ndomain { grid: half(16), 8 }\npicture { color: grey(u) }",
         "system s { u: 1; u' = 1; u >= p / 2; p: 1; speed: 1 / 2; iterations: 4 }\n"
         "stage a: s { }\ndomain { grid: 8, 8 }\npicture { color: palette(u, 0, 1, \"grey\") }");
-    // Texts are arguments like others.
+    // Texts can be arguments, too.
     expect_same_program(
         "fn seen(v, name) = palette(v, 0, 1, name)\n"
         "system s { u: 1; u' = 1; show: seen(u, \"grey\") }\n" +
@@ -69,7 +68,7 @@ TEST(Functions, AnArgumentIsComputedOnce) {
     };
     EXPECT_EQ(draws(0), 1);
     EXPECT_EQ(draws(1), 2);
-    EXPECT_EQ(draws(2), 0);  // What a function does not read is not computed.
+    EXPECT_EQ(draws(2), 0);  // An argument that the function does not read is not computed.
     const Node& product = system.quantities[ItemId(0)].start.nodes.back();
     EXPECT_EQ(product.operands[0], product.operands[1]);
     EXPECT_EQ(only_number(system.quantities[ItemId(2)].start), 2);
@@ -113,7 +112,7 @@ TEST(Families, TakeListsOfValues) {
         "system s { i: 1..3; r[1]: 1; r[2]: 0.9; r[3]: 2 * 3; u[1]: r[1]; u[2]: r[2]; u[3]: r[3]\n"
         "u[1]' = r[1] * lap(u[1]); u[2]' = r[2] * lap(u[2]); u[3]' = r[3] * lap(u[3]) }\n" +
             run_s);
-    // One member is overridden, a base's list replaced, and a stage has its own.
+    // One member is overridden, a list of the base is replaced, and a stage has its own list.
     expect_same_program(
         "system b { i: 0..1; r[i]: 1, 2; u[i]: 0; u[i]' = r[i] }\n"
         "system s: b { r[i]: 3, 4; r[1]: 5 }\nstage a: s { r[i]: 6, 7 }\n",

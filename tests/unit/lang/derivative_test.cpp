@@ -1,5 +1,5 @@
-// Derivatives against differences of the rates themselves, and bounds of the Jacobian against
-// eigenvalues that are known.
+// Derivatives compared with differences of the rates, and bounds of the Jacobian compared with
+// known eigenvalues.
 #include "lang/calculus/derivative.h"
 
 #include "lower_helpers.h"
@@ -27,7 +27,7 @@ void shift(Field& field, float by) {
     }
 }
 
-/// Item 0 is u, 1 is v; so are the species.
+/// Item and species 0 are u, 1 are v.
 void expect_derivatives(const std::string& rate) {
     const auto checked = rates_of(" u' = " + rate + "\n v' = k * u\n");
     const Program& program = *checked->program;
@@ -97,7 +97,7 @@ TEST(Derivative, GoesThroughDefinitionsAndRates) {
     expect_derivatives("v' + u^2");
 }
 
-/// The largest of a bound over the cells at the start: of what its aggregate takes the largest.
+/// The largest value of a bound over the cells at the start, before its aggregate.
 std::pair<double, double> bound_at_start(const Checked& checked) {
     const Program& program = *checked.program;
     ScriptRun run(program);
@@ -138,7 +138,7 @@ TEST(JacobianBound, TellsDiffusionFromWhatMayGrow) {
         bound_at_start(*rates_of(" w = 0.5 * lap(u)\n u' = -lap(w)\n v' = 2 * dx(v) + dxx(v)\n"));
     EXPECT_DOUBLE_EQ(whole, 32);
     EXPECT_DOUBLE_EQ(reaction, 2);
-    // With the other sign both grow.
+    // With the other sign both make waves grow.
     const auto [all, growth] =
         bound_at_start(*rates_of(" w = 0.5 * lap(u)\n u' = lap(w)\n v' = -dxx(v)\n"));
     EXPECT_DOUBLE_EQ(all, 32);
@@ -169,7 +169,7 @@ TEST(JacobianBound, GoesThroughDefinitionsThatAreVectors) {
     EXPECT_DOUBLE_EQ(growth, 2 * (2 + 1));
 }
 
-/// The wave that a tensor of space damps most is damped as much as the bound says.
+/// The wave that a tensor in space damps most decays at the rate of the bound.
 TEST(JacobianBound, OfATensorInSpaceIsSharp) {
     const auto checked = check_text(
         "system s {\n u: x\n u' = div(symmetric(1, 1, 1, 1, 1, 1) * grad(u))\n}\n"

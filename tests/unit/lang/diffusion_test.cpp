@@ -1,4 +1,4 @@
-// What semi-implicit solvers find in rates: which operators, and with which factors.
+// The implicit parts that semi-implicit solvers find in rates: operators and their factors.
 #include "lang/calculus/diffusion.h"
 
 #include "lang/print/print_formula.h"
@@ -65,13 +65,13 @@ TEST(Diffusion, OfFluxesAndDirections) {
     // At 45° both axes get 2.5, and twice 1.5 across them.
     EXPECT_EQ(factors_of("diffuse(u, 2, 1, pi / 4)"), (Texts{"4: 2.5", "5: 2.5", "7: 3."}));
     EXPECT_EQ(factors_of("diffuse(u, 1, 2, pi / 4)"), (Texts{"4: 2.5", "5: 2.5", "7: -3."}));
-    // Where the angle differs from cell to cell, 1.5 is added to those of both axes.
+    // If the angle differs from cell to cell, 1.5 is added to both axes.
     EXPECT_EQ(factors_of("diffuse(u, 2, 1, pi / 4 + 0 * h)"), (Texts{"4: 4.", "5: 4."}));
     EXPECT_EQ(factors_of("random(1, 0.1) * lap(u)"), Texts{});
     EXPECT_EQ(factors_of("advect(1, 2, u) + grad2(u) + mean(u over domain)"), Texts{});
 }
 
-/// A reaction is no diffusion, and decays beside it only if it does so alike in all cells.
+/// A reaction is no diffusion. Decay beside diffusion counts only if it is the same in all cells.
 TEST(Diffusion, OfWhatDecays) {
     EXPECT_EQ(factors_of("-3 * u"), Texts{});
     EXPECT_EQ(factors_of("k * lap(u) - 3 * u + v^2"), (Texts{"0: 2.", "8: 3."}));

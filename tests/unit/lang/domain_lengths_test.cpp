@@ -1,4 +1,4 @@
-// Lengths of the domain mean the same as formulas that name the numbers.
+// Lengths of the domain mean the same as formulas with these numbers.
 #include "check_helpers.h"
 
 #include "lang/program/program.h"
@@ -56,7 +56,7 @@ TEST(DomainLengths, IntegralsCountCellsWithTheirSize) {
               printed("sum(u over domain) * 0.25", "grid: 20, 20; spacing: 0.5"));
     EXPECT_EQ(printed("integral(u^2 over domain)", "grid: 4, 4, 4; spacing: 0.5"),
               printed("sum(u^2 over domain) * 0.125", "grid: 4, 4, 4; spacing: 0.5"));
-    // On models a sum is an integral by itself.
+    // On models a sum is already an integral.
     EXPECT_EQ(printed("integral(u over domain)", "surface: sphere; cells: 100"),
               printed("sum(u over domain) * 1", "surface: sphere; cells: 100"));
 }

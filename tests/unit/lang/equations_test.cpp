@@ -1,4 +1,4 @@
-// Equations in Unicode and TeX, notation by notation, and over the whole library.
+// Equations in Unicode and TeX, for each notation and for the whole library.
 #include "lang/equations/equations.h"
 #include "lang/library/library.h"
 #include "lang/syntax/parse.h"
@@ -74,7 +74,7 @@ TEST(Equations, AreMathMLForBrowsers) {
         "<mo>,</mo><msup><mn>10</mn><mrow><mo>−</mo><mn>3</mn></mrow></msup><mo>)</mo></mrow>");
 }
 
-/// Do its tags nest?
+/// Are the tags nested correctly?
 bool is_well_formed(std::string_view text) {
     std::vector<std::string_view> open;
     for (std::size_t at = text.find('<'); at != std::string_view::npos; at = text.find('<', at)) {
@@ -160,7 +160,7 @@ TEST(Equations, ShowADerivedSystemAsAWhole) {
                         "system c: b { u' = k }",
                         "b", Notation::unicode),
               "  ∂u/∂t = ∇²u + d − u\n  where    d = k²\n  with     k = 3\n  at first u = 1\n");
-    // A definition in the place of a parameter, all members in the place of one.
+    // A definition replaces a parameter, and all members replace one.
     EXPECT_EQ(equations("system a { i: 1..2; k: 1; u[i]: 1; u[2]: 5; u[i]' = k }\n"
                         "system b: a { k = 2; u[i]: 3; u[1]: 4; u[2]' = 7 }",
                         "b", Notation::unicode),
@@ -269,7 +269,7 @@ TEST(Equations, KnowNames) {
     EXPECT_EQ(unicode("u_max + p1"), "uₘₐₓ + p₁");
     EXPECT_EQ(tex("alpha_1 + diff_u_0 + feed + x2"),
               "\\alpha_{1} + \\mathrm{diff}_{u,0} + \\mathrm{feed} + x_{2}");
-    // Below the line together or not at all: Unicode has no small b there.
+    // Either all names have subscripts or none, since Unicode has no subscript b.
     EXPECT_EQ(equations("system s { diff_a: 1; diff_b: 2; p1: 3 }", "s", Notation::unicode),
               "  with     diff_a = 1\n           diff_b = 2\n           p₁ = 3\n");
 }
@@ -289,7 +289,7 @@ TEST(Equations, KnowFamiliesAndOwnFunctions) {
     EXPECT_EQ(tex("max(u[i] over i)"), "\\max_{i}\\left(u_{i}\\right)");
 }
 
-// A term is 4 signs wide, and one more with its sign: 12 of them fit on a line of 60.
+// A term is 4 characters wide, and 5 with its sign, so 12 terms fit on a line of 60.
 TEST(Equations, LongSumsGoOnInLinesBelow) {
     const std::string term = "a \\, b \\, c \\, d";
     std::string script = "a * b * c * d", line = term, rest;
@@ -302,12 +302,12 @@ TEST(Equations, LongSumsGoOnInLinesBelow) {
     EXPECT_EQ(tex(script), line + " \\notag \\\\\n  &\\quad {} " + rest);
     EXPECT_EQ(tex("(" + script + ") / q"),
               "\\frac{1}{q} \\Bigl( " + line + " \\notag \\\\\n  &\\quad {} " + rest + " \\Bigr)");
-    // What stands in brackets or fractions is not torn.
+    // Brackets and fractions are not broken.
     EXPECT_EQ(tex("2 * (" + script + ")").find("notag"), std::string::npos);
     EXPECT_EQ(tex("1 / (" + script + ")").find("notag"), std::string::npos);
 }
 
-/// Are all brackets of TeX closed by their own kind, in order?
+/// Are all brackets of TeX closed by brackets of the same kind, in order?
 bool is_balanced(const std::string& text) {
     std::vector<std::string> open;
     for (std::size_t k = 0; k < text.size(); ++k) {

@@ -1,5 +1,5 @@
-// Every function and operator in every place that takes an expression: each of these scripts is a
-// program, or has a message. Most are wrong.
+// Every function and operator at every position that takes an expression: each of these scripts is
+// a program or gets a message. Most have errors.
 #include "lang/vocabulary/functions.h"
 #include "lang/vocabulary/settings.h"
 #include "sound_check.h"
@@ -10,7 +10,7 @@
 namespace cascade::test {
 namespace {
 
-/// A call with these arguments as far as the function takes them.
+/// A call with as many of these arguments as the function takes.
 std::string call_of(const FunctionInfo& row, const std::string& first, const std::string& other) {
     const auto count = static_cast<std::size_t>(row.arity.least);
     if (row.spelling.starts_with('(')) return "";  // Made by lowering.
@@ -50,7 +50,7 @@ std::vector<std::string> all_expressions() {
     return all;
 }
 
-/// Scripts with a # where the tested expression goes.
+/// Scripts with a # in place of the tested expression.
 std::vector<std::string> all_places() {
     const std::string fields =
         "fn f(x) = 2 * x\nsystem s { i: 1..2; u: x; w[i]: i; b = 2*u; u' = lap(u); w[i]' = w[i] }\n";
@@ -170,8 +170,8 @@ std::vector<std::string> all_places() {
 TEST(EveryPlace, TakesOrRefusesEveryExpression) {
     LastScript last;
     const std::vector<std::string> expressions = all_expressions();
-    // A place takes two of three expressions, and so at least one with each function: that is
-    // short.
+    // Each position is tested with two of three expressions, so at least once with each function.
+    // This saves time.
     std::size_t right = 0, count = 0, turn = 0;
     for (const std::string& place : all_places()) {
         const std::size_t at = place.find('#');

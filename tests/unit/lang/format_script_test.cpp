@@ -1,4 +1,5 @@
-// The one style, example by example; and that formatting keeps the meaning and is done once.
+// The canonical style by examples. Formatting keeps the meaning, and formatting again changes
+// nothing.
 #include "lang/format/format_script.h"
 #include "lang/syntax/parse.h"
 
@@ -15,7 +16,7 @@ std::optional<std::string> formatted(const std::string& text) {
     return format_script(sources.add("test.cascade", text), sources, diagnostics);
 }
 
-/// The result; where a second run would change it, both.
+/// The formatted text. If formatting again would change it, both results.
 std::string once(const std::string& text) {
     const auto first = formatted(text);
     if (!first) return "cannot be read";
@@ -108,7 +109,7 @@ TEST(FormatScript, LeavesCommentsInTheirColumn) {
     const std::string kept = "a: 1        # one\n  bc: 23     # two";
     EXPECT_EQ(statement("a: 1        # one\n  bc: 23      # two"),
               "a: 1        # one\n  bc: 23      # two");
-    // A line that needs more room moves the column; a lone comment stays at its distance.
+    // A longer line moves the column of comments. A single comment keeps its distance.
     EXPECT_EQ(statement("a: random(1,2,3,4)  # one\n  b: 1                # two"),
               "a: random(1, 2, 3, 4)  # one\n  b: 1                   # two");
     EXPECT_EQ(statement("a: 1      # one"), "a: 1      # one");
@@ -123,7 +124,7 @@ TEST(FormatScript, KeepsEquationsLinedUp) {
     EXPECT_EQ(statement("a' = ka*(16 -a*b)        + lap(a)\n  b' = ka*(a*b - b - beta) + lap(b)"),
               "a' = ka*(16 - a*b)       + lap(a)\n  b' = ka*(a*b - b - beta) + lap(b)");
     EXPECT_EQ(statement("cells' = 1\n  bait'  = 2"), "cells' = 1\n  bait'  = 2");
-    // What is not lined up with a neighbour loses its extra blanks.
+    // Signs that are not aligned with a neighbour lose extra blanks.
     EXPECT_EQ(statement("a' = 1   + b\n  c' = 1 + d"), "a' = 1 + b\n  c' = 1 + d");
     EXPECT_EQ(statement("a:    1\n  b:    2"), "a: 1\n  b: 2");
 }
@@ -157,7 +158,7 @@ TEST(FormatScript, TouchesNoScriptThatCannotBeRead) {
     }
 }
 
-/// What would be formatted to nothing is an empty script, which is refused.
+/// A text of separators alone would be formatted to an empty script, which is refused.
 TEST(FormatScript, RefusesWhatIsMadeOfSeparators) {
     for (const char* text : {";", ";;", "\n;", ";# a comment", " ; \n ; "}) {
         EXPECT_FALSE(formatted(text)) << text;

@@ -1,4 +1,4 @@
-// The tables of functions: what one says must fit what the other does.
+// The tables of functions are consistent with each other.
 #include "lang/calculus/derivative_rules.h"
 #include "lang/program/fold.h"
 #include "lang/vocabulary/functions.h"

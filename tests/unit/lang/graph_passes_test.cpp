@@ -1,4 +1,4 @@
-// The passes of lowering: what every graph must be after each, and what some of them do.
+// Graph passes: properties of every graph after each pass, and the effects of some.
 #include "check_helpers.h"
 #include "verify_expressions.h"
 
@@ -156,7 +156,7 @@ TEST(GraphPasses, FastStepsFuseProducts) {
     };
     EXPECT_EQ(fast("u' = k * u + v"),
               "%0 = k\n%1 = u\n%3 = v\n%4 = (multiply_add)(%0, %1, %3)  # u'\nresult %4\n");
-    // The product with a coefficient, else the second; a negated factor varies.
+    // The product with a coefficient is fused, otherwise the second; a negated factor varies.
     EXPECT_THAT(fast("u' = k * u + u * v"),
                 HasSubstr("%4 = %1 * %3\n%5 = (multiply_add)(%0, %1, %4)"));
     EXPECT_THAT(fast("u' = u * u + u * v"),
@@ -164,7 +164,7 @@ TEST(GraphPasses, FastStepsFuseProducts) {
     EXPECT_THAT(fast("u' = v - u * k"),
                 HasSubstr("%2 = k\n%4 = -(%1)\n%5 = (multiply_add)(%2, %4, %0)"));
     EXPECT_THAT(fast("u' = v + u / k"), HasSubstr("(multiply_add)("));
-    // What no step changes is rounded, and so is twice a product.
+    // Step-invariant products are rounded, and so is twice a product.
     EXPECT_EQ(fast("u' = w * w + x").find("multiply_add"), std::string::npos);
     EXPECT_EQ(fast("p = u * v; u' = p + p").find("multiply_add"), std::string::npos);
     EXPECT_EQ(fast("u' = u * v"), "") << "nothing to do";

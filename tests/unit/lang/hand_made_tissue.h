@@ -1,5 +1,5 @@
-// Cells that crawl, made by hand: their planes and links, on which the plans of a stage run with
-// nothing of the time loop.
+// Cells that crawl with planes and links made by a test, on which the plans of a stage run without
+// the time loop.
 #pragma once
 
 #include "check_helpers.h"
@@ -27,10 +27,10 @@ namespace cascade::test {
 /// The cells of the last stage of a script in double precision. Their links lead to all others.
 class HandMadeTissue {
 public:
-    using Values = std::vector<double>;  ///< By cell.
+    using Values = std::vector<double>;  ///< A value for each cell.
 
-    /// `script` has no errors and says `precision: double`. Radii are 0.1, frames unturned, and
-    /// everything else is 0.
+    /// `script` must have no errors and have `precision: double`. Radii are 0.1, frames are not
+    /// rotated, and all other values are 0.
     HandMadeTissue(const std::string& script, const std::vector<Vector3d>& places)
         : checked_(check_text(script)), count_(places.size()) {
         for (const std::string& fault : checked_->faults()) ADD_FAILURE() << fault;
@@ -65,7 +65,7 @@ public:
         return {values(name + ".x")[cell], values(name + ".y")[cell], values(name + ".z")[cell]};
     }
 
-    /// The rate of a species, by cell.
+    /// The rate of a species in each cell.
     Values rate(std::string_view species) {
         const StepPlan plan = plan_rates(program(), stage_);
         const std::vector<Values> results = run(plan);

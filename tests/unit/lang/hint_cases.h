@@ -1,5 +1,5 @@
-// Faults, their hints, and what the hints make of them: a row for each hint of lang/ that tells to
-// write something (hints_test.cpp).
+// Errors, their hints, and the corrected text: a row for each hint of lang/ that suggests a text
+// (hints_test.cpp).
 #pragma once
 
 #include <string_view>
@@ -7,14 +7,14 @@
 namespace cascade::test {
 
 struct HintCase {
-    std::string_view frame;   ///< Where the text stands: see hints_test.cpp.
-    std::string_view before;  ///< With one fault.
+    std::string_view frame;   ///< The script around the text: see hints_test.cpp.
+    std::string_view before;  ///< The text with one error.
     std::string_view hint;
-    std::string_view after = "";  ///< Empty: the hint says what to write where the fault is.
+    std::string_view after = "";  ///< The corrected text; empty: the hint replaces the marked text.
 };
 
 inline constexpr HintCase hint_cases[] = {
-    // Characters, numbers and operators of elsewhere.
+    // Characters, numbers and operators of other languages.
     {"rate", "7 % v", "write mod(a, b) for a % b", "mod(7, v)"},
     {"rate", "u === v", "write '=='"},
     {"rate", "u + 2cm", "numbers have no units: write '0.02' for 2 cm in metres"},
@@ -40,15 +40,21 @@ inline constexpr HintCase hint_cases[] = {
      "grid: 64, 32"},
     {"domain", "grid: (64, 32)",
      "the name of a function is missing before '('; lists have no brackets", "grid: 64, 32"},
-    {"domain", "grid: [64, 32]", "lists have no brackets, as in grid: 64, 64", "grid: 64, 32"},
-    {"domain", "grid: 64 * 32", "commas stand between the sides, as in grid: 128, 128",
+    {"domain", "grid: [64, 32]", "write lists without brackets, as in grid: 64, 64",
      "grid: 64, 32"},
+    {"domain", "grid: 64 * 32", "commas separate the sides, as in grid: 128, 128", "grid: 64, 32"},
     {"domain", "grid: 64, 32,", "leave the ',' out", "grid: 64, 32"},
     {"domain", "boundary: \"noflux\"", "write noflux without quotes", "boundary: noflux"},
     {"stage", "iterations: 20,000", "write '20000'", "iterations: 20000"},
     {"stage", "iterations: 20 steps", "numbers have no units: write '20'", "iterations: 20"},
     {"stage", "iterations: 9; interval: 0.5", "it counts steps: write 'interval: 50'",
      "iterations: 9; interval: 50"},
+    {"stage", "iterations: 9; every: 0", "it is a time: write 'every: 10'",
+     "iterations: 9; every: 10"},
+    {"stage", "iterations: 9; every: 10; interval: 2", "leave one of them out",
+     "iterations: 9; every: 10"},
+    {"stage", "speed: 0.5 + x; every: 10", "'interval' counts steps instead",
+     "speed: 0.5 + x; interval: 10"},
     {"stage", "u: disc(32, 32, 8)", "write disc(0.5, 0.5, 0.125)", "u: disc(0.5, 0.5, 0.125)"},
     {"rate", "(1 + lap)^9 u", "as in (1 + lap)^2 u", "(1 + lap)^2 u"},
     {"system", "u' = v\nk: float = 1", "write 'k: …'", "u' = v\nk: 1"},
@@ -173,7 +179,7 @@ inline constexpr HintCase hint_cases[] = {
     {"system", "u' = v\nq = 1 .. 2", "write i: 1..3", "u' = v\nq: 1 .. 2"},
     {"system", "u' = v\nq: 1 in 3", "write p: 1 in 0 .. 2", "u' = v\nq: 1 in 0 .. 3"},
     {"system", "u' = (v in 0 .. 2)",
-     "a range stands after the value of a parameter: p: 1 in 0 .. 2 step 0.1", "u' = v"},
+     "a range follows the value of a parameter: p: 1 in 0 .. 2 step 0.1", "u' = v"},
     {"script", "system s { u: 1; k: 2 }", "a rate is written name' = …",
      "system s { u: 1; k: 2; u' = k }"},
     {"script", "system s { u: 1; u_t = lap(u) }", "write u' = …", "system s { u: 1; u' = lap(u) }"},
@@ -209,7 +215,7 @@ inline constexpr HintCase hint_cases[] = {
     // Settings, sides, pictures, models.
     {"stage", "until: steady", "write steady(0.1)"},
     {"stage", "until: steady(1, 2)", "as in steady(0.01)", "until: steady(0.01)"},
-    {"stage", "until: u > 0.5", "take one number of all cells, as in mean(u over domain) > 0.5",
+    {"stage", "until: u > 0.5", "use one number for all cells, as in mean(u over domain) > 0.5",
      "until: mean(u over domain) > 0.5"},
     {"stage", "start: coarse", "as in start: coarse(4)", "start: coarse(4)"},
     {"stage", "grid: fine", "as in grid: coarse(4)", "grid: coarse(4)"},
@@ -223,8 +229,7 @@ inline constexpr HintCase hint_cases[] = {
      "it is computed once, when the stage starts: put them outside of it",
      "u.sides: fixed(t * dx(x))"},
     {"stage", "u.sides: flux(0.1)",
-     "slope(…) is the derivative along the outward normal, whatever the rate",
-     "u.sides: slope(0.1)"},
+     "slope(…) gives the derivative along the outward normal, for any rate", "u.sides: slope(0.1)"},
     {"stage", "u.sides: fixed(random(0, 1) * [u])", "put them into a parameter: name: random(…)",
      "u.sides: fixed([k] * [u])"},
     {"script",
@@ -264,15 +269,16 @@ inline constexpr HintCase hint_cases[] = {
      "limit: random(1, 0.1) after divide; divide: a > limit"},
     {"tissue", "", "write duration: …, until: steady(0.001) or iterations: …", "duration: 2"},
     {"script", "cells c { a: 1; a' = 1 }\nstage s: c { duration: 1 }",
-     "write founders: 6, for cells at random places",
+     "write founders: 6, for cells at random positions",
      "cells c { a: 1; a' = 1 }\nstage s: c { duration: 1; founders: 6 }"},
     {"tissue", "duration: 1; founders: keys(1, 2)", "as in founders: keys(0.5, 0.5, 0)",
      "duration: 1; founders: keys(0.5, 0.5, 0)"},
     {"tissue", "duration: 1; founders: 1, 2, 3", "as in founders: 6 or founders: keys(0.5, 0.5, 0)",
      "duration: 1; founders: 6"},
-    {"tissue", "duration: 1; a: one.a", "carry the value on in each stage between, as in c: c",
+    {"tissue", "duration: 1; a: one.a", "continue the value in each stage between, as in c: c",
      "duration: 1; a: a"},
-    {"tissue", "duration: 1; show: two.a", "a value that is carried on, as in c: c, can be shown",
+    {"tissue", "duration: 1; show: two.a",
+     "a value that the next stage continues, as in c: c, can be shown",
      "duration: 1; a: a; show: a"},
     {"script",
      "domain { grid: 8, 8, 8 }\nstage g: gray_scott { iterations: 1 }\n"
@@ -287,12 +293,12 @@ inline constexpr HintCase hint_cases[] = {
      "domain { grid: 8, 8, 8 }\nstage g: gray_scott { iterations: 1 }\n"
      "stage s: scales { duration: 1; founders: 6; body: g.v - 0.3 }"},
     {"script", "system s { u: 0; 0 = lap(phi) + rho; u' = phi }\nstage only: s { iterations: 1 }",
-     "give the others values",
+     "give all but one of them a value",
      "system s { u: 0; rho: 1; 0 = lap(phi) + rho; u' = phi }\nstage only: s { iterations: 1 }"},
     {"script",
      "system s { u: 0; distance: 1; u' = convolve(distance, u) * distance }\n"
      "stage only: s { iterations: 1 }",
-     "give the system's value another name",
+     "rename the value of the system",
      "system s { u: 0; width: 1; u' = convolve(distance, u) * width }\n"
      "stage only: s { iterations: 1 }"},
     {"script",

@@ -1,11 +1,11 @@
-// Hints are true: what a hint tells to write is written into the script, and then its fault is
-// gone.
+// Hints are true: if the text that a hint suggests is written into the script, the error
+// disappears.
 //
-// A case is a script with a fault, the hint that it gets, and what the hint makes of it. Where the
-// hint holds the text itself (`write 'x'`, `did you mean 'x'?`), the test puts it in the place that
-// the fault underlines; where it leaves something open (`…`), the case says what a reader would
-// write. That no hint is forgotten is seen in the sources: each text there that tells to write
-// something must be the hint of a case. Hints that only explain are no concern of this test.
+// A case is a script with an error, its hint, and the corrected script. If the hint contains the
+// text itself (`write 'x'`, `did you mean 'x'?`), the test replaces the underlined text by it. If
+// the hint leaves something open (`…`), the case contains what a reader would write. Every text in
+// the sources that suggests a text must be the hint of a case, so none is forgotten. Hints that
+// only explain are not tested here.
 #include "check_helpers.h"
 #include "hint_cases.h"
 #include "lang/service/advice.h"
@@ -24,7 +24,7 @@
 namespace cascade::test {
 namespace {
 
-/// A script in whose place `@` a case stands.
+/// Scripts in which a case replaces `@`.
 const std::map<std::string_view, std::string_view> frames{
     {"script", "@"},
     {"rate", "system s { u: 1; v: 1\n  u' = @\n  v' = 0 }\nstage a: s { }\n"},
@@ -90,7 +90,7 @@ TEST(Hints, MendWhatTheyStandAt) {
     }
 }
 
-/// How a word stands in a script, and how its advice does.
+/// The frame for words of a context and for their advice.
 std::string_view frame_of(WordContext context) {
     switch (context) {
         case WordContext::stage:
@@ -109,7 +109,7 @@ std::string used(WordContext context, std::string_view word) {
         case WordContext::function: return fmt::format("{}(u)", word);
         case WordContext::value: return std::string(word);
         case WordContext::statement: return fmt::format("{} q", word);
-        // No number alone, which the advice would take for its own.
+        // The value is no single number, because the advice would contain such a number.
         default: return fmt::format("{}: 1 + 1", word);
     }
 }
@@ -117,7 +117,7 @@ std::string used(WordContext context, std::string_view word) {
 std::string advised(WordContext context, const std::string& advice) {
     const std::string text(text_to_write(advice));
     const std::string_view frame = frame_of(context);
-    // Another block, in place of the statement.
+    // The advice may be another block, in place of the statement.
     for (const char* block : {"stage ", "domain ", "picture "}) {
         if (text.starts_with(block)) return framed(frame, "") + text + "\n";
     }
@@ -140,7 +140,7 @@ std::string advised(WordContext context, const std::string& advice) {
     return framed(frame, text);
 }
 
-/// Every word of other places is answered with one that is right here.
+/// For every word of other programs, the advice is correct in a script.
 TEST(Hints, KnowTheWordsOfOthers) {
     for (const WordElsewhere& row : words_elsewhere()) {
         std::istringstream words{std::string(row.words)};
@@ -169,10 +169,9 @@ std::string unescaped(const std::string& literal) {
     return text;
 }
 
-/// Is this text of the sources the beginning of the hint, whatever stands for `{…}`?
+/// Is this text of the sources the beginning of the hint, with anything in place of `{…}`?
 bool begins(std::string text, std::string_view hint) {
-    text =
-        std::regex_replace(text, std::regex(R"(\{\{|\}\})"), "\x01");  // A bracket that is meant.
+    text = std::regex_replace(text, std::regex(R"(\{\{|\}\})"), "\x01");  // A literal bracket.
     std::size_t place = 0;
     const std::regex hole(R"(\{[0-9]*\})");
     for (auto piece = std::sregex_token_iterator(text.begin(), text.end(), hole, -1);
@@ -188,7 +187,7 @@ bool begins(std::string text, std::string_view hint) {
     return true;
 }
 
-/// The texts of the sources that tell to write something.
+/// The texts of the sources that suggest a text.
 std::set<std::string> hints_in_sources() {
     const std::regex literal(R"re("((?:[^"\\]|\\.)*)")re");
     const std::regex tells(

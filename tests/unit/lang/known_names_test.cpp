@@ -1,4 +1,4 @@
-// What can be typed next, and what a name means, depend on the place in the text.
+// The names that can be typed next, and the meaning of a name, depend on the position in the text.
 #include "check_helpers.h"
 #include "lang/service/known_names.h"
 

@@ -1,5 +1,4 @@
-// Scripts that are very deep or long, or would be when their functions and families are written
-// out.
+// Scripts that are very deep or long, or would be after expansion of functions and families.
 #include "check_helpers.h"
 
 #include <gmock/gmock.h>
@@ -47,7 +46,7 @@ TEST(LargeScripts, AreBoundedWhenWrittenOut) {
     EXPECT_THAT(faults(families + "}").at(0),
                 "101:1: the families of s are too large together | "
                 "a system has at most 100000 statements");
-    // A function of a million parts in a chain is no depth that could overflow.
+    // A chain of functions with a million parts overflows no stack.
     std::string chain = "fn f0(x) = x\n";
     for (int i = 1; i < 20'000; ++i) chain += fmt::format("fn f{}(x) = f{}(x) + 1\n", i, i - 1);
     EXPECT_THAT(faults(chain + "system s { u: f19999(1); u' = 1 }"), IsEmpty());

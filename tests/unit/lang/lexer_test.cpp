@@ -1,4 +1,4 @@
-// The lexer: which tokens a text has, and what it says of characters that are none.
+// The lexer: the tokens of a text, and messages about other characters.
 #include "lang/syntax/token.h"
 #include "script_faults.h"
 
@@ -138,7 +138,7 @@ TEST(Lexer, ReadsLookAlikesAsWhatTheyMean) {
         {"a\uff1a 1", "a : 1", "1:2 '\uff1a' (U+FF1A)" + nothing + "':'"},
         {"a\u207f", "a", "1:2 '\u207f' (U+207F)" + nothing + "'^n'"},
         {"\u201ctan\u201d + 1", "GARBAGE + 1", "1:1 '\u201c' (U+201C)" + nothing + "'\"'"},
-        {"a:\u00a0\u00a01", "a : 1", "1:3 U+00A0 is not a plain blank | write a plain blank"},
+        {"a:\u00a0\u00a01", "a : 1", "1:3 U+00A0 is not an ordinary space | write a plain blank"},
     };
     for (const Fault& fault : faults) {
         const Lexed lexed = lex_text(fault.text);
@@ -155,7 +155,7 @@ TEST(Lexer, SpellsLettersOfOtherAlphabets) {
         {"\U0001d462", "GARBAGE",
          "1:1 '\U0001d462' (U+1D462) is not a letter of a name | write 'u'"},
         {"u\u0307", "GARBAGE",
-         "1:1 the mark U+0307 above or below a letter is no part of a name | write u' for a rate"},
+         "1:1 the mark U+0307 above or below a letter cannot be part of a name | write u' for a rate"},
         {"k\u0430", "GARBAGE", "1:1 '\u0430' (U+0430) is not a letter of a name | write 'ka'"},
         {"\u6f22", "GARBAGE",
          "1:1 '\u6f22' (U+6F22) is not a letter of a name | names are of a to z, A to Z, 0 to 9, "

@@ -1,4 +1,4 @@
-// Notes of the library: what is said of a file, and what is searched in it.
+// Notes of the library: the description of a file, and the words to search in.
 #include "lang/print/library_note.h"
 
 #include "tests/unit/lang/check_helpers.h"

@@ -1,4 +1,4 @@
-// The library of systems: what a script pays for, and what it may replace.
+// The library of systems: only named systems are read, and a script may replace them.
 #include "lang/library/library.h"
 
 #include "check_helpers.h"
@@ -47,7 +47,7 @@ TEST(Library, ShapesAreInOrderAndFoundByName) {
     EXPECT_EQ(find_library_text("thorn"), nullptr);
 }
 
-/// Each text is a script of its own too, as `cascade run` takes it.
+/// Each text is also a complete script for `cascade run`.
 TEST(Library, TextsAreSoundScripts) {
     for (const LibraryText& each : library_texts()) {
         const auto checked = check_text(std::string(each.text));
@@ -73,7 +73,7 @@ TEST(Library, IsReadByNeed) {
     EXPECT_THAT(system_names("domain { grid: 8, 8 }"), IsEmpty());
 }
 
-/// A script without a stage has one message, whatever is in the library, and reads none of it.
+/// A script without a stage gets one message and reads nothing of the library.
 TEST(Library, CostsNothingWhereNothingIsNamed) {
     const auto checked = check_text("a: 4");
     EXPECT_FALSE(checked->faults().empty());

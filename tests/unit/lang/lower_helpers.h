@@ -1,5 +1,5 @@
-// Runs lowered kernels with the interpreter: a whole stage, item by item and step by step, with
-// nothing of the time loop.
+// Runs lowered kernels with the interpreter: a whole stage, item by item and step by step, without
+// the time loop.
 #pragma once
 
 #include "check_helpers.h"
@@ -21,7 +21,7 @@
 
 namespace cascade::test {
 
-/// The only pass of a plan that has no more (and no aggregates).
+/// The only pass of a plan with one pass and no aggregates.
 inline BoundKernel only_pass(StepPlan plan) {
     EXPECT_EQ(plan.passes.size(), 1u);
     EXPECT_EQ(plan.aggregates, 0u);
@@ -79,7 +79,7 @@ public:
     float number(std::uint32_t stage, const std::string& name) {
         return stages_[stage].numbers[item_of(stage, name)];
     }
-    std::map<std::string, Field> files;  ///< What `field("…")` reads.
+    std::map<std::string, Field> files;  ///< The files that `field("…")` reads.
 
 private:
     struct State {
@@ -162,7 +162,7 @@ private:
 
 inline const std::string small_grid = "domain { grid: 8, 4 }\n";
 
-/// A system with a species `u` (of no meaning) and a parameter `p` that is read.
+/// A system with a parameter `p` and a species `u` that only reads it.
 inline std::string system_with(const std::string& p) {
     return "system s { u: 0; p: " + p + "; u' = p }\nstage one: s {}\n";
 }

@@ -1,4 +1,4 @@
-// Lowering of what depends on place: coordinates, shapes and random numbers.
+// Lowering of values that depend on position: coordinates, shapes and random numbers.
 #include "lower_helpers.h"
 
 #include <gmock/gmock.h>
@@ -23,7 +23,7 @@ TEST(Lower, Coordinates) {
     }
 }
 
-/// Cells whose centre is within r, by looking at the nine nearest images of the disc.
+/// The number of cells whose centre is within r of one of the nine nearest images of the disc.
 std::size_t disc_cells(int width, int height, double x, double y, double r, bool periodic) {
     const double side = std::max(width, height);
     std::size_t count = 0;
@@ -113,7 +113,7 @@ TEST(Lower, WhiteNoiseDoesNotDependOnTheStep) {
         const Field rate = run.rates(0)[0].clone();
         double squares = 0;
         for (int k = 0; k < 4096; ++k) squares += std::pow(rate.at(k % 64, k / 64), 2) / 4096;
-        // What one unit of time adds has the variance k², within five deviations.
+        // The noise of one unit of time has the variance k², within five deviations.
         EXPECT_NEAR(squares * std::stod(speed), 9, 9 * 5 * std::sqrt(2.0 / 4096)) << speed;
     }
 }

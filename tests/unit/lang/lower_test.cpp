@@ -1,4 +1,4 @@
-// Lowering, judged by what the interpreter computes from it.
+// Lowering, tested by the values that the interpreter computes.
 #include "lower_helpers.h"
 
 #include "core/palette.h"

@@ -1,4 +1,5 @@
-// Margins of conditions are above 0 exactly where these hold, and continuous for comparisons.
+// Margins of conditions are above 0 exactly where the conditions are true, and continuous for
+// comparisons.
 #include "lang/calculus/margin.h"
 
 #include "lower_helpers.h"

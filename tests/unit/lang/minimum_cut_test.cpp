@@ -1,4 +1,4 @@
-// Minimum cuts against all choices.
+// Minimum cuts, compared with all choices.
 #include "lang/lower/minimum_cut.h"
 
 #include "support/random_stream.h"
@@ -17,7 +17,7 @@ struct Network {
     std::vector<std::vector<std::uint32_t>> operands;
     std::vector<bool> wanted;
 
-    /// What a choice of parts to keep costs.
+    /// The cost of a choice of parts to keep.
     std::int64_t cost(const std::vector<bool>& kept) const {
         std::vector<bool> needed = wanted;
         std::int64_t sum = 0;

@@ -1,5 +1,6 @@
-// Scripts of the examples, the library and the spec with a few tokens left out, doubled, exchanged
-// or taken from another script. Each run of the test has others; its seed is printed.
+// Scripts of the examples, the library and the spec in which a few tokens are removed, doubled,
+// exchanged or taken from another script. Each run of the test makes other changes and prints its
+// seed.
 #include "core/file.h"
 #include "sound_check.h"
 #include "support/last_script.h"

@@ -24,7 +24,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// A text in which `|` marks the position that is asked about.
+/// A text in which `|` marks a position.
 class Asked {
 public:
     explicit Asked(std::string marked, std::string used = "")
@@ -38,7 +38,7 @@ public:
         if (!used.empty()) {
             parse_used(sources_.add("used.cascade", std::move(used)), sources_, tree_, diagnostics);
         }
-        index_ = std::make_unique<NameIndex>(tree_, sources_, source);
+        index_ = std::make_unique<NameIndex>(tree_, diagnostics, sources_, source);
     }
 
     /// The lines of all uses, from 1.
@@ -93,6 +93,12 @@ TEST(NameIndex, FindsAllUsesOfAQuantity) {
     EXPECT_THAT(Asked(with_mark(two_systems, "u >= 0")).lines(),
                 ElementsAre(2, 4, 5, 5, 6, 9, 10, 10));
     EXPECT_THAT(Asked(with_mark(two_systems, "d - u")).lines(), ElementsAre(4, 5, 11));
+}
+
+TEST(NameIndex, FindsNamesInATextWithSyntaxErrors) {
+    // The block ends before the rate of u, so the system is not whole.
+    const Asked asked("system s { u: 1; |k: 2; stage u' = -k * u }\nstage one: s { u: 2 }\n");
+    EXPECT_EQ(asked.declaration(), "asked.cascade:1:18");
 }
 
 TEST(NameIndex, FindsSystemsAndStages) {
@@ -153,7 +159,7 @@ TEST(NameIndex, RenamesEverythingThatTheLibraryDeclares) {
                 const auto renamed = asked.renamed("name_of_a_test");
                 count += renamed ? 1U : 0U;
                 if (renamed) continue;
-                // It is declared in a base, which another text of the library holds.
+                // The name is declared in a base, in another text of the library.
                 EXPECT_THAT(renamed.error().message, HasSubstr("is also a name in"))
                     << text.system_name() << "." << inside.name;
             }

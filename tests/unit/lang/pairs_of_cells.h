@@ -1,4 +1,4 @@
-// Random tissues made by hand, and sums over all pairs of their cells by loops of their own.
+// Random tissues for tests, and sums over all pairs of their cells by simple loops.
 #pragma once
 
 #include "hand_made_tissue.h"
@@ -28,7 +28,7 @@ inline std::vector<Vector3d> random_places(std::size_t count, std::uint64_t seed
     return places;
 }
 
-/// Frames are quaternions of any length.
+/// Gives cells random frames: quaternions of any length.
 inline void turn_at_random(HandMadeTissue& tissue, std::uint64_t seed) {
     RandomStream random(seed);
     for (std::size_t cell = 0; cell < tissue.size(); ++cell) {
@@ -48,7 +48,7 @@ inline Vector3d axis_of(HandMadeTissue& tissue, std::size_t cell, const Vector3d
            ((w * w - dot(v, v)) * axis + (2 * dot(v, axis)) * v + (2 * w) * cross(v, axis));
 }
 
-/// What a sum over neighbours adds, of cell i and its neighbour j.
+/// The term of a sum over neighbours, for cell i and its neighbour j.
 using Term = std::function<double(std::size_t i, std::size_t j)>;
 
 inline Values summed(HandMadeTissue& tissue, double within_radii, const Term& term) {

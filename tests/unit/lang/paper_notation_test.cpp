@@ -1,4 +1,4 @@
-// The notation of papers: the tokens that it stands for, their places, and what is left open.
+// The notation of papers: its tokens, their positions, and ambiguous cases.
 #include "lang/syntax/paper_notation.h"
 
 #include "lang/format/format_script.h"
@@ -74,27 +74,27 @@ TEST(PaperNotation, IsReadAsTokensOfTheLanguage) {
 
 TEST(PaperNotation, ReportsWhatCouldBeReadInTwoWays) {
     const std::vector<std::pair<std::string, std::string>> cases = {
-        {"∇²u²", "1:4 brackets must say what is raised"},
-        {"∇²u^2", "1:4 brackets must say what is raised"},
-        {"∇²(u)²", "1:6 brackets must say what is raised"},
-        {"∂u/∂x²", "1:6 brackets must say what is raised"},
+        {"∇²u²", "1:4 it is unclear what is raised to the power"},
+        {"∇²u^2", "1:4 it is unclear what is raised to the power"},
+        {"∇²(u)²", "1:6 it is unclear what is raised to the power"},
+        {"∂u/∂x²", "1:6 it is unclear what is raised to the power"},
         {"∇·D∇u", "1:4 it is not clear what is multiplied before '∇'"},
         {"∇²u ∇²v", "1:5 it is not clear what is multiplied before '∇'"},
         {"a/b ∇²u", "1:5 it is not clear what is multiplied before '∇'"},
         {"a/b²c", "1:5 it is not clear what is multiplied before 'c'"},
-        {"a/∂u/∂x", "1:3 brackets must say what is divided"},
-        {"sin²(u)", "1:1 the power of a function stands after its brackets"},
-        {"u²^3", "1:3 brackets must say which power comes first"},
-        {"u ²", "1:3 a raised number stands directly after what it raises"},
-        {"a + ²", "1:5 a raised number stands directly after what it raises"},
-        {"u⁻", "1:2 a raised number stands directly after what it raises"},
-        {"∇³u", "1:1 '∇³' is no operator of the language"},
-        {"Δx", "1:1 Δ is the Laplacian and makes no width"},
+        {"a/∂u/∂x", "1:3 it is unclear what is divided"},
+        {"sin²(u)", "1:1 the power of a function follows its brackets"},
+        {"u²^3", "1:3 it is unclear which power comes first"},
+        {"u ²", "1:3 a raised exponent directly follows its base"},
+        {"a + ²", "1:5 a raised exponent directly follows its base"},
+        {"u⁻", "1:2 a raised exponent directly follows its base"},
+        {"∇³u", "1:1 '∇³' is not an operator of the language"},
+        {"Δx", "1:1 Δ is the Laplacian and cannot be part of a width"},
         {"a + ∇", "1:5 the operand of '∇' is missing"},
         {"∇×u", "1:1 there is no curl in the language"},
-        {"∂u", "1:1 this is no derivative of the language"},
-        {"∂u/∂τ", "1:1 this is no derivative of the language"},
-        {"∂²u/∂x∂t", "1:1 this is no derivative of the language"},
+        {"∂u", "1:1 this derivative is not part of the language"},
+        {"∂u/∂τ", "1:1 this derivative is not part of the language"},
+        {"∂²u/∂x∂t", "1:1 this derivative is not part of the language"},
         {"2β", "1:1 '2β' is not a number"},
     };
     for (const auto& [papers, message] : cases) {

@@ -1,4 +1,4 @@
-// What tests of the parser share: a text, parsed, its tree as text and its faults.
+// For tests of the parser: a parsed text, its tree as text and its messages.
 #pragma once
 
 #include "lang/syntax/parse.h"

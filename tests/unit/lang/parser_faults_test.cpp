@@ -1,5 +1,5 @@
-// What the parser says where there is no script, and what it makes of a wrong one. What it says of
-// wrong scripts is in tests/scripts/syntax.
+// Messages of the parser for texts that are no scripts, and its tree for scripts with errors.
+// tests/scripts/syntax has messages about scripts with errors.
 #include "lang/syntax/parse.h"
 #include "script_faults.h"
 

@@ -1,4 +1,4 @@
-// The parser: what binds to what, where statements and blocks end.
+// The parser: precedence, and the ends of statements and blocks.
 #include "lang/syntax/parse.h"
 #include "parsed_text.h"
 #include "script_faults.h"
@@ -92,7 +92,7 @@ TEST(Expressions, PartsComeBeforeTheWhole) {
             EXPECT_LT(binary->right, id);
         }
     }
-    // Places cover the brackets of operands, but a name's own place is the name alone.
+    // Spans include the brackets of operands, but the span of a name is the name alone.
     const auto text = [&](ast::ExprId id) { return sources.text(script.expressions[id].span); };
     EXPECT_EQ(text(6), "f(1, (b - 2) * 3)");
     EXPECT_EQ(text(5), "(b - 2) * 3");
@@ -225,7 +225,7 @@ std::string repeat(const std::string& piece, int count) {
 }
 
 TEST(LargeScripts, DepthAndLengthAreNoProblem) {
-    const std::string last = "3:4 this ']' closes nothing";  // The parser got as far as that.
+    const std::string last = "3:4 this ']' closes nothing";  // The parser has read up to this line.
     const int deep = 100'000, many = 1'000'000;
     EXPECT_THAT(faults_of_large(repeat("(", deep) + "1" + repeat(")", deep)), ElementsAre(last));
     EXPECT_THAT(faults_of_large(repeat("f(", deep) + "1" + repeat(")", deep)), ElementsAre(last));
@@ -237,7 +237,7 @@ TEST(LargeScripts, DepthAndLengthAreNoProblem) {
                             "a ')' is missing before the statement ends",
                             last));
     EXPECT_THAT(faults_of_large(repeat("[", deep) + "p" + repeat("]", deep)),
-                ElementsAre("2:4 '[ ]' holds one name of this stage | ( ) groups an expression",
+                ElementsAre("2:4 '[ ]' encloses one name of this stage | ( ) groups an expression",
                             last));
 }
 

@@ -1,4 +1,4 @@
-// The planner: how many passes formulas take, what is written to planes and what is computed again.
+// The planner: the number of passes, values written to planes, and values computed again.
 #include "check_helpers.h"
 
 #include "lang/lower/lower.h"
@@ -79,7 +79,7 @@ TEST(Plan, PlanesAreUsedAgain) {
     const StepPlan plan = step_of("u: x; u' = lap(lap(lap(lap(lap(u)))))");
     EXPECT_EQ(plan.passes.size(), 5u);
     EXPECT_EQ(plan.temporaries, 2u);
-    // No pass reads what it writes.
+    // No pass reads a plane that it writes.
     for (const Pass& pass : plan.passes) {
         std::set<std::uint32_t> written;
         for (const PassTarget& target : pass.targets) {
@@ -112,7 +112,7 @@ std::uint32_t step_invariants(const std::string& statements) {
 }
 
 TEST(Plan, WhatNoStepChangesIsKept) {
-    // A parameter lies in a plane; one operation more is not worth another.
+    // The parameter is in a plane already; one more operation is not worth another plane.
     EXPECT_EQ(step_invariants("u: x; k: x * y; u' = 2 * k * u"), 0u);
     EXPECT_EQ(step_invariants("u: x; k: x * y; u' = exp(k) * u"), 1u);
     EXPECT_EQ(step_invariants("u: x; u' = exp(u) * sin(t) + random(0, 1)"), 0u)
@@ -147,7 +147,7 @@ TEST(Plan, FewestOperationsAndPlanesTogether) {
         HasSubstr("exp(k) is computed once and kept in a plane"));
 }
 
-// What does not cost more than reading is computed, and a network of any size is cut quickly.
+// A value that costs no more than reading is computed, and a network of any size is cut quickly.
 TEST(Plan, ManyStepInvariantsArePlannedQuickly) {
     std::string deep = "k", wide = "u";
     for (int n = 0; n < 2000; ++n) deep = "(" + deep + " * k + 1)";
@@ -183,10 +183,10 @@ TEST(Plan, WhatIsOpenAtSidesIsComputedThere) {
     EXPECT_THAT(plan.words, HasSubstr("mu is computed again at 4 neighbours for u': beyond a side "
                                       "it depends on the values there"));
     EXPECT_EQ(plan.passes[0].targets[0].boundary, Boundaries(Boundary::no_flux));
-    // An aggregate of it takes its plane, a neighbour does not.
+    // An aggregate of an expression reads its plane, an operator does not.
     EXPECT_EQ(sided("u: x; u' = lap(exp(u)) - mean(exp(u) over domain)", open, writing).temporaries,
               1u);
-    // A species that is not periodic in a periodic domain.
+    // A species with sides in a periodic domain.
     const StepPlan shut = sided("u: x; u.sides: noflux; u' = lap(lap(u))", "seed: 1", writing);
     EXPECT_EQ(shut.passes[0].targets[0].boundary.x, Boundary::no_flux);
     EXPECT_EQ(shut.passes[0].targets[0].boundary.y, Boundary::no_flux);
@@ -212,7 +212,7 @@ TEST(PlanFaults, AreExplained) {
         return check_text("system s {\nu: x\nu' = " + rate + "\n}").get()->faults();
     };
     const std::string numbers_of_vectors =
-        "div(v), dot(v, w), length(v) and v.x make a number of it";
+        "div(v), dot(v, w), length(v) and v.x turn it into a number";
     const std::string takes = " | it takes something that can differ from cell to cell";
     EXPECT_THAT(faults("lap(3)"), ElementsAre("3:10: lap of a number is 0 everywhere" + takes));
     EXPECT_THAT(faults("div(u * grad(2 + 1))"),
@@ -231,7 +231,7 @@ TEST(PlanFaults, AreExplained) {
                             "dot(a, b) and cross(a, b) are products of two vectors"));
     EXPECT_THAT(faults("div(grad(u) * tensor(1, 1, 0))"),
                 ElementsAre("3:10: a vector cannot be multiplied by a tensor | "
-                            "the tensor stands before the vector"));
+                            "the tensor comes before the vector"));
     EXPECT_THAT(faults("div(u / grad(u))"),
                 ElementsAre("3:10: a number cannot be divided by a vector"));
     EXPECT_THAT(faults("tensor(1, 1, 0)"),
@@ -245,8 +245,8 @@ TEST(PlanFaults, AreExplained) {
                                                     "such as grad(e) or vector(ex, ey)"));
     EXPECT_THAT(faults("advect(u)"), ElementsAre(HasSubstr("advect takes 2 to 4 values, not 1")));
     EXPECT_THAT(faults("u\nu >= lap(u)"),
-                Contains("4:6: lap cannot stand here | "
-                         "a bound is made of numbers and parameters only"));
+                Contains("4:6: lap cannot be used here | "
+                         "a bound can contain numbers and parameters only"));
     std::string deep = "u";
     for (int k = 0; k < 40; ++k) deep = "lap(" + deep + ")";
     EXPECT_THAT(faults(deep), ElementsAre(HasSubstr("operators are nested too deeply | "

@@ -1,4 +1,4 @@
-// Blocks that are added to a script replace those of the same name.
+// Blocks that are added to a script replace blocks of the same name.
 #include "lang/syntax/replace_blocks.h"
 
 #include <gtest/gtest.h>

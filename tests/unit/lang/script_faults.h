@@ -1,4 +1,4 @@
-// What tests of the front end share: a text in, its messages out, as lines of text.
+// For tests of the front end: the messages about a text, as lines.
 #pragma once
 
 #include "core/diagnostics.h"
@@ -9,7 +9,7 @@
 
 namespace cascade {
 
-/// `line:column message`, and ` | hint` where there is one.
+/// `line:column message`, and ` | hint` if there is a hint.
 inline std::vector<std::string> list_faults(const Diagnostics& diagnostics,
                                             const Sources& sources) {
     std::vector<std::string> faults;

@@ -1,4 +1,4 @@
-// Every setting of the table is known to completion and to hints.
+// Completion and hints contain every setting of the table.
 #include "check_helpers.h"
 #include "lang/service/known_names.h"
 #include "lang/vocabulary/settings.h"
@@ -21,7 +21,7 @@ void for_each_setting(const Visit& visit) {
     for (std::size_t k = 0; k < setting_count; ++k) visit(static_cast<Setting>(k));
 }
 
-/// A script that sets this in a block.
+/// A script with this setting in a block.
 std::string set_in(SettingBlock block, std::string_view word) {
     const std::string plain = "system s { u: 1; u' = 0 }\nstage a: s { }\n";
     switch (block) {

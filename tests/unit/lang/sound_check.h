@@ -1,5 +1,5 @@
-// Checks a text that may be wrong, and lowers what is right. Found is what crashes, breaks a CHECK
-// or is refused without a message.
+// Checks a text that may have errors, and lowers correct ones. Finds crashes, failed CHECKs and
+// refusals without a message.
 #pragma once
 
 #include "check_helpers.h"

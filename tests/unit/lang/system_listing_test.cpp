@@ -1,4 +1,4 @@
-// Listings of systems: defaults, ranges and what is said of them.
+// Listings of systems: defaults, ranges and comments.
 #include "lang/print/system_listing.h"
 
 #include "lang/syntax/parse.h"

@@ -1,5 +1,5 @@
-// The built-in systems against the C listings of the thesis, Appendix B, written here once more in
-// double precision and with nothing of the compiler.
+// The built-in systems, compared with the C listings of the thesis, Appendix B, which are written
+// here again in double precision and without code of the compiler.
 #include "lower_helpers.h"
 
 #include <gmock/gmock.h>
@@ -63,7 +63,7 @@ struct Case {
     std::vector<const char*> species;
     std::vector<const char*> parameters;
     Listing listing;
-    const char* fixed_point;  ///< Statements that take the noise away.
+    const char* fixed_point;  ///< Statements that remove the noise.
 };
 
 const std::vector<Case>& cases() {
@@ -179,7 +179,8 @@ TEST(Systems, OnlyTheInhibitorOfTuringIsClamped) {
     EXPECT_LT(unclamped.field(0, "b").at(1, 1), 0.0f);
 }
 
-/// The Leopard of Appendix C, as printed, with fewer steps: its two stages and what they share.
+/// The Leopard of Appendix C as printed, but with fewer steps: its two stages and the values that
+/// pass between them.
 TEST(Systems, LeopardRuns) {
     const auto checked = check_text(R"(
 system_name: turing_spots

@@ -1,4 +1,5 @@
-// Plans of cells that crawl, by the interpreter in double precision, against sums over all pairs.
+// Plans of cells that crawl, run by the interpreter in double precision, compared with sums over
+// all pairs.
 #include "pairs_of_cells.h"
 
 #include "ir/loop_levels.h"
@@ -23,7 +24,7 @@ std::string cells(const std::string& statements, const std::string& domain = "su
 
 TEST(TissuePlans, PushTwoCellsApart) {
     HandMadeTissue tissue(cells("p' += push(0.5)"), {{0.4, 0.5, 0.5}, {0.4, 0.62, 0.59}});
-    // They are 0.15 apart and overlap by 0.05; (0, 0.8, 0.6) leads from one to the other.
+    // The cells are 0.15 apart and overlap by 0.05; (0, 0.8, 0.6) points from one to the other.
     expect_near(tissue.rate("p.x"), {0, 0}, rounding);
     expect_near(tissue.rate("p.y"), {-0.02, 0.02}, rounding);
     expect_near(tissue.rate("p.z"), {-0.015, 0.015}, rounding);
@@ -105,7 +106,7 @@ TEST(TissuePlans, TurnOneDirectionToAnother) {
     }
     HandMadeTissue tissue(cells(statements), random_places(40, 5));
     turn_at_random(tissue, 6);
-    // The last cell stands already.
+    // The last cell is already upright.
     const std::size_t last = tissue.size() - 1;
     tissue.values("frame.w")[last] = 1;
     for (const char* part : {"frame.x", "frame.y", "frame.z"}) tissue.values(part)[last] = 0;
@@ -312,7 +313,7 @@ TEST(TissueKernels, GoOverLinksOnce) {
                           "turn' += stand(1) + comb(1)\n"));
     const CellSchedule schedule = cell_schedule_of(kernel, loop_levels_of(kernel));
     EXPECT_EQ(schedule.loops.size(), 1u);
-    // Places, radius and one axis are gathered once each.
+    // Position, radius and one axis are gathered once each.
     EXPECT_EQ(count_of(kernel, Op::theirs), 7) << print(kernel);
     // Push, stick, crowd, comb and the number of touching cells.
     EXPECT_EQ(count_of(kernel, Op::link_sum), 3 + 3 + 1 + 3 + 1);

@@ -1,4 +1,4 @@
-// What every expression graph is, and what each pass of lowering promises of it.
+// Properties of all expression graphs, and properties after each graph pass.
 #pragma once
 
 #include "lang/lower/lower_expressions.h"
@@ -9,7 +9,7 @@
 
 namespace cascade::lowering {
 
-/// The pass, or one after it, has been.
+/// True if the pass `now` is `pass` or a later one.
 inline bool is_past(std::string_view pass, std::string_view now) {
     const auto passes = graph_passes();
     const auto at = [&](std::string_view name) {
@@ -23,7 +23,7 @@ public:
     Verifier(const Expressions& expressions, const PassContext& context, std::string_view pass)
         : graph_(expressions.graph), context_(context), pass_(pass) {}
 
-    /// What is wrong with a node; empty where nothing is.
+    /// The fault of a node; empty if there is none.
     std::string fault(NodeId id) const {
         const Node& node = graph_[id];
         for (const NodeId operand : node.reads()) {
@@ -68,9 +68,9 @@ private:
         return !is_flux || !context_.has_links() || !is_laid_out();
     }
 
-    /// Is everything written out that depends on where cells are?
+    /// Has everything that depends on the positions of cells been expanded?
     bool is_laid_out() const { return is_past(context_.is_tissue() ? "tissue" : "links"); }
-    /// Of vectors in space or of neighbours, and not made by lowering for kernels.
+    /// A function of vectors in space or of neighbours that lowering has not made for kernels.
     static bool is_of_cells(Function function) {
         const FunctionKind kind = info(function).kind;
         return kind == FunctionKind::geometry || is_over_neighbours(function) ||
@@ -148,9 +148,9 @@ private:
     std::string_view pass_;
 };
 
-/// What is wrong with a graph after a pass, in words; empty where nothing is. Operands come before
+/// The first fault of a graph after a pass, as text; empty if there is none. Operands come before
 /// their readers, no two nodes are equal, types and numbers of operands fit, and there is no node
-/// that passes so far have replaced.
+/// that earlier passes replace.
 inline std::string verify(const Expressions& expressions, const PassContext& context,
                           std::string_view pass) {
     const ExpressionGraph& graph = expressions.graph;

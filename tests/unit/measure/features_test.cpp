@@ -1,4 +1,4 @@
-// Features of patterns against patterns that are known.
+// Features of patterns whose features are known.
 #include "measure/features.h"
 #include "measure/regions.h"
 #include "measure/spectrum.h"
@@ -79,7 +79,7 @@ TEST(Features, ObliqueStripesOfEveryDirection) {
 }
 
 TEST(Features, ObliqueWavesBetweenMirrors) {
-    // Products of waves have the sides as axes; of the two axes the one with more waves wins.
+    // Products of waves have the sides as axes; the axis with more waves counts.
     Samples samples = sampled(64, 64, 1, [](double x, double y, double) {
         return std::cos(pi * 16 * x / 64) + 0.5 * std::cos(pi * 24 * y / 64);
     });
@@ -96,7 +96,7 @@ TEST(Features, LengthsAreInTheUnitOfTheSpacing) {
 }
 
 TEST(Features, WavesBetweenMirrors) {
-    // cos(π n x / W) is a wave of a domain that nothing flows out of, for odd n too.
+    // cos(π n x / W) is a wave of a domain with no flux, also for odd n.
     for (const double n : {3.0, 10.0, 21.0}) {
         Samples samples = sampled(128, 32, 1, [&](double x, double, double) {
             return std::cos(pi * n * x / 128);
@@ -136,7 +136,7 @@ TEST(Features, SpotsAreCountedAcrossPeriodicBorders) {
     EXPECT_EQ(found.holes, 1);
     EXPECT_NEAR(found.wavelength, 20, 0.5);
     EXPECT_LT(found.anisotropy, 1e-9);
-    // Without the way around there are 4 × 4 whole ones, 4 · 4 halves and the 4 corners.
+    // If not periodic, there are 4 × 4 whole bumps, 4 · 4 halves and the 4 corners.
     samples.periodic = {false, false, false};
     EXPECT_EQ(measure(samples).spots, 36);
     for (double& value : samples.values) value = -value;
@@ -214,7 +214,7 @@ TEST(Features, NamesAndNumbersAreInOneOrder) {
 }
 
 TEST(Features, ALongSpotOverflowsNothing) {
-    // One region of a million cells, as a stack of calls could not hold it.
+    // One region of a million cells, for which recursion would overflow the stack.
     const Samples one = sampled(1000, 1000, 1, [](double, double y, double) { return y; });
     EXPECT_EQ(find_regions(one, -1).above, 1);
     EXPECT_EQ(find_regions(one, -1).below, 0);

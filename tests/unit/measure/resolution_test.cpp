@@ -52,7 +52,7 @@ TEST(Resolution, NoiseAndEvenFieldsHaveNoWavelength) {
         return static_cast<double>(state >> 8) / (1 << 24);
     }))));
     EXPECT_TRUE(std::isnan(unresolved_wavelength(sampled([](double, double) { return 7.0; }))));
-    // One cell that stands out has all waves.
+    // A single cell with another value has waves of all lengths.
     EXPECT_TRUE(std::isnan(unresolved_wavelength(
         sampled([](double x, double y) { return x == 40 && y == 30 ? 1.0 : 0.0; }))));
 }

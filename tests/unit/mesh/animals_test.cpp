@@ -16,7 +16,7 @@ using test::never;
 struct Case {
     std::string name;
     Animal animal;
-    Vector3d size;  ///< Of its box.
+    Vector3d size;  ///< The size of the bounding box.
     std::size_t feet;
 };
 
@@ -33,7 +33,7 @@ INSTANTIATE_TEST_SUITE_P(All, Animals,
                                          Case{"frog", frog(), {0.15, 0.06, 0.104}, 4}),
                          [](const auto& one) { return one.param.name; });
 
-/// The number of connected pieces of the surface that reach the ground, cut off at a height.
+/// The number of connected pieces of the surface below a height that reach the ground.
 std::size_t parts_below(const SurfaceMesh& mesh, double height) {
     DisjointSets sets(mesh.points.size());
     std::set<std::uint32_t> parts;
@@ -50,7 +50,7 @@ std::size_t parts_below(const SurfaceMesh& mesh, double height) {
     return parts.size();
 }
 
-/// How far the mesh lies above the surface of the body, along y.
+/// How far the lowest point of the mesh is above the ground.
 double height_above_ground(const Animal& animal, const SurfaceMesh& mesh) {
     const Vector3d foot =
         *std::min_element(mesh.points.begin(), mesh.points.end(),

@@ -1,4 +1,4 @@
-// glTF files that are put together by tests: parts of JSON over one binary buffer.
+// glTF files that tests make: parts of JSON and one binary buffer.
 #pragma once
 
 #include "mesh/model_file.h"
@@ -18,7 +18,7 @@ using Json = nlohmann::json;
 
 class BuiltGltf {
 public:
-    /// One mesh of a triangle, (0, 0, 0), (1, 0, 0), (0, 2, 0), which node 0 of the scene shows.
+    /// A scene whose node 0 shows the triangle (0, 0, 0), (1, 0, 0), (0, 2, 0).
     BuiltGltf() {
         json["asset"]["version"] = "2.0";
         json["scene"] = 0;
@@ -70,7 +70,7 @@ public:
         const auto soup = read();
         return soup ? "read" : soup.error().message;
     }
-    /// The points that are read; none if the file is refused, which is a failure.
+    /// The points of the file. If it is refused, the test fails and there are none.
     std::vector<Vector3d> points() {
         const auto soup = read();
         EXPECT_TRUE(soup.has_value()) << soup.error().message;
@@ -93,7 +93,7 @@ private:
     std::string data_;
 };
 
-/// Points up to rounding of binary32 and of 16-bit fractions.
+/// Expects points, up to the rounding of binary32 and of 16-bit fractions.
 inline void expect_points(const std::vector<Vector3d>& seen, const std::vector<Vector3d>& wanted,
                           double error = 1e-6) {
     ASSERT_EQ(seen.size(), wanted.size());

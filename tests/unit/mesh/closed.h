@@ -10,7 +10,7 @@
 
 namespace cascade::test {
 
-/// Whether every edge leads between the same two places once in each direction.
+/// Does every edge occur exactly once in each direction?
 inline bool is_closed(const TriangleMesh& mesh) {
     using Place = std::array<float, 3>;
     std::multiset<std::pair<Place, Place>> edges;

@@ -12,7 +12,7 @@ inline TriangleMesh mesh_of_surface(const SweptSurface& surface, const SweptDeta
     return *swept_shape(surface, *facets_for(surface, detail));
 }
 
-/// Of radius 1, half of it below y = 0.
+/// A ball of radius 1 around the origin, half of it below y = 0.
 inline TriangleMesh ball(const SweptDetail& detail) {
     using std::numbers::pi;
     return mesh_of_surface(surface_of({[](double t, double) { return std::sin(pi * t); },
@@ -22,7 +22,7 @@ inline TriangleMesh ball(const SweptDetail& detail) {
                            detail);
 }
 
-/// Of a height, with a pole at its tip and a cap at its root, leaning towards z.
+/// A thorn with a pole at its tip and a cap at its root, which leans towards z.
 inline TriangleMesh thorn(double height, double lean, const SweptDetail& detail) {
     return mesh_of_surface(surface_of({[](double t, double) { return 1 - t; },
                                        [=](double t) {

@@ -1,4 +1,4 @@
-// Triangles without area go, and what belongs to the model's faces stays in its place.
+// Triangles without area are removed, and attributes of the model's faces keep their positions.
 #include "mesh/flat_triangles.h"
 
 #include "mesh/edge_pairs.h"
@@ -9,7 +9,8 @@
 namespace cascade {
 namespace {
 
-/// Texture places and an attribute that say where a corner lies, and a face for each triangle.
+/// Adds texture coordinates and an attribute that depend on positions, and a face for each
+/// triangle.
 SurfaceMesh told(SurfaceMesh mesh) {
     mesh.attributes.push_back({"x", {}});
     for (const Vector3d& p : mesh.points)
@@ -69,8 +70,8 @@ TEST(FlatTriangles, OneAtABoundaryIsLeftOut) {
 }
 
 TEST(FlatTriangles, WhereAPointHeldPartsTogetherItIsDoubled) {
-    // Corner 2 of the flat triangle lies on its longest edge, which is at the boundary, and two
-    // others lie on its short edges.
+    // Corner 2 of the flat triangle lies on its longest edge, which is at the boundary. Two other
+    // triangles are at its short edges.
     SurfaceMesh mesh = told(mesh_of({{0, 0, 0}, {2, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {1.5, 1, 0}},
                                     {{0, 1, 2}, {0, 2, 3}, {2, 1, 4}}));
     const auto done = remove_flat_triangles(mesh);
@@ -82,8 +83,8 @@ TEST(FlatTriangles, WhereAPointHeldPartsTogetherItIsDoubled) {
 }
 
 TEST(FlatTriangles, NoTwoPointsGetASecondEdge) {
-    // A closed surface of four triangles that lie in one plane: the flat one's edge would become
-    // another edge from 2 to 3.
+    // A closed surface of four triangles in one plane: flipping the flat triangle's edge would make
+    // a second edge from 2 to 3.
     SurfaceMesh mesh = mesh_of({{0, 0, 0}, {2, 0, 0}, {1, 0, 0}, {1, -1, 0}},
                                {{0, 1, 2}, {1, 0, 3}, {0, 2, 3}, {2, 1, 3}});
     const SurfaceMesh before = mesh;

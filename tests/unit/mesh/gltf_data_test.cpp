@@ -1,5 +1,5 @@
-// Numbers of glTF files that are replaced, transformed, in other sets, compressed or required, and
-// nodes that are hidden.
+// Sparse accessors, texture transforms, other sets of coordinates, compression, required extensions
+// and hidden nodes in glTF files.
 #include "unit/mesh/built_gltf.h"
 
 #include <numbers>
@@ -92,7 +92,7 @@ TEST(GltfSparse, BrokenOnes) {
     EXPECT_EQ(fault({0}, [](Json& sparse) { sparse["indices"]["componentType"] = 5126; }), wrong);
 }
 
-/// The texture places of the triangle's corners, the origin at the upper left.
+/// The texture coordinates of the triangle's corners, with the origin at the upper left.
 std::vector<std::array<double, 2>> texture_of(BuiltGltf& file) {
     const auto soup = file.read();
     EXPECT_TRUE(soup.has_value()) << soup.error().message;
@@ -144,13 +144,13 @@ TEST(GltfTexture, TheSetThatTheMaterialNames) {
     Json& texture = textured(file);
     texture["texCoord"] = 1;
     expect_texture(file, {{0, 0}, {1, 1}, {0, 0.2}});
-    texture["texCoord"] = 5;  // There is none: the first set, without its transform.
+    texture["texCoord"] = 5;  // There is no such set: the first set, without the transform.
     texture["extensions"]["KHR_texture_transform"]["offset"] = {7, 7};
     expect_texture(file, {{0, 0}, {1, 0}, {0, 1}});
-    // Without a texture of colours, that of normals.
+    // Without a texture of colours, the coordinates for the texture of normals are used.
     file.json["materials"][0] = {{"normalTexture", {{"index", 0}, {"texCoord", 1}}}};
     expect_texture(file, {{0, 0}, {1, 1}, {0, 0.2}});
-    // Older files have the texture of colours in an extension.
+    // In older files the texture of colours is in an extension.
     file.json["materials"][0]["extensions"]["KHR_materials_pbrSpecularGlossiness"] = {
         {"diffuseTexture",
          {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"scale", {2, 3}}}}}}}}};

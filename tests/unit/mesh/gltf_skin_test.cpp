@@ -15,7 +15,7 @@ using testing::HasSubstr;
 const double half = std::sqrt(0.5);
 const Json up = {-half, 0, 0, half};  ///< Turns y to −z, and z to y.
 
-/// A triangle whose points hang from the one joint of a skin.
+/// A triangle whose points follow the only joint of a skin.
 template <typename Index = std::uint8_t>
 BuiltGltf skinned() {
     BuiltGltf file;
@@ -45,7 +45,7 @@ TEST(GltfSkin, JointsOutsideOfTheSceneAndByMatricesAndOfWideNumbers) {
     BuiltGltf file = skinned<std::uint16_t>();
     file.json["scenes"][0]["nodes"] = {0};
     file.node(1)["matrix"] = {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 1, 1, 1, 1};
-    // The joint was at (1, 1, 1) when it was bound, and has moved on to (3, 3, 3).
+    // The joint was at (1, 1, 1) in the bind pose, and has moved to (3, 3, 3).
     file.node(2)["translation"] = {1, 1, 1};
     file.json["skins"][0]["inverseBindMatrices"] =
         file.add<float>("MAT4", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -1, -1, -1, 1});
@@ -92,7 +92,7 @@ TEST(GltfSkin, BrokenSkins) {
     EXPECT_EQ(fault([](BuiltGltf& file) { file.json["skins"][0]["joints"] = Json::array(); }),
               "a point of the glTF file hangs from joint 0, but its skin has only 0");
     EXPECT_EQ(fault([](BuiltGltf& file) { file.node(2)["children"] = {1}; }),
-              "the nodes of the glTF file are no tree");
+              "the nodes of the glTF file do not form a tree");
     EXPECT_THAT(
         fault([](BuiltGltf& file) {
             file.json["skins"][0]["inverseBindMatrices"] = file.add<float>("VEC4", {1, 2, 3, 4});
@@ -119,7 +119,7 @@ TEST(GltfMorph, DefaultWeightsOfTheMeshAndOfTheNode) {
     expect_points(file.points(), {{0, 0, 0}, {2, 0, 0}, {-1, 2, 0}});
     file.node(0)["weights"] = {-1, 0};
     expect_points(file.points(), {{0, 0, -1}, {1, 0, -1}, {0, 2, -3}});
-    // Before the node moves it, and before joints do.
+    // Morph targets apply before the node's transform and before joints.
     file.node(0)["scale"] = {2, 2, 2};
     expect_points(file.points(), {{0, 0, -2}, {2, 0, -2}, {0, 4, -6}});
     file.json["accessors"][moved]["count"] = 2;

@@ -1,4 +1,4 @@
-// Half-edges hold what the surface is, and stay a surface while they are edited.
+// Half-edges represent a surface, and remain a manifold during edits.
 #include "mesh/half_edges.h"
 
 #include "core/hash.h"
@@ -16,7 +16,7 @@
 namespace cascade {
 namespace {
 
-/// What OpenMesh itself finds wrong.
+/// Faults that OpenMesh's own check finds.
 std::string faults_of(const HalfEdges& mesh) {
     std::ostringstream faults;
     OpenMesh::Utils::MeshCheckerT<HalfEdges>(mesh).check(
@@ -37,8 +37,7 @@ void expect_round_trip(const SurfaceMesh& mesh) {
 /// Two triangles over the same three points, back to back.
 SurfaceMesh pillow() { return mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {1, 0, 2}}); }
 
-/// A closed surface cut open along the edge from 0 to 1, so that a hole of two edges is between
-/// them.
+/// A closed surface cut open along the edge from 0 to 1, with a hole of two edges.
 SurfaceMesh two_edges_between_two_points() {
     SurfaceMesh mesh;
     mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}};
@@ -62,7 +61,7 @@ TEST(HalfEdges, TwoEdgesBetweenTwoPointsStayTwo) {
     const auto made = half_edges(mesh);
     ASSERT_TRUE(made);
     EXPECT_EQ(made->n_edges(), facts_of(mesh).edges);
-    // OpenMesh's own way of adding faces would make them one edge and lose the hole.
+    // OpenMesh's add_face() would make them one edge and lose the hole.
     HalfEdges added;
     for (const Vector3d& p : mesh.points) added.add_vertex({p.x, p.y, p.z});
     for (const auto& [a, b, c] : mesh.triangles) added.add_face(vertex(a), vertex(b), vertex(c));
@@ -78,7 +77,7 @@ TEST(HalfEdges, RefusesWhatIsNoSurface) {
     twice.triangles[0][0] = twice.triangles[0][1];
     EXPECT_EQ(message(twice), "triangle 0 of the surface has a corner twice");
 
-    // Two triangles that only a point holds together, and two tetrahedra.
+    // Two triangles that share only a point, and two tetrahedra.
     const SurfaceMesh bow =
         mesh_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}}, {{0, 1, 2}, {0, 3, 4}});
     EXPECT_EQ(message(bow), "the triangles around point 0 of the surface are not one fan");
@@ -90,15 +89,15 @@ TEST(HalfEdges, RefusesWhatIsNoSurface) {
     SurfaceMesh turned = test::square();
     std::swap(turned.triangles[1][0], turned.triangles[1][1]);
     EXPECT_EQ(message(turned),
-              "edge 2 of triangle 0 of the surface does not fit the triangle across it");
+              "edge 2 of triangle 0 of the surface does not match the triangle across it");
     SurfaceMesh one_way = test::square();
     one_way.across[1] = {};
     EXPECT_EQ(message(one_way),
-              "edge 2 of triangle 0 of the surface does not fit the triangle across it");
+              "edge 2 of triangle 0 of the surface does not match the triangle across it");
     SurfaceMesh outside = test::square();
     outside.points.pop_back();
     EXPECT_EQ(message(outside),
-              "edge 2 of triangle 1 of the surface does not fit the triangle across it");
+              "edge 2 of triangle 1 of the surface does not match the triangle across it");
     SurfaceMesh unlinked = test::square();
     unlinked.across.clear();
     EXPECT_EQ(message(unlinked), "the surface has triangles whose neighbours are not known");
@@ -139,7 +138,7 @@ TEST(HalfEdges, OneRingsGoCounterclockwise) {
                 are_neighbours(*open, vertex(1), vertex(3)));
 }
 
-/// Flips, splits and collapses wherever the hash says and OpenMesh allows.
+/// Flips, splits and collapses edges chosen by a hash, if OpenMesh allows it.
 void edit(HalfEdges& mesh, std::uint32_t seed, int edits) {
     for (int k = 0; k < edits; ++k) {
         const auto random = pcg4d({seed, static_cast<std::uint32_t>(k), 0, 0});
@@ -158,7 +157,7 @@ void edit(HalfEdges& mesh, std::uint32_t seed, int edits) {
                 }
                 break;
             default:
-                // A tetrahedron passes OpenMesh's test and would be gone.
+                // OpenMesh's test would allow collapsing a tetrahedron to nothing.
                 if (mesh.is_collapse_ok(h) && mesh.n_faces() > 20) mesh.collapse(h);
         }
     }

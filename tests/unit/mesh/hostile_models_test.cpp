@@ -1,4 +1,4 @@
-// Files of models that are broken in every way: each has one clear message, or is read rightly.
+// Model files that are broken in many ways: each gets one clear message or is read correctly.
 #include "mesh/model_file.h"
 #include "support/model_faults.h"
 #include "support/random_stream.h"
@@ -23,8 +23,8 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// "" for a model that became a surface, else the message; the test fails where something does not
-/// fit together.
+/// "" if the file becomes a surface, otherwise the message. The test fails if the surface is
+/// inconsistent.
 std::string outcome_of_bytes(std::string_view bytes, std::string_view ending) {
     auto soup = read_model_bytes(bytes, ending);
     if (!soup) return soup.error().message.empty() ? "NO MESSAGE" : soup.error().message;
@@ -54,7 +54,7 @@ std::string bytes_called(std::string_view name) {
     return "";
 }
 
-/// Bits turned, ends cut off, parts doubled and numbers exchanged for hostile ones.
+/// Flips bits, cuts off ends, doubles parts and replaces numbers by hostile ones.
 std::string mutated(std::string bytes, RandomStream& random) {
     constexpr std::array<std::string_view, 12> numbers = {
         "0",   "-1",  "4294967295", "4294967296", "18446744073709551616",   "1e400", "-1e-400",
@@ -110,7 +110,7 @@ TEST(HostileModels, EveryPrefixIsReadOrRefused) {
             EXPECT_NE(outcome_of_bytes(model.bytes.substr(0, size), model.ending), "NO MESSAGE");
         }
     }
-    // A cut is seen where the format can know.
+    // A truncated file is noticed if the format allows it.
     for (const std::string_view name :
          {"PLY text", "PLY little-endian", "OFF", "STL text", "STL binary", "glTF", "GLB"}) {
         const std::string bytes = bytes_called(name);
@@ -156,24 +156,24 @@ TEST(HostileModels, CountsThatLie) {
               "the STL file is 184 bytes long, but its 4000000000 triangles take 200000000084");
     EXPECT_THAT(outcome_of_bytes(
                     replaced(test::gltf_text(), R"("byteLength":42)", R"("byteLength":0)"), "gltf"),
-                HasSubstr("no glTF file that can be read"));
+                HasSubstr("not a glTF file that can be read"));
     std::string glb = bytes_called("GLB");
     glb.replace(8, 4, bytes_of(std::uint32_t{4000000000}));
-    EXPECT_THAT(outcome_of_bytes(glb, "glb"), HasSubstr("no glTF file that can be read"));
+    EXPECT_THAT(outcome_of_bytes(glb, "glb"), HasSubstr("not a glTF file that can be read"));
 }
 
 TEST(HostileModels, NumbersThatAreNoPlaces) {
     EXPECT_EQ(outcome_of_bytes(replaced(bytes_called("PLY text"), "1 0 0 0 1 0", "nan 0 0 0 1 0"),
                                "ply"),
-              "point 1 of the model, counted from 0, has the place (nan, 0, 0)");
+              "point 1 of the model, counted from 0, has the position (nan, 0, 0)");
     EXPECT_EQ(outcome_of_bytes(replaced(bytes_called("PLY text"), "1 0 0 0 1 0", "1 0 1e999 0 1 0"),
                                "ply"),
-              "point 1 of the model, counted from 0, has the place (1, 0, inf)");
+              "point 1 of the model, counted from 0, has the position (1, 0, inf)");
     EXPECT_EQ(outcome_of_bytes(
                   replaced(bytes_called("PLY text"), "1 0 0 0 1 0", "1 0 1e-999 0 1 0"), "ply"),
               "");
     EXPECT_EQ(outcome_of_bytes(replaced(bytes_called("OBJ"), "v 1 0 0", "v NaN 0 0"), "obj"),
-              "point 1 of the model, counted from 0, has the place (nan, 0, 0)");
+              "point 1 of the model, counted from 0, has the position (nan, 0, 0)");
     EXPECT_EQ(outcome_of_bytes(replaced(bytes_called("OBJ"), "v 1 0 0", "v one 0 0"), "obj"),
               "line 3 of the OBJ file is not the place of a point");
     EXPECT_EQ(outcome_of_bytes(replaced(bytes_called("STL text"), "vertex 1 0 0", "vertex 1 0"),
@@ -181,11 +181,11 @@ TEST(HostileModels, NumbersThatAreNoPlaces) {
               "line 5 of the STL file is not a corner of a triangle");
     EXPECT_EQ(outcome_of_bytes(
                   replaced(bytes_called("STL text"), "vertex 1 0 0", "vertex -inf 0 0"), "stl"),
-              "point 1 of the model, counted from 0, has the place (-inf, 0, 0)");
+              "point 1 of the model, counted from 0, has the position (-inf, 0, 0)");
     std::string stl = bytes_called("STL binary");
     stl.replace(96, 4, bytes_of(std::numeric_limits<float>::quiet_NaN()));
     EXPECT_EQ(outcome_of_bytes(stl, "stl"),
-              "point 0 of the model, counted from 0, has the place (nan, 0, 0)");
+              "point 0 of the model, counted from 0, has the position (nan, 0, 0)");
 }
 
 TEST(HostileModels, CornersThatAreNoPoints) {
@@ -196,7 +196,7 @@ TEST(HostileModels, CornersThatAreNoPoints) {
         EXPECT_THAT(outcome, HasSubstr("of the OBJ file")) << corner;
     }
     EXPECT_THAT(outcome_of_bytes("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/2 3/1\n", "obj"),
-                HasSubstr("face 1 of the OBJ file names a place in a texture that is not there"));
+                HasSubstr("face 1 of the OBJ file names a texture coordinate that is not there"));
     EXPECT_THAT(outcome_of_bytes("v 0 0 0\nv 1 0 0\nv 0 1 0\nf /1 2 3\n", "obj"),
                 HasSubstr("line 4 of the OBJ file is not a face of points"));
     EXPECT_THAT(outcome_of_bytes(replaced(bytes_called("OFF"), "3 0 2 1", "3 0 2 -1"), "off"),
@@ -234,11 +234,11 @@ TEST(HostileModels, NestingAndCopiesWithoutEnd) {
     std::string nested = test::gltf_text();
     nested.insert(1, R"("extras":)" + std::string(200000, '[') + std::string(200000, ']') + ",");
     EXPECT_EQ(outcome_of_bytes(nested, "gltf"), "the glTF file nests more than 128 lists");
-    // Lists in texts are no lists.
+    // Brackets inside strings do not count.
     std::string quoted = test::gltf_text();
     quoted.insert(1, R"("extras":"\")" + std::string(300, '[') + R"(",)");
     EXPECT_EQ(outcome_of_bytes(quoted, "gltf"), "");
-    // A node that is below two others is there twice, and so on.
+    // A node with two parents occurs twice, and so on.
     std::string nodes = R"("nodes":[)";
     for (int k = 1; k <= 40; ++k) {
         nodes += R"({"children":[)" + std::to_string(k) + "," + std::to_string(k) + "]},";
@@ -247,7 +247,7 @@ TEST(HostileModels, NestingAndCopiesWithoutEnd) {
                                         R"("nodes":[{"scale":[2,2,2],"children":[1]},{)",
                                         nodes + "{"),
                                "gltf"),
-              "the nodes of the glTF file are no tree");
+              "the nodes of the glTF file do not form a tree");
 }
 
 TEST(HostileModels, StripsAndFans) {
@@ -272,7 +272,7 @@ TEST(HostileModels, PlyElementsTwiceAndUnevenTexture) {
                   "end_header\n0 0 0 1\n2\n",
                   "ply"),
               "the PLY file has several elements 'vertex'");
-    // As many places as corners altogether, but not face by face.
+    // As many texture coordinates as corners in all, but not in each face.
     const auto soup = read_ply(
         "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
         "property float z\nelement face 2\nproperty list uchar int vertex_indices\n"
@@ -291,19 +291,20 @@ TEST(HostileModels, WhatIsNoFile) {
     EXPECT_THAT(outcome_of_file(folder / "folder.obj"), HasSubstr("Is a directory"));
     ASSERT_EQ(::mkfifo((folder / "pipe.obj").c_str(), 0600), 0);
     EXPECT_THAT(outcome_of_file(folder / "pipe.obj"),
-                HasSubstr("is a pipe or a device and no file"));
+                HasSubstr("is a pipe or a device, not a file"));
     std::filesystem::create_symlink("/dev/zero", folder / "zero.stl");
     EXPECT_THAT(outcome_of_file(folder / "zero.stl"),
-                HasSubstr("is a pipe or a device and no file"));
+                HasSubstr("is a pipe or a device, not a file"));
     std::ofstream(folder / "empty.stl").close();
-    EXPECT_THAT(outcome_of_file(folder / "empty.stl"), HasSubstr("no STL file that can be read"));
+    EXPECT_THAT(outcome_of_file(folder / "empty.stl"),
+                HasSubstr("not an STL file that can be read"));
     // A buffer in a file of its own that is a pipe, a folder, missing, or the right one.
     const std::string text = test::gltf_text();
     const std::size_t begin = text.find("data:"), end = text.find('"', begin);
     for (const auto& [name, wanted] : {std::pair{"pipe.obj", "'pipe.obj' is a pipe"},
                                        {"folder.obj", "Is a directory"},
                                        {"$(echo x)", "cannot read '$(echo x)': No such file"},
-                                       {"empty.stl", "no glTF file"}}) {
+                                       {"empty.stl", "not a glTF file"}}) {
         std::string file = text;
         std::ofstream(folder / "buffer.gltf") << file.replace(begin, end - begin, name);
         EXPECT_THAT(outcome_of_file(folder / "buffer.gltf"), HasSubstr(wanted)) << name;
@@ -337,10 +338,10 @@ TEST(HostileModels, BuffersLieBelowTheModelsFolder) {
         EXPECT_THAT(outcome(uri), HasSubstr("lies outside of the model's folder")) << uri;
         EXPECT_THAT(outcome(uri), ::testing::Not(HasSubstr("46"))) << uri;
     }
-    // The user may grant it.
+    // The user may grant the folder.
     outcome("../key.bin");
     EXPECT_TRUE(read_model(root / "models/thief.gltf", ReadAccess{false, {root}}));
-    // What a script names has the script's grants.
+    // A model that a script names may read the script's granted files.
     const auto by_script = read_model(GrantedFiles(root, {}), "models/thief.gltf");
     EXPECT_TRUE(by_script) << by_script.error().message;
 }

@@ -15,7 +15,7 @@ namespace {
 using std::numbers::pi;
 using testing::HasSubstr;
 
-/// A function of one point as one of many.
+/// Turns a function of one point into a function of many points.
 template <typename F>
 ImplicitFunction each(F f) {
     return [f](std::span<const Vector3d> points, std::span<double> values) {
@@ -32,7 +32,7 @@ SurfaceMesh surface(F f, const ImplicitRequest& request) {
     if (!made) return {};
     test::expect_closed(*made);
     for (const Vector3d& p : made->points) {
-        // On the surface: the sign changes within a hair's breadth.
+        // Vertices are on the surface.
         EXPECT_LT(std::abs(f(p)), 1e-6) << p.x << " " << p.y << " " << p.z;
     }
     return *std::move(made);
@@ -84,7 +84,8 @@ TEST(ImplicitSurface, ATorus) {
             EXPECT_NEAR(last / volume, 4, 1);
         }
         last = volume;
-        // Gauss and Bonnet: the outer half has the curvature of a sphere, the inner takes it away.
+        // By Gauss and Bonnet, the outer half has the curvature of a sphere, and the inner half the
+        // negative of it.
         const std::vector<double> defects = test::angle_defects(torus);
         double outer = 0, all = 0;
         for (std::size_t k = 0; k < defects.size(); ++k) {
@@ -97,7 +98,7 @@ TEST(ImplicitSurface, ATorus) {
 }
 
 TEST(ImplicitSurface, TwoHoles) {
-    const auto eight = [](Vector3d p) {  // A lemniscate made thick.
+    const auto eight = [](Vector3d p) {  // A thickened lemniscate.
         const double x = p.x * p.x, y = p.y * p.y;
         const double curve = x * (x - 1) + y;
         return 0.01 - curve * curve - p.z * p.z;
@@ -109,7 +110,7 @@ TEST(ImplicitSurface, TwoHoles) {
 }
 
 TEST(ImplicitSurface, SeveralPieces) {
-    const auto shell = [](Vector3d p) {  // A ball with a ball missing in its middle.
+    const auto shell = [](Vector3d p) {  // A ball with a hollow ball in its middle.
         return std::min(0.8 - length(p), length(p) - 0.5);
     };
     const SurfaceMesh mesh = surface(shell, {{-1, -1, -1}, {1, 1, 1}, 0.08});
@@ -125,7 +126,7 @@ TEST(ImplicitSurface, EdgesOfAFunctionAreBluntedAndClosed) {
     const SurfaceMesh mesh = surface(cube, {{-1, -1, -1}, {1, 1, 1}, 0.06});
     EXPECT_EQ(facts_of(mesh).euler_characteristic, 2);
     EXPECT_NEAR(test::volume_of(mesh), 1, 0.02);
-    // One that only says inside or outside.
+    // A function that only distinguishes inside and outside.
     const auto sign = [](Vector3d p) { return length(p) < 0.7 ? 1.0 : -1.0; };
     const auto made = implicit_surface(each(sign), {{-1, -1, -1}, {1, 1, 1}, 0.1}, never);
     ASSERT_TRUE(made);
@@ -134,7 +135,7 @@ TEST(ImplicitSurface, EdgesOfAFunctionAreBluntedAndClosed) {
 }
 
 TEST(ImplicitSurface, RandomWavesAlwaysClose) {
-    // Far too fine for the lattice: all cases of tetrahedra occur, corners at 0 included.
+    // Much finer than the lattice: all cases of tetrahedra occur, including corners at 0.
     const auto waves = [](Vector3d p) {
         const double f =
             std::round(3 * (std::sin(23 * p.x + 3 * p.y) * std::sin(19 * p.y - 5 * p.z) +
@@ -156,7 +157,7 @@ TEST(ImplicitSurface, SizesAndPlacesOfAllOrders) {
             surface(sphere, {{-size, -size, -size}, {size, size, size}, 0.2 * size});
         EXPECT_NEAR(mesh.total_area() / (4 * pi * 0.64 * size * size), 1, 0.03);
     }
-    // Nothing but powers of two apart, triangles are the same.
+    // If scaled by a power of two, triangles have the same bits.
     const auto triangles = [](double size) {
         const auto sphere = [size](Vector3d p) { return 0.8 - length(p * (1 / size)); };
         return surface(sphere, {{-size, -size, -size}, {size, size, size}, 0.25 * size}).triangles;
@@ -169,7 +170,7 @@ TEST(ImplicitSurface, SizesAndPlacesOfAllOrders) {
 }
 
 TEST(ImplicitSurface, CellsOfAnyFormClose) {
-    // One cell alone, a box of one layer, and one that is far longer than wide.
+    // A lattice of one cell, a box of one layer, and a box much longer than wide.
     const SurfaceMesh one = surface(ball, {{-1, -1, -1}, {1, 1, 1}, 5});
     EXPECT_EQ(facts_of(one).euler_characteristic, 2);
     const SurfaceMesh flat = surface([](Vector3d p) { return 0.01 - dot(p, p) + 0.99 * p.x * p.x; },

@@ -1,4 +1,4 @@
-// Placements as maps of space, and the quaternions that turn them.
+// Placements as maps of space, and their quaternions.
 #include "mesh/instances.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ void expect_near(Vector3d a, Vector3d b, double tolerance = 1e-12) {
 }
 
 TEST(Quaternions, TurnTheAxesToAFrame) {
-    // Frames whose rotations have each component as their largest one.
+    // Rotations in which each component of the quaternion is the largest.
     for (int k = 0; k < 200; ++k) {
         const Vector3d x = unit(Vector3d{std::sin(1.0 + k), std::sin(2.3 * k), std::cos(1.7 * k)});
         const Vector3d y = unit(cross(Vector3d{std::cos(0.9 * k), 0.4, std::sin(3.1 * k)}, x));

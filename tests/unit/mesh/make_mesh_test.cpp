@@ -1,4 +1,4 @@
-// Models that are right, and what is made of models that are not.
+// Models without faults, and repairs of models with faults.
 #include "unit/mesh/soups.h"
 
 #include <gmock/gmock.h>
@@ -63,7 +63,7 @@ TEST(MakeMesh, ATorusHasTheEulerCharacteristicOfATorus) {
 
 TEST(MakeMesh, BoundariesArePiecesOfRim) {
     PolygonSoup open = cube();
-    open.ends.resize(4);  // Without two sides that lie against each other: one rim.
+    open.ends.resize(4);  // Without two adjacent sides: one boundary.
     open.corners.resize(16);
     const MeshFacts one = facts_of(made(open).mesh);
     EXPECT_EQ(one.boundaries, 1u);
@@ -78,7 +78,7 @@ TEST(MakeMesh, BoundariesArePiecesOfRim) {
 }
 
 TEST(MakeMesh, PointsInOnePlaceAreOne) {
-    PolygonSoup loose;  // As an STL file has it: each triangle with points of its own.
+    PolygonSoup loose;  // As in an STL file, each triangle has points of its own.
     const SurfaceMesh box = made(cube()).mesh;
     for (std::uint32_t t = 0; t < 12; ++t) {
         append(loose, soup_of({box.corner(t, 0), box.corner(t, 1), box.corner(t, 2)}, {{0, 1, 2}}));
@@ -120,7 +120,7 @@ TEST(MakeMesh, AFinEndsWhereItMeetsTheSurface) {
     const MeshFacts facts = facts_of(made(finned).mesh);
     EXPECT_DOUBLE_EQ(facts.area, 7);
     EXPECT_EQ(facts.components, 2u);
-    EXPECT_EQ(facts.boundaries, 1u);  // The fin's own; the cube stays closed.
+    EXPECT_EQ(facts.boundaries, 1u);  // That of the fin; the cube remains closed.
 }
 
 TEST(MakeMesh, FacesAreTurnedToAgree) {
@@ -188,7 +188,7 @@ TEST(MakeMesh, AFlatTriangleIsMerged) {
 }
 
 TEST(MakeMesh, PolygonsOfAnyShapeKeepTheirArea) {
-    // A comb with three teeth: no fan from any corner would do.
+    // A comb with three teeth, which no fan from a corner can fill.
     const MadeMesh comb = made(soup_of({{0, 0, 0},
                                         {5, 0, 0},
                                         {5, 3, 0},
@@ -227,10 +227,11 @@ TEST(MakeMesh, WhatCannotBeUsedIsRefused) {
     };
     PolygonSoup broken = cube();
     broken.points[3].y = std::nan("");
-    EXPECT_EQ(refused(broken), "point 3 of the model, counted from 0, has the place (0, nan, 0)");
+    EXPECT_EQ(refused(broken),
+              "point 3 of the model, counted from 0, has the position (0, nan, 0)");
     PolygonSoup huge = cube();
     huge.points[6].x = 1e200;
-    EXPECT_THAT(refused(huge), HasSubstr("too large to reckon with"));
+    EXPECT_THAT(refused(huge), HasSubstr("too large to compute with"));
     EXPECT_EQ(refused(soup_of({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}})),
               "the model's faces have no area");
     EXPECT_EQ(refused({}), "the model's faces have no area");

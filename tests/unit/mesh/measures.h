@@ -1,4 +1,4 @@
-// Numbers of meshes that theory knows.
+// Measures of meshes, such as angles and lengths of edges, and a check that a mesh is closed.
 #pragma once
 
 #include "mesh/surface_mesh.h"
@@ -10,13 +10,13 @@
 
 namespace cascade::test {
 
-/// A surface without boundary that fits together.
+/// Expects a consistent surface without boundary.
 inline void expect_closed(const SurfaceMesh& mesh) {
     expect_manifold(mesh);
     EXPECT_EQ(facts_of(mesh).boundary_edges, 0u);
 }
 
-/// At corner k of a triangle, in radians.
+/// The angle at corner k of a triangle, in radians.
 inline double angle_at(const SurfaceMesh& mesh, std::size_t triangle, std::size_t k) {
     const Vector3d p = mesh.corner(triangle, k);
     const Vector3d a = mesh.corner(triangle, (k + 1) % 3) - p;
@@ -24,7 +24,7 @@ inline double angle_at(const SurfaceMesh& mesh, std::size_t triangle, std::size_
     return std::atan2(length(cross(a, b)), dot(a, b));
 }
 
-/// Of all triangles, in degrees.
+/// The smallest angle of all triangles, in degrees.
 inline double smallest_angle(const SurfaceMesh& mesh) {
     double smallest = std::numbers::pi;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -43,7 +43,8 @@ inline double mean_edge(const SurfaceMesh& mesh) {
     return sum / (3 * static_cast<double>(mesh.triangles.size()));
 }
 
-/// What is missing at each point to a full turn: the integral of the Gaussian curvature around it.
+/// 2π minus the sum of angles at each point: the integral of the Gaussian curvature around the
+/// point.
 inline std::vector<double> angle_defects(const SurfaceMesh& mesh) {
     std::vector<double> defects(mesh.points.size(), 2 * std::numbers::pi);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

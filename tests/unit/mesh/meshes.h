@@ -16,7 +16,7 @@ inline SurfaceMesh square() {
     return make_mesh(soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2, 3}}))->mesh;
 }
 
-/// An octahedron whose triangles were cut into n² each and brought to the unit sphere.
+/// An octahedron whose triangles are divided into n² each and projected onto the unit sphere.
 inline SurfaceMesh sphere(int n) {
     PolygonSoup soup;
     const auto add = [&](Vector3d a, Vector3d b, Vector3d c) {
@@ -44,8 +44,8 @@ inline SurfaceMesh sphere(int n) {
     return make_mesh(std::move(soup))->mesh;
 }
 
-/// A sheet of columns × rows squares, corner (u, v) of 0..1² at `place(u, v)`. Each square is cut
-/// along one diagonal. Where two of its sides are in one place they are joined.
+/// A sheet of columns × rows squares with corner (u, v) of 0..1² at `place(u, v)`. Each square is
+/// divided along one diagonal. Sides that coincide are joined.
 inline SurfaceMesh sheet(int columns, int rows,
                          const std::function<Vector3d(double, double)>& place) {
     PolygonSoup soup;
@@ -69,7 +69,7 @@ inline SurfaceMesh sheet(int columns, int rows,
     return make_mesh(std::move(soup))->mesh;
 }
 
-/// A whole turn for u in 0..1, the same bits at its end as at its start.
+/// A point on the unit circle, a full turn for u in 0..1, with the same bits at both ends.
 inline Vector3d on_circle(double u) {
     const double angle = 2 * std::numbers::pi * (u == 1 ? 0 : u);
     return {std::cos(angle), std::sin(angle), 0};
@@ -82,7 +82,7 @@ inline SurfaceMesh cylinder(int columns, int rows, double radius, double height)
     });
 }
 
-/// Around the z axis, the circle of radius `tube` around one of radius `ring`.
+/// A torus around the z axis: a tube of radius `tube`, whose middle line has the radius `ring`.
 inline SurfaceMesh torus(int columns, int rows, double ring, double tube) {
     return sheet(columns, rows, [&](double u, double v) {
         const Vector3d out = on_circle(u), up = on_circle(v);

@@ -1,4 +1,4 @@
-// Small glTF files that would become large models, or large objects in memory, are refused in time.
+// Small glTF files that would become large models or large objects in memory are refused early.
 #include "mesh/model_file.h"
 #include "tests/support/limited_memory.h"
 
@@ -45,7 +45,7 @@ TEST(ModelBomb, WhatIsPlacedAgainAndAgainIsBoundedByTheFilesSize) {
                 HasSubstr("too many for its size"));
 }
 
-/// The same data are the places of copies, of which each node has 300.
+/// The data are used as positions of copies, so that each node has 300 copies.
 TEST(ModelBomb, CopiesAreBoundedByTheFilesSize) {
     const std::string node =
         R"({"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":0}}}})";
@@ -66,7 +66,7 @@ TEST(ModelBomb, ObjectsOfTwoBytesAreCounted) {
     const std::string numbers = R"({"extras":[)" + repeated("0", 2'000'000) + "]}";
     EXPECT_THAT(outcome(with_nodes(numbers, "{}", "0")),
                 HasSubstr("more objects than a model needs"));
-    // Of what is let through, the library makes no more than it was given room for.
+    // Files that are not refused need no more memory than the limit.
     EXPECT_NE(outcome(with_nodes(repeated("{}", 40'000), "{}", "0")), "died");
 }
 

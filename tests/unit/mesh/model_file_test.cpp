@@ -1,4 +1,4 @@
-// Each format as programs write it, and files that are broken.
+// Files of each format as written by programs, and broken files.
 #include "mesh/model_file.h"
 
 #include "support/small_models.h"
@@ -102,9 +102,10 @@ TEST(ModelFile, BrokenPlyFiles) {
         text.replace(text.find(from), from.size(), to);
         return fault_of(read_ply(text));
     };
-    EXPECT_EQ(fault_with("ply\n", "pli\n"), "this is no PLY file: it does not begin with 'ply'");
-    EXPECT_EQ(fault_with("float y", "flaot y"), "line 6 of the PLY file's head is not understood");
-    EXPECT_EQ(fault_with("end_header", ""), "line 20 of the PLY file's head is not understood");
+    EXPECT_EQ(fault_with("ply\n", "pli\n"), "this is not a PLY file: it does not begin with 'ply'");
+    EXPECT_EQ(fault_with("float y", "flaot y"),
+              "line 6 of the PLY file's header is not understood");
+    EXPECT_EQ(fault_with("end_header", ""), "line 20 of the PLY file's header is not understood");
     EXPECT_THAT(fault_with("vertex 5", "vertex 4000000000"), HasSubstr("too short for 4000000000"));
     EXPECT_THAT(fault_with("vertex 5", "vertex 18446744073709551615"), HasSubstr("too short"));
     EXPECT_EQ(fault_with("9 4 0 1 2 3", "9 4 0 1 2 7"),
@@ -149,7 +150,7 @@ TEST(ModelFile, AnOffFileAndAnStlFile) {
     EXPECT_EQ(fault_of(read_off("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n")),
               "line 6 of the OFF file is not a face of these points");
     EXPECT_THAT(fault_of(read_off("OFF\n4000000000 1 0\n0 0 0\n")), HasSubstr("too short for"));
-    EXPECT_EQ(fault_of(read_off("solid")), "this is no OFF file of text");
+    EXPECT_EQ(fault_of(read_off("solid")), "this is not an OFF file in text form");
 
     const auto stl = read_stl(
         "solid one\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"
@@ -178,7 +179,7 @@ TEST(ModelFile, OffCountsRightAfterTheWord) {
         EXPECT_EQ(fault_of(read_off(head + rest)), "read") << head;
     }
     for (const char* head : {"OFFx3", "4OFF3", "OFF3x", "OFF-3", "OF3"}) {
-        EXPECT_EQ(fault_of(read_off(head + rest)), "this is no OFF file of text") << head;
+        EXPECT_EQ(fault_of(read_off(head + rest)), "this is not an OFF file in text form") << head;
     }
 }
 
@@ -200,7 +201,7 @@ TEST(ModelFile, StlFilesWithMoreThanTheirTriangles) {
             ASSERT_TRUE(soup) << head << more << fault_of(soup);
             EXPECT_EQ(soup->polygon_count(), 2u);
         }
-        // A number that is too small, or not yet written.
+        // A count that is too small, or has not been written yet.
         for (const std::uint32_t count : {0u, 1u}) {
             const auto soup = read_stl(binary(head, count, 3));
             ASSERT_FALSE(soup);
@@ -268,9 +269,9 @@ TEST(ModelFile, BrokenGltfFiles) {
         text.replace(text.find(from), from.size(), to);
         return fault_of(read_gltf(text));
     };
-    EXPECT_EQ(fault_with(R"({"asset")", "nonsense"), "this is no glTF file that can be read");
+    EXPECT_EQ(fault_with(R"({"asset")", "nonsense"), "this is not a glTF file that can be read");
     EXPECT_EQ(fault_with(R"("children":[1])", R"("children":[0])"),
-              "the nodes of the glTF file are no tree");
+              "the nodes of the glTF file do not form a tree");
     EXPECT_EQ(fault_with(R"("children":[1])", R"("children":[7])"),
               "node 7 of the glTF file is not there");
     EXPECT_EQ(fault_with(R"("mesh":0)", R"("mesh":3)"), "mesh 3 of the glTF file is not there");
@@ -281,7 +282,7 @@ TEST(ModelFile, BrokenGltfFiles) {
 }
 
 TEST(ModelFile, NamesDecideTheFormat) {
-    EXPECT_THAT(fault_of(read_model("cow.blend")), HasSubstr("'cow.blend' is no model"));
+    EXPECT_THAT(fault_of(read_model("cow.blend")), HasSubstr("'cow.blend' is not a model"));
     EXPECT_THAT(fault_of(read_model("/nowhere/cow.PLY")), HasSubstr("cow.PLY"));
     const auto path = std::filesystem::path(testing::TempDir()) / "points.ply";
     std::ofstream(path) << "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n"

@@ -22,8 +22,8 @@ SurfaceMesh shape(Result<SurfaceMesh> made) {
     return *std::move(made);
 }
 
-/// Is the texture everywhere seen the right way round, in the square but for what lies beyond a
-/// seam?
+/// Expects that no triangle is mirrored in the texture, and that coordinates are in the unit
+/// square, except for parts beyond a seam.
 void expect_texture_unfolds(const SurfaceMesh& mesh, float beyond) {
     for (const auto& [a, b, c] : mesh.texture) {
         EXPECT_GT((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]), 0);
@@ -99,12 +99,12 @@ TEST(Shapes, ABoxHasSharpEdges) {
     EXPECT_EQ(box.triangles.size(), 4u * (4 * 8 + 8 * 12 + 12 * 4));
     EXPECT_EQ(facts_of(box).low, (Vector3d{-0.5, -1, -1.5}));
     EXPECT_NEAR(test::smallest_angle(box), 45, 1e-9);
-    // Curvature is in the eight corners alone, a quarter turn each.
+    // Only the eight corners have curvature, π/2 each.
     for (const double defect : test::angle_defects(box)) {
         EXPECT_TRUE(std::abs(defect) < 1e-12 || std::abs(defect - pi / 2) < 1e-12);
     }
     expect_texture_unfolds(box, 0);
-    // To one scale: a triangle's share of the texture is its share of the area.
+    // The same scale everywhere: a triangle's part of the texture is its part of the area.
     for (std::size_t t = 0; t < box.triangles.size(); ++t) {
         const auto& [a, b, c] = box.texture[t];
         const double area = 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
@@ -125,9 +125,10 @@ TEST(Shapes, WhatIsNoShapeIsRefused) {
         return made ? std::string("made") : made.error().message;
     };
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_EQ(fault(sphere_mesh(-1, 0.1)), "the radius -1 is no length to make a surface of");
-    EXPECT_EQ(fault(sphere_mesh(nan, 0.1)), "the radius nan is no length to make a surface of");
-    EXPECT_EQ(fault(sphere_mesh(1, 0)), "the edge 0 is no length to make a surface of");
+    EXPECT_EQ(fault(sphere_mesh(-1, 0.1)), "the radius -1 is not a length that a surface can have");
+    EXPECT_EQ(fault(sphere_mesh(nan, 0.1)),
+              "the radius nan is not a length that a surface can have");
+    EXPECT_EQ(fault(sphere_mesh(1, 0)), "the edge 0 is not a length that a surface can have");
     EXPECT_THAT(fault(sphere_mesh(1, 1e-9)), HasSubstr("triangles, 1.68e+07 are the most"));
     EXPECT_THAT(fault(torus_mesh(1, 1, 0.1)), HasSubstr("meets itself"));
     EXPECT_THAT(fault(torus_mesh(1, nan, 0.1)), HasSubstr("the tube's radius nan"));
@@ -136,7 +137,7 @@ TEST(Shapes, WhatIsNoShapeIsRefused) {
 }
 
 TEST(Shapes, AKnotIsATubeAroundACurve) {
-    // Pappus: a tube has the area and the volume of a straight one of the curve's length.
+    // By Pappus, a tube has the area and volume of a straight tube with the curve's length.
     constexpr double along = 28.82629;
     for (const double radius : {0.2, 0.5}) {
         const SurfaceMesh knot = shape(knot_mesh(radius, 0.05));

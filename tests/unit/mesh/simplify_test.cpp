@@ -31,7 +31,8 @@ TEST(Simplify, KeepsAClosedSurface) {
         EXPECT_EQ(facts_of(coarse.mesh).euler_characteristic, 2);
         EXPECT_LE(coarse.mesh.triangles.size(), triangles);
         EXPECT_GE(coarse.mesh.triangles.size(), triangles - 1);
-        // The points are on the sphere, so an even mesh of equilateral triangles has this sagitta.
+        // The points are on the sphere, so a uniform mesh of equilateral triangles has this
+        // sagitta.
         const double side =
             std::sqrt(4 * std::numbers::pi / static_cast<double>(triangles) * 4 / std::sqrt(3.0));
         for (std::size_t t = 0; t < coarse.mesh.triangles.size(); ++t) {
@@ -71,8 +72,8 @@ TEST(Simplify, KeepsEdgesOfTheCube) {
 }
 
 TEST(Simplify, FollowsThePattern) {
-    // A disc of another colour on a square: points gather along its edge, and the area of the disc
-    // as the corners say it is about the same.
+    // A disc of another colour on a square: more points remain along its edge, and the area of the
+    // disc by the colours of corners hardly changes.
     const SurfaceMesh square = test::sheet(60, 60, [](double u, double v) {
         return Vector3d{u, v, 0};
     });
@@ -122,7 +123,7 @@ TEST(Simplify, KeepsAttributesAndSaysWhichPointsAreLeft) {
                   fine.attributes[0].values[coarse.points[p]]);
         EXPECT_EQ(coarse.merged[coarse.points[p]], p);
     }
-    // What has merged lies nearby.
+    // Merged points are close to each other.
     ASSERT_EQ(coarse.merged.size(), fine.points.size());
     for (std::size_t p = 0; p < fine.points.size(); ++p) {
         EXPECT_LT(length(fine.points[p] - coarse.mesh.points.at(coarse.merged[p])), 0.6);

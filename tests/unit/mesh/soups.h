@@ -22,7 +22,7 @@ inline PolygonSoup soup_of(std::vector<Vector3d> points,
     return soup;
 }
 
-/// The cube 0..1³, its six squares turning counterclockwise from outside.
+/// The cube 0..1³, with six squares that are counterclockwise seen from outside.
 inline PolygonSoup cube() {
     return soup_of(
         {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}},
@@ -38,8 +38,8 @@ inline void append(PolygonSoup& soup, const PolygonSoup& other, Vector3d by = {}
     for (const std::size_t end : other.ends) soup.ends.push_back(corners + end);
 }
 
-/// Every link leads back, neighbours share an edge in opposite directions, and around each point
-/// there is one fan of triangles.
+/// Expects that neighbours are mutual, that they share an edge in opposite directions, and that
+/// there is one fan of triangles around each point.
 inline void expect_manifold(const SurfaceMesh& mesh) {
     ASSERT_EQ(mesh.across.size(), mesh.triangles.size());
     std::vector<bool> is_used(mesh.points.size());
@@ -59,7 +59,7 @@ inline void expect_manifold(const SurfaceMesh& mesh) {
     EXPECT_EQ(separate_fans(separated).size(), mesh.points.size());
 }
 
-/// Inside a closed surface.
+/// The volume inside a closed surface.
 inline double volume_of(const SurfaceMesh& mesh) {
     double sum = 0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

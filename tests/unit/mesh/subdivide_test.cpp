@@ -1,4 +1,4 @@
-// Loop's subdivision against its limits, which are known.
+// Loop's subdivision, compared with its known limits.
 #include "mesh/subdivide.h"
 
 #include "unit/mesh/measures.h"
@@ -29,7 +29,7 @@ TEST(Subdivide, KeepsTheTopologyAndMakesFourOfOne) {
 }
 
 TEST(Subdivide, LeavesARegularPlaneAsItIs) {
-    // Masks are means of places, so the inside of a regular plane does not move.
+    // New positions are means of positions, so the inside of a regular plane does not move.
     const SurfaceMesh plane = test::sheet(12, 12, [](double u, double v) {
         return Vector3d{u, v, 0};
     });
@@ -55,7 +55,7 @@ TEST(Subdivide, TendsToTheLimitOfAnOctahedron) {
 }
 
 TEST(Subdivide, HasNoMostNumberOfNeighbours) {
-    // A cone of 200 triangles, more neighbours than OpenMesh's table has.
+    // A cone of 200 triangles, whose tip has more neighbours than OpenMesh's table.
     const SurfaceMesh cone = test::sheet(200, 1, [](double u, double v) {
         return test::on_circle(u) * v + Vector3d{0, 0, 1 - v};
     });

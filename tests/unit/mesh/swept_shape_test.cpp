@@ -1,4 +1,4 @@
-// Swept shapes against the spheres, cones and tori that they are.
+// Swept shapes that are spheres, cones and tori.
 #include "mesh/swept_shape.h"
 #include "unit/mesh/closed.h"
 
@@ -21,7 +21,7 @@ SweptSurface sphere() {
     };
 }
 
-/// Of radius 1 at the root and height 1.
+/// A cone with radius 1 at the root and height 1.
 SweptSurface cone() {
     return surface_of({[](double t, double) { return 1 - t; },
                        [](double t) {
@@ -90,7 +90,7 @@ TEST(SweptShape, TubesFollowABentLine) {
     ASSERT_TRUE(mesh);
     EXPECT_TRUE(test::is_closed(*mesh));
     EXPECT_NEAR(test::volume_of(*mesh), pi * 0.04 * pi, 1e-3);
-    // s = 0 is on the side of x, a quarter turn further on that of z where the line leads upwards.
+    // s = 0 is in the direction of x, and s = 1/4 in that of z where the line goes upwards.
     EXPECT_LT(length(bow(0, 0) - Vector3d{0.2, 0, -1}), 1e-9);
     EXPECT_LT(length(bow(0, 0.25) - Vector3d{0, 0, -0.8}), 1e-5);
 }
@@ -111,7 +111,8 @@ TEST(SweptShape, MeshesKeepToTheirDetail) {
         }
         EXPECT_LE(longest, detail.longest_edge * (1 + 1e-6));
         EXPECT_LE(deepest, detail.tolerance * (1 + 1e-6));
-        // Not far more than needed: edges of the meridian have a chord error of (π/n)²/8.
+        // Not many more triangles than needed: edges of the meridian have a chord error of
+        // (π/n)²/8.
         const double needed =
             std::max(pi / detail.longest_edge, pi / std::sqrt(4 * detail.tolerance));
         EXPECT_LE(facets->along, 2.5 * needed + 3);

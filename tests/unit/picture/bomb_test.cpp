@@ -1,4 +1,5 @@
-// Small PNG files that promise or inflate to much are refused before they cost much memory.
+// Small PNG files that declare large sizes or decompress to much data are refused before they take
+// much memory.
 #include "picture/grey_picture.h"
 #include "picture/image.h"
 #include "tests/support/limited_memory.h"
@@ -14,7 +15,7 @@ using testing::HasSubstr;
 
 constexpr std::uint64_t room = std::uint64_t{64} << 20;
 
-/// A picture with a header and next to no data.
+/// A picture with a header and almost no data.
 std::string promising(std::uint32_t width, std::uint32_t height, const std::string& form) {
     return test::assemble({{"IHDR", test::big_endian(width) + test::big_endian(height) + form},
                            {"IDAT", test::deflated(std::string(10, '\0'))},

@@ -1,4 +1,4 @@
-// Drawings as PDF files, whose streams are unpacked by zlib.
+// Drawings as PDF files, whose streams are decompressed by zlib.
 #include "picture/drawing.h"
 
 #include <zlib.h>
@@ -14,7 +14,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// The streams of a file one after another, unpacked.
+/// The decompressed streams of a file, one after another.
 std::string streams_of(const std::string& file) {
     std::string all;
     for (std::size_t at = 0; (at = file.find("stream\r\n", at)) != std::string::npos;) {
@@ -46,7 +46,7 @@ TEST(DrawingPdf, HasAreasLinesAndDiscsInPoints) {
     drawing.add(DrawnLine{{{0, 0}, {100, 100}}, {0, 0, 1}, 2, true});
     drawing.add(DrawnDisc{{50, 50}, 4, {0, 1, 0}});
     const std::string page = drawn(drawing);
-    // 3/4 of the units, and y from below.
+    // PDF has points of 3/4 unit, and y points upwards.
     EXPECT_THAT(page, HasSubstr("1 0 0 rg\n15 52.5 30 15 re\nf"));
     EXPECT_THAT(page, HasSubstr("[4 3 ] 0 d"));
     EXPECT_THAT(page, HasSubstr("75 0 l\nS"));

@@ -19,7 +19,7 @@ struct ReadExr {
     std::vector<std::vector<float>> numbers;  ///< By channel.
 };
 
-/// Of a file with one part.
+/// Reads a file with one part.
 inline ReadExr read_exr(const std::filesystem::path& path) {
     Imf::InputFile file(path.c_str());
     const Imath::Box2i window = file.header().dataWindow();

@@ -1,4 +1,4 @@
-// OpenEXR files as the library's own reader sees them, which shares nothing with the interface that
+// OpenEXR files, read by the library's own reader, which is independent of the interface that
 // writes them.
 #include "picture/exr.h"
 

@@ -1,4 +1,4 @@
-// Pictures as numbers: every kind of pixel, what is refused, and other sides.
+// Pictures as numbers: every kind of pixel, refused files, and resizing.
 #include "picture/grey_picture.h"
 #include "picture/image.h"
 #include "tests/unit/picture/png_chunks.h"
@@ -16,7 +16,7 @@ using ::testing::ElementsAre;
 using ::testing::FloatNear;
 using ::testing::HasSubstr;
 
-/// A PNG of rows without filters. `rows` holds the packed bytes of each.
+/// A PNG without row filters. `rows` are the packed bytes of each row.
 std::string png(std::uint32_t width, const std::vector<std::string>& rows, char depth, char type,
                 const std::vector<Chunk>& before = {}) {
     std::string raw;
@@ -124,7 +124,7 @@ TEST(GreyPicture, DamageIsTold) {
     for (std::size_t k = 8; k < whole.size(); ++k) {
         std::string wrong = whole;
         wrong[k] = static_cast<char>(wrong[k] ^ 0x55);
-        EXPECT_NE(fault_of(wrong), "it is not a PNG file") << k;  // And nothing worse happens.
+        EXPECT_NE(fault_of(wrong), "it is not a PNG file") << k;  // And there is no crash.
     }
 }
 

@@ -1,5 +1,5 @@
-// Damaged files of all kinds give a failure or some value, never a crash. The sanitizers' build is
-// where these tests bite.
+// Damaged files of all kinds give a failure or a value, but never a crash. These tests are most
+// useful with sanitizers.
 #include "picture/image.h"
 #include "picture/npy.h"
 #include "picture/pixel_file.h"
@@ -20,7 +20,7 @@ std::string valid_png() {
     return encode_png(Image(5, 4, {0.2F, 0.5F, 0.8F}), PngDepth::sixteen, texts).value_or("");
 }
 
-/// A reader has met a file well if it gave a reason or a value that holds together.
+/// Expects a failure with a reason, or a consistent value.
 void expect_sound_npy(const std::string& bytes) {
     const Result<NpyArray> array = parse_npy(bytes);
     if (!array) {
@@ -50,7 +50,7 @@ void flip_every_bit(const std::string& file, Expectation expect_sound) {
     }
 }
 
-/// Replaces, deletes, doubles and swaps stretches at random.
+/// Replaces, deletes, doubles and swaps random parts.
 std::string shaken(std::string bytes, std::mt19937& random) {
     const auto below = [&](std::size_t limit) { return limit == 0 ? 0 : random() % limit; };
     const std::size_t changes = 1 + below(6);
@@ -148,7 +148,7 @@ TEST(HostilePng, CutFlippedAndShaken) {
 }
 
 TEST(HostilePng, ShakenChunksWithRightChecksums) {
-    // Wrong checksums stop a reader early; these changes get past them.
+    // Wrong checksums stop a reader early, so these files have right ones.
     const std::string nul(1, '\0');
     std::vector<test::Chunk> chunks = test::take_apart(valid_png());
     ASSERT_GE(chunks.size(), 5U);

@@ -1,4 +1,4 @@
-// Maps: which tile lands where, and what an empty place looks like.
+// Maps of runs: the positions of pictures, and the look of an empty position.
 #include "picture/map.h"
 
 #include "plain_colours.h"
@@ -46,14 +46,14 @@ TEST(Map, TheFirstRowIsTheLowest) {
     const Image map = make_map(tiles, {"feed", {"0.02", "0.04"}}, {"kill", {"0.05", "0.06"}});
     const Place first = place_of(map, red), right = place_of(map, green);
     const Place above = place_of(map, blue);
-    // 64 pixels become 128, and the whole of each picture is there.
+    // 64 pixels become 128, and each picture is complete.
     EXPECT_EQ(first.count, 128 * 128);
     EXPECT_EQ(above.count, 128 * 128);
     EXPECT_EQ(right.y, first.y);
     EXPECT_GT(right.x, first.x + 127);
     EXPECT_EQ(above.x, first.x);
     EXPECT_LT(above.y + 127, first.y);
-    // The empty place is framed and says why.
+    // The empty position has a frame and the reason.
     EXPECT_EQ(map.at(right.x - 1, above.y - 1), map.at(first.x - 1, first.y - 1));
     EXPECT_NE(map.at(right.x, above.y), map.at(0, 0));
     EXPECT_GT(ink_right_of(map, right.x + 5), 50);

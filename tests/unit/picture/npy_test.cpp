@@ -1,4 +1,5 @@
-// .npy files: what NumPy writes is read, what we write is what NumPy writes, the rest is refused.
+// .npy files: files of NumPy are read, our files have the bytes of NumPy's, and other files are
+// refused.
 #include "picture/npy.h"
 
 #include <gmock/gmock.h>

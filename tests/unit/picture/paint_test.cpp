@@ -15,7 +15,7 @@ using test::infinity;
 using test::nan;
 constexpr Colour magenta{1, 0, 1};
 
-/// One row of cells; the halo around it holds values that must never be looked at.
+/// One row of cells. The halo contains values that must never be read.
 Field row_of(std::initializer_list<float> values) {
     Field field(PlaneLayout(Grid{static_cast<std::int64_t>(values.size()), 1}));
     const PlaneLayout& layout = field.layout();

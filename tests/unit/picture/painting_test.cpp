@@ -1,5 +1,5 @@
-// Fields painted many cells at once, in used memory, or straight into a file, are the same as those
-// painted cell by cell.
+// Painting many cells at once, in used memory, or directly into a file gives the same as painting
+// cell by cell.
 #include "picture/image.h"
 
 #include "picture/srgb.h"
@@ -20,7 +20,7 @@
 namespace cascade {
 namespace {
 
-/// Waves that leave the range from 0 to 1 on both sides.
+/// Waves that exceed the range from 0 to 1 on both sides.
 Field painted_waves(std::int64_t width, std::int64_t height) {
     Field field{PlaneLayout(Grid{width, height})};
     for (std::int64_t j = 0; j < height; ++j) {
@@ -32,7 +32,7 @@ Field painted_waves(std::int64_t width, std::int64_t height) {
     return field;
 }
 
-/// The same with all that is no number in it.
+/// painted_waves() with non-finite values of all kinds, and −0, in some cells.
 Field waves_with_gaps(std::int64_t width, std::int64_t height) {
     Field field = painted_waves(width, height);
     const std::array gaps{test::nan, test::infinity, -test::infinity, -0.0F};
@@ -62,7 +62,7 @@ bool have_same_bits(const std::vector<Colour>& one, const std::vector<Colour>& o
            std::memcmp(one.data(), other.data(), one.size() * sizeof(Colour)) == 0;
 }
 
-/// Sides on both sides of the number of cells that are painted at once.
+/// Widths below and above the number of cells that are painted at once.
 TEST(Painting, OfManyCellsGivesTheColoursOfEach) {
     for (const Palette* palette : palettes_to_paint_with()) {
         for (const ValueRange range : painted_ranges) {
@@ -130,7 +130,7 @@ TEST(Painting, StraightIntoAFileFailsAsThatOfAnImageDoes) {
     EXPECT_EQ(straight.error().message, of_image.error().message);
 }
 
-/// A value is nearest to its level. That in the middle between two has the upper one.
+/// Each value gets the nearest level. A value in the middle between two gets the upper one.
 TEST(Levels, AreTheNearestOnes) {
     for (const unsigned highest : {255U, 65535U}) {
         for (unsigned k = 0; k <= 3 * highest; ++k) {
@@ -144,7 +144,7 @@ TEST(Levels, AreTheNearestOnes) {
     }
 }
 
-/// What needs more channels may come after any number of rows that need fewer.
+/// A row that needs more channels may follow any number of rows that need fewer.
 TEST(EncodePng, TakesTheChannelsThatItsLastRowsNeed) {
     for (const PngDepth depth : {PngDepth::eight, PngDepth::sixteen}) {
         for (const bool has_colour : {false, true}) {
@@ -171,7 +171,7 @@ TEST(EncodePng, TakesTheChannelsThatItsLastRowsNeed) {
     }
 }
 
-/// The filters of section 9 of the PNG specification, for a row and that above it.
+/// The filters of section 9 of the PNG specification, for a row and the row above.
 std::string filtered_by_definition(int number, const std::string& row, const std::string& above,
                                    std::size_t pixel) {
     std::string out;

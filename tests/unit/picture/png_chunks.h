@@ -1,5 +1,5 @@
-// PNG files taken apart and put together by hand, as the PNG specification describes them, so that
-// the tests do not ask libpng's writer whether libpng's reader is right.
+// Decodes and makes PNG files by the PNG specification, so that the tests are independent of
+// libpng.
 #pragma once
 
 #include <zlib.h>
@@ -48,7 +48,7 @@ inline std::string assemble(const std::vector<Chunk>& chunks) {
     return file;
 }
 
-/// Empty where the file is not a row of whole chunks with right checksums.
+/// The chunks of a file; empty if it is not a sequence of complete chunks with right checksums.
 inline std::vector<Chunk> take_apart(std::string_view file) {
     if (!file.starts_with(png_signature)) return {};
     std::vector<Chunk> chunks;
@@ -95,7 +95,7 @@ inline std::vector<Chunk> tiny_png(const std::vector<Chunk>& before = {},
     return chunks;
 }
 
-/// The parts of a picture's file that the tests look at.
+/// The parts of a picture's file that tests check.
 struct DecodedPng {
     std::uint32_t width = 0;
     std::uint32_t height = 0;

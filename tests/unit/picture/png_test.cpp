@@ -1,4 +1,4 @@
-// PNG files: pixels, depths, text chunks, and what is refused.
+// PNG files: pixels, depths, text chunks, and refused files.
 #include "picture/image.h"
 #include "tests/unit/picture/png_chunks.h"
 
@@ -31,7 +31,7 @@ Image coloured() {
     return image;
 }
 
-/// The data of the only chunk of a name, "missing" where there is not one.
+/// The data of the only chunk of a name, or "missing" if there is not exactly one.
 std::string only_chunk(const std::string& file, const std::string& name) {
     std::string data = "missing";
     int count = 0;
@@ -116,7 +116,7 @@ TEST(EncodePng, ValuesBeyondTheRangeAreClamped) {
 /// A picture with smooth and rough parts, so that every row filter is likely to be chosen.
 struct Sample {
     Image image;
-    std::vector<unsigned> levels;  ///< As a file has them.
+    std::vector<unsigned> levels;  ///< As in a file.
 };
 Sample sample(std::int64_t width, std::int64_t height, unsigned highest, bool is_grey,
               bool has_alpha) {
@@ -307,7 +307,7 @@ TEST(PngTexts, DamageIsNoticed) {
     };
     for (std::size_t size = 8; size < file.size(); ++size) expect_damaged(file.substr(0, size));
     std::string changed = file;
-    changed[file.find("iterations")] = 'I';  // Only the checksum tells.
+    changed[file.find("iterations")] = 'I';  // Only the checksum reveals this.
     expect_damaged(changed);
 }
 
@@ -362,7 +362,7 @@ TEST_F(PngFile, IsReplacedWhole) {
     const Result<PngTexts> texts = read_png_texts(path);
     ASSERT_TRUE(texts) << texts.error().message;
     EXPECT_EQ(texts->at("Seed"), "7");
-    // Nothing else is left in the folder.
+    // No other file is left in the folder.
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 1);
 }
 

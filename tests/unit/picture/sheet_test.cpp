@@ -1,4 +1,4 @@
-// Contact sheets: where pictures and labels land.
+// Contact sheets: the positions of pictures and labels.
 #include "picture/font.h"
 #include "picture/image.h"
 #include "plain_colours.h"
@@ -14,7 +14,7 @@ namespace {
 using test::blue;
 using test::red;
 
-/// The smallest box that holds all pixels of a colour.
+/// The smallest box that contains all pixels of a colour.
 struct Box {
     std::int64_t left = -1, top = -1, right = -1, bottom = -1;  // Inclusive.
     std::int64_t count = 0;

@@ -1,4 +1,4 @@
-// Stored numbers and amounts of light.
+// Conversion between sRGB values and linear light.
 #include "picture/srgb.h"
 
 #include "tests/support/not_finite.h"
@@ -27,7 +27,7 @@ TEST(Srgb, LevelsComeBack) {
     EXPECT_NEAR(light_of(0.04F), 0.04F / 12.92F, 1e-9F);
 }
 
-/// The standard's formulas with std::pow, in steps that reach all parts of the tables.
+/// The formulas of the standard with std::pow, at values that reach all parts of the tables.
 TEST(Srgb, PowersAreThoseOfTheLibrary) {
     for (std::uint32_t bits = std::bit_cast<std::uint32_t>(0.04046F);
          bits <= std::bit_cast<std::uint32_t>(1.5F); bits += 97) {

@@ -50,7 +50,7 @@ std::string png_of(const Image& image) {
     return *encode_png(image, PngDepth::eight, {}, PngMeaning::colours, PngEffort::fast);
 }
 
-/// No two neighbours are alike, so that it is long as a file, too.
+/// A picture in which neighbours differ, so that its file is large.
 Image noisy(std::int64_t width, std::int64_t height) {
     Image image(width, height);
     std::uint32_t state = 1;
@@ -85,7 +85,7 @@ TEST(SixelPicture, HasBandsOfSixRows) {
         "#0!4@$-"
         "\x1b\\";
     EXPECT_EQ(sixel_picture(image), text);
-    // Pixels are there or not.
+    // Pixels are either opaque or transparent.
     image.at(4, 6) = {1, 0, 1};
     image.alpha.assign(image.pixels.size(), 0.5F);
     image.alpha_at(4, 6) = 0.49F;
@@ -101,7 +101,7 @@ TEST(ReducedPictures, KeepTheirOpacity) {
     ASSERT_EQ(small.alpha.size(), 2U);
     EXPECT_FLOAT_EQ(small.alpha[0], 2.5F / 4);
     EXPECT_EQ(small.alpha[1], 0);
-    // Each pixel counts as far as it is opaque.
+    // Each pixel has its opacity as weight.
     EXPECT_FLOAT_EQ(small.at(0, 0)[0], 2 / 2.5F);
     EXPECT_FLOAT_EQ(small.at(0, 0)[1], 0.5F / 2.5F);
     EXPECT_TRUE(is_transparent(small.at(1, 0)));

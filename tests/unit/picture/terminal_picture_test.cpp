@@ -82,7 +82,8 @@ TEST(HalfBlocks, WiderPicturesAreAveraged) {
 }
 
 TEST(HalfBlocks, PartsOfPixelsCountByTheirArea) {
-    // Three pixels on two: the middle one belongs half to each. (1 + 0)/1.5 and (0 + 0.3)/1.5.
+    // Three pixels become two: half of the middle one belongs to each. (1 + 0)/1.5 and (0 +
+    // 0.3)/1.5.
     Image image(3, 3);
     for (std::int64_t y = 0; y < 3; ++y) {
         image.at(0, y) = {1, 1, 1};

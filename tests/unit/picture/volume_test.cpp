@@ -16,7 +16,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-/// 100 k + 10 j + i in cell (i, j, k).
+/// A field with the value 100 k + 10 j + i in cell (i, j, k).
 Field places(std::int64_t width, std::int64_t height, std::int64_t depth) {
     Field field{PlaneLayout(Grid{width, height, {}, depth})};
     for (std::int64_t k = 0; k < depth; ++k) {

@@ -1,4 +1,4 @@
-// Pictures of surfaces whose looks are known.
+// Pictures of surfaces with known looks.
 #include "render/draw.h"
 
 #include "picture/srgb.h"
@@ -111,7 +111,7 @@ TEST(Draw, ColoursAreThoseOfTheTriangleThatIsSeen) {
 }
 
 TEST(Draw, BarycentricPlacesInterpolate) {
-    // The colour is the height along the wall: it grows evenly from left to right.
+    // The colour is the height along the wall, which increases linearly from left to right.
     const TriangleMesh wall = sheet(1, 1, [](float u, float v) {
         return Vector3{u, 0, 0.75F * (1 - v)};
     });
@@ -145,7 +145,7 @@ TEST(Draw, TheGroundHasAShadow) {
 }
 
 TEST(Draw, ShadowsAreNotGrainy) {
-    // In the open a pixel's place changes little; so does its light from one pixel to the next.
+    // On open surfaces, neighbouring pixels show close points and have similar light.
     DrawOptions options = small_picture();
     options.ground = true;
     options.width = 640;
@@ -187,7 +187,7 @@ Image averaged(const Image& image, std::int64_t side) {
 }
 
 TEST(Draw, BetterQualityIsNearerToTheTruth) {
-    // A ball in stripes. Nothing hides a light, so that only rays through pixels matter.
+    // A ball with stripes. No light is hidden, so only rays through pixels matter.
     const TriangleMesh mesh = sphere(1);
     const auto striped = [&](const Hit& hit) -> Colour {
         const auto& [a, b, c] = mesh.triangles[hit.triangle];
@@ -291,7 +291,7 @@ TEST(Draw, WithoutABackgroundEdgesKeepTheColourOfTheSurface) {
                 area += opacity;
                 if (opacity == 0) continue;
                 if (opacity < 1) ++partial;
-                // The sphere has highlights of white light, so some green, but never much.
+                // The sphere has white highlights, so there is some green, but not much.
                 EXPECT_LT(image.at(x, y)[1], 0.35F) << x << ", " << y;
             }
         }
@@ -313,7 +313,8 @@ TEST(Draw, WithoutABackgroundTheShadowIsBlackAndOverWhiteTheSame) {
     std::int64_t in_shadow = 0;
     for (std::int64_t y = 0; y < 120; ++y) {
         for (std::int64_t x = 0; x < 160; ++x) {
-            // Where the surface is seen: edges are mixed in sRGB here and in light there.
+            // Only pixels without the surface, since edges are mixed in sRGB in one picture and in
+            // linear light in the other.
             if (image.at(x, y)[0] > 0 && !is_transparent(image.at(x, y))) continue;
             const Colour over = image.over(pure_white, x, y);
             for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(over[c], on_white.at(x, y)[c], 1e-3F);
@@ -325,7 +326,7 @@ TEST(Draw, WithoutABackgroundTheShadowIsBlackAndOverWhiteTheSame) {
     EXPECT_GT(in_shadow, 500);
 }
 
-/// A wall that fills most of the picture, seen head on; walls further back look alike.
+/// A wall that fills most of the picture, seen from the front, with equal walls behind it.
 TriangleMesh walls(int count) {
     TriangleMesh all;
     for (int wall = 0; wall < count; ++wall) {
@@ -353,7 +354,7 @@ TEST(Draw, WhatIsBehindShowsThrough) {
         EXPECT_NEAR(image.opacity(80, 60), 1 - std::pow(0.5F, static_cast<float>(count)), 1e-4F);
         EXPECT_TRUE(is_red(image.at(80, 60)));
     }
-    // From opaque to invisible in many steps, the same as the part that is covered.
+    // Opacity from 1 to 0; it equals the covered part.
     options.opacity = [](const Hit& hit) { return hit.triangle == 0 ? hit.u + hit.v : 1 - hit.u; };
     const Image slope = picture_of(walls(1), options, red, 2);
     EXPECT_TRUE(picture_of(walls(1), options, red, 1).alpha == slope.alpha);
@@ -366,7 +367,7 @@ TEST(Draw, HolesAreSeenThrough) {
     const auto colour = [](const Hit& hit) {
         return hit.triangle < 2 ? Colour{0.8F, 0, 0} : Colour{0, 0, 0.8F};
     };
-    // The front wall is there above its diagonal alone.
+    // The front wall is opaque above its diagonal only.
     options.opacity = [](const Hit& hit) { return hit.triangle == 1 ? 0.0F : 1.0F; };
     Team team(1);
     const Image image = draw(walls(2), colour, options, team);
@@ -389,7 +390,7 @@ TEST(Draw, ShadowsOfTranslucentSurfacesAreLighter) {
     DrawOptions options = small_picture();
     options.ground = true;
     options.quality = Quality::fine;
-    // How much of the light of the ground is missing, in all pixels that do not show the sphere.
+    // The light of the ground that the shadow takes away, over all pixels without the sphere.
     const auto missing = [&](float opacity) {
         options.opacity = [=](const Hit&) { return opacity; };
         const Image image = picture_of(sphere(1), options, [](const Hit&) { return pure_white; });
@@ -404,13 +405,13 @@ TEST(Draw, ShadowsOfTranslucentSurfacesAreLighter) {
         return sum;
     };
     const double opaque = missing(1);
-    // A ray crosses the sphere's wall twice: a quarter passes where each takes half.
+    // A ray crosses the sphere twice, so a quarter of the light passes if each crossing takes half.
     EXPECT_NEAR(missing(0.5F) / opaque, 0.75, 0.04);
     EXPECT_NEAR(missing(0.1F) / opaque, 0.19, 0.04);
 }
 
 TEST(Draw, ATiltTurnsTheLightAndFlipsOnTheBack) {
-    // A wall seen head on; the sun stands to the left of the viewer and above him.
+    // A wall seen from the front, with the sun at the upper left of the viewer.
     const auto place = [](float u, float v) { return Vector3{u - 0.5F, 0, 0.75F * (0.5F - v)}; };
     const auto brightness = [&](float azimuth, Vector3 tilt) {
         const TriangleMesh wall = sheet(1, 1, place);
@@ -430,8 +431,9 @@ TEST(Draw, ATiltTurnsTheLightAndFlipsOnTheBack) {
         return sum / 400;
     };
     const float plain = brightness(0, {});
-    // The outside is that of y. From there the sun stands on the side of x; from the other side it
-    // stands on that of −x, to which the back leans where the outside leans to x.
+    // The outside of the wall faces y. Seen from outside, the sun is on the side of x, so a tilt of
+    // the normal to x makes the wall brighter. Seen from the back, the sun is on the side of −x,
+    // and this tilt turns the normal of the back to −x.
     for (const float azimuth : {180.0F, 0.0F}) {
         EXPECT_GT(brightness(azimuth, {0.5F, 0, 0}), plain + 0.02F);
         EXPECT_LT(brightness(azimuth, {-0.5F, 0, 0}), plain - 0.05F);
@@ -444,7 +446,9 @@ TEST(Draw, ASightKnowsHowWideASampleIs) {
     });
     DrawOptions options = small_picture();
     options.view = {0, 0, {0, 0, 1}};
-    // One ray where the picture is even, but of the best quality; more at the wall's edges.
+    // A pixel where the picture is uniform takes one ray (two by two with the best quality), and a
+    // pixel at the wall's edges takes more. `first` and `last` are the numbers of rays along its
+    // side.
     for (const auto& [quality, first, last] :
          {std::tuple{Quality::draft, 1, 2}, {Quality::normal, 1, 4}, {Quality::fine, 2, 8}}) {
         options.quality = quality;
@@ -482,7 +486,7 @@ TEST(RayCaster, FindsTheNearestTriangle) {
     EXPECT_FALSE(caster.is_blocked({{1, 2, 10}, {0, 0, -1}}, 7));
 }
 
-/// A sheet's box has no thickness, and rays along axes have directions of 0 and −0.
+/// The bounding box of a sheet has no thickness, and rays along axes have components of 0 and −0.
 TEST(RayCaster, MissesNothingOfASheet) {
     const auto place = [](float x, float y) { return Vector3{x, 0, y}; };
     const TriangleMesh mesh = sheet(3, 3, place);
@@ -531,7 +535,7 @@ TEST(Camera, EveryFieldOfViewShowsTheWhole) {
                     most = std::max(most, std::abs(dot(way, axis)) / depth / camera.pixel());
                 }
             }
-            // The shorter side decides, as a ball is round.
+            // The shorter side determines the size, since a ball is round.
             const auto smaller = static_cast<float>(std::min(width, height));
             EXPECT_NEAR(most, smaller / 2 / 1.12F, 0.03F * smaller) << width << ' ' << half_field;
         }
@@ -539,7 +543,7 @@ TEST(Camera, EveryFieldOfViewShowsTheWhole) {
 }
 
 TEST(Camera, AWholeTurnHasOneFrame) {
-    // A long body beside the axis of the file's origin.
+    // A long body away from the axis through the origin.
     TriangleMesh mesh = sphere(1);
     for (Vector3& p : mesh.positions) p = {3 * p.x + 7, p.y - 2, 0.5F * p.z};
     for (const float elevation : {-40.0F, 0.0F, 25.0F, 80.0F}) {
@@ -554,7 +558,7 @@ TEST(Camera, AWholeTurnHasOneFrame) {
         for (int k = 0; k < 36; ++k) {
             const auto azimuth = static_cast<float>(10 * k);
             const Camera camera = camera_at(azimuth);
-            // The eye goes around the axis on a circle.
+            // The eye moves on a circle around the axis.
             EXPECT_NEAR(length(camera.eye() - middle), distance, 1e-4F * distance);
             EXPECT_NEAR(camera.eye().z, camera_at(0).eye().z, 1e-4F * distance);
             // The axis is in the middle of the picture.
@@ -572,7 +576,7 @@ TEST(Camera, AWholeTurnHasOneFrame) {
         }
         EXPECT_GT(low, -50 / 1.12F - 0.1F);
         EXPECT_LT(high, 50 / 1.12F + 0.1F);
-        // It is not farther away than it must be.
+        // The eye is not farther away than necessary.
         if (elevation > 60) {
             EXPECT_GT(high, 44 / 1.12F);
         }

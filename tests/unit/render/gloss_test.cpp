@@ -1,4 +1,4 @@
-// How surfaces shine.
+// Highlights of surfaces by roughness and metalness.
 #include "render/gloss.h"
 
 #include <gtest/gtest.h>
@@ -15,10 +15,10 @@ TEST(Gloss, SmoothSurfacesHaveSmallBrightHighlights) {
         EXPECT_GT(gloss.strength, last.strength) << roughness;
         last = gloss;
     }
-    EXPECT_LT(last.power, 600);  // The sun is no point.
+    EXPECT_LT(last.power, 600);  // The sun is not a point.
 }
 
-// The light of a lobe, strength / (power + 2), hardly depends on its width.
+// The total light of a lobe, strength / (power + 2), hardly depends on its width.
 TEST(Gloss, RoughnessSpreadsTheSameLight) {
     const auto light = [](float roughness) {
         const Gloss gloss = gloss_of(roughness, 0);

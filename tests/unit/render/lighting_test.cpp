@@ -1,4 +1,4 @@
-// Soft lights against numerical integrals over the sphere.
+// Soft lights, compared with numerical integrals over the sphere.
 #include "render/lighting.h"
 
 #include "render/camera.h"
@@ -28,7 +28,7 @@ Lights lights(Lighting lighting) {
     return {lighting, Camera(Scene(mesh), {}, 80, 60), {0, 0, 1}};
 }
 
-/// A gloss that mirrors sharply, so that mirrored() is the radiance of the environment.
+/// A perfect mirror, with which mirrored() is the radiance of the environment.
 constexpr Gloss mirror{1, 1e6F, 1};
 
 /// The integral over the sphere of e · the green radiance of the soft lights, over pi.

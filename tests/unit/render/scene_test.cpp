@@ -1,4 +1,4 @@
-// Copies of meshes, against the same triangles as one mesh.
+// Copies of meshes, compared with the same triangles as one mesh.
 #include "render/draw.h"
 #include "unit/mesh/example_shapes.h"
 
@@ -131,7 +131,7 @@ TEST(Scene, LooksLikeOneMeshOfTheSameTriangles) {
             },
             options, team);
     }();
-    // Fewer rays are sent into thickets of copies: that adds grain, but no light.
+    // Among many copies fewer rays are sent, which adds grain but no light.
     double squares = 0;
     Colour sum{}, wanted_sum{};
     for (std::size_t k = 0; k < image.pixels.size(); ++k) {

@@ -1,4 +1,4 @@
-// Series of a run as one array, .npy or .csv.
+// The series of states that a run writes as one array, into a .npy or a .csv file.
 #include "run_fixture.h"
 
 #include "picture/npy_header.h"
@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 
 class ArraySeriesTest : public RunTest {
 protected:
-    /// The request of a run that writes the series `name`.
+    /// Requests a run that writes a series of states to the file `name`.
     RunRequest of(const std::string& name, std::vector<std::string> fields = {}) const {
         RunRequest wanted = request();
         wanted.series = path(name);
@@ -124,7 +124,7 @@ TEST_F(ArraySeriesTest, OfOtherDomainsHasTheirAxes) {
     EXPECT_TRUE(std::isnan(numbers<float>("grown.npy")[2]));
 }
 
-// As after a kill: nothing is written at the end.
+// The run ends as if it were killed: nothing is written at the end.
 TEST_F(ArraySeriesTest, CanBeReadIfTheRunFails) {
     Script script = load(
         "system s { u: 1; u' = u^3 }\ndomain { grid: 4, 4 }\n"

@@ -1,4 +1,5 @@
-// Steps and stages from bounds of the Jacobian.
+// Tests of the lengths of steps and the numbers of stages that are chosen from bounds of the
+// Jacobian.
 #include "run/stage/automatic_speed.h"
 
 #include "lang/program/program.h"
@@ -32,7 +33,7 @@ TEST(AutomaticSpeed, ReactionLimitsStepsAsToleranceDoes) {
     constexpr double usual = StageTime::default_automatic_tolerance;
     for (const Solver solver : {Solver::rkl1, Solver::rkl2, Solver::imex, Solver::etdrk4}) {
         EXPECT_EQ(reaction_part_at(solver, usual), reaction_part) << name_of(solver);
-        // A step of half the length has 1/2^k of the error.
+        // Half the step's length divides the error by 2^k, where k is the order of the estimate.
         const double shorter = usual * std::pow(0.5, order_of_estimate(solver));
         EXPECT_NEAR(reaction_part_at(solver, shorter), reaction_part / 2, 1e-12);
     }
@@ -41,7 +42,7 @@ TEST(AutomaticSpeed, ReactionLimitsStepsAsToleranceDoes) {
     EXPECT_LE(reaction_part_at(Solver::rkl1, 0.1), 6);
 }
 
-/// Evaluations of the rates for a unit of time.
+/// The number of evaluations of the rates per unit of time.
 double cost(const SafeStep& step) { return std::max(step.stages, 1u) / step.length; }
 
 TEST(AutomaticSpeed, StagesAreTakenWhereTheyPay) {

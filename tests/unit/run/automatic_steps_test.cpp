@@ -1,5 +1,5 @@
-// Steps of chosen length are accurate: rates that become stiff within a stage, by time, by growth
-// or at a threshold, are met by steps that are short enough.
+// Tests that a solver which chooses its steps is accurate: where rates become stiff within a stage,
+// with time, by growth or at a threshold, it takes steps that are short enough.
 #include "ran_text.h"
 #include "resumed_run.h"
 
@@ -15,7 +15,7 @@
 namespace cascade {
 namespace {
 
-/// Rates with the settings of a stage to its duration.
+/// A script with these rates and one stage of this duration.
 std::string script_of_duration(const std::string& rates, double duration,
                                const std::string& settings) {
     return fmt::format(
@@ -58,11 +58,11 @@ constexpr StiffCase stiff_cases[] = {
 /// The largest difference of the species' means and deviations, relative to their size.
 double difference(const Ran& a, const Ran& b) {
     double largest = 0;
-    for (std::size_t k = 0; k < a.state().species.size(); ++k) {
+    for (std::size_t k = 0; k < a.state().species().size(); ++k) {
         const FieldMoments apart =
-            moments_of_difference(a.state().species[k], b.state().species[k]);
-        largest = std::max(largest,
-                           apart.root_mean_square / moments(b.state().species[k]).root_mean_square);
+            moments_of_difference(a.state().species()[k], b.state().species()[k]);
+        largest = std::max(largest, apart.root_mean_square /
+                                        moments(b.state().species()[k]).root_mean_square);
     }
     return largest;
 }
@@ -102,7 +102,7 @@ TEST(ChosenSteps, AreNoLongerThanTheLargest) {
     }
 }
 
-/// Where nothing moves there is no error, and steps become as long as they may.
+/// Where no value changes there is no error, and steps grow to the largest length allowed.
 TEST(ChosenSteps, AreAsLongAsTheyMayWhereNothingMoves) {
     const Ran ran = run_text(
         script_of_duration("u: 1; u' = 0.1 * lap(u) + 0 * u", 1000, "solver: rkl1; speed: auto"));
@@ -121,8 +121,8 @@ TEST(ChosenSteps, DoNotShrinkAsDiffusionBecomesFaster) {
     }
 }
 
-/// The formula of a stage of rk45 has a rate of negative weight. It must not lift values off the
-/// bound that holds them, or the error falls only with the first power of the step.
+/// One of the stages of rk45 gives a rate a negative weight. This term must not lift values off the
+/// bound of an invariant, or else the error is only of first order in the step.
 TEST(Invariants, LeaveAdaptiveSolversTheirOrder) {
     const auto steps = [](const char* tolerance) {
         const Ran ran =
@@ -133,14 +133,14 @@ TEST(Invariants, LeaveAdaptiveSolversTheirOrder) {
                                  "stage one: s {{ duration: 3000; solver: rk45; tolerance: {} }}",
                                  tolerance));
         EXPECT_EQ(ran.failure, "");
-        EXPECT_EQ(ran.state().species[1].number_at(8, 0), 0) << "a value is held";
+        EXPECT_EQ(ran.state().species()[1].number_at(8, 0), 0) << "a value is held";
         return ran.state().steps;
     };
     EXPECT_LT(steps("0.00001"), 2 * steps("0.001"));
 }
 
-/// A value that leaves a bound a little later must not depend on the method: invariants hold in
-/// every stage.
+/// Invariants hold in every stage of a solver, so that all solvers agree on when a value leaves its
+/// bound.
 TEST(Invariants, GiveAllSolversTheSolutionOfEuler) {
     const std::string rates =
         "a: 4; b: 4; beta: random(12, 0.1)\n a' = 0.0125 * (16 - a * b) + 0.125 * lap(a)\n"
@@ -151,7 +151,7 @@ TEST(Invariants, GiveAllSolversTheSolutionOfEuler) {
                         {fastest_backend().name, 0, 1});
     };
     const Ran euler = run("speed: 0.25; iterations: 24000");
-    const double mean = moments(euler.state().species[1]).mean;
+    const double mean = moments(euler.state().species()[1]).mean;
     EXPECT_EQ(euler.failure, "");
     for (const char* settings :
          {"solver: rk2; speed: 1; iterations: 6000", "solver: rk4; speed: 1; iterations: 6000",
@@ -161,7 +161,7 @@ TEST(Invariants, GiveAllSolversTheSolutionOfEuler) {
           "solver: etdrk4; speed: auto; duration: 6000"}) {
         const Ran ran = run(settings);
         EXPECT_EQ(ran.failure, "") << settings;
-        EXPECT_NEAR(moments(ran.state().species[1]).mean / mean, 1, 0.002) << settings;
+        EXPECT_NEAR(moments(ran.state().species()[1]).mean / mean, 1, 0.002) << settings;
     }
 }
 
@@ -178,7 +178,7 @@ TEST(Invariants, AStageOfNoLengthEndsAtOnce) {
 
 class ChosenStepsRun : public ResumedRunTest {};
 
-/// Also within a stretch of steps between two estimates of an error.
+/// Runs are also stopped between two steps at which the error is estimated.
 TEST_F(ChosenStepsRun, ResumeWithTheSameBits) {
     for (const char* solver : {"euler", "rk4", "rkl1", "etdrk4"}) {
         const std::string text = script_of_duration(stiff_cases[1].rates, 9,

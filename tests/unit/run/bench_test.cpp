@@ -1,4 +1,4 @@
-// What a step costs, counted by hand; what bounds a step.
+// The work of a step against counts by hand, and what limits the speed of steps.
 #include "run/commands/bench.h"
 #include "run/simulation/stage_tools.h"
 #include "run/stage/step_work.h"
@@ -12,7 +12,7 @@ namespace {
 
 class BenchTest : public RunTest {
 protected:
-    /// The work of the first stage's steps, after one of them.
+    /// The work of a step of the first stage, counted after one step.
     StepWork work_of_text(const std::string& text) {
         Script script = load(text);
         EXPECT_TRUE(script.program) << script.messages(false);
@@ -34,7 +34,8 @@ domain { grid: 32, 16 }
 system heat { u: random(0.5, 0.5); d: 0.1; u' = d * lap(u) }
 stage s: heat { iterations: 10; speed: 1 }
 )");
-    // N + S + E + W − 4 c is five, d times it, the step's length times that, and the sum.
+    // N + S + E + W − 4 c takes five operations, the products with d and with the step's length one
+    // each, and adding the result to u one more.
     EXPECT_EQ(work.cost.operations, 8);
     EXPECT_EQ(work.cost.loads, 5);
     EXPECT_EQ(work.cost.stores, 1);
@@ -140,7 +141,7 @@ TEST_F(BenchTest, ACancelEndsItWithoutATable) {
     EXPECT_EQ(told, 0);
 }
 
-/// A hundred cells a step, of known work, on a machine of known limits.
+/// Steps of a hundred cells with known work, on a machine with known limits.
 StageBench known_bench() {
     StageBench bench;
     bench.grid = {10, 10};
@@ -163,7 +164,8 @@ StageBench known_bench() {
 
 TEST(Bounds, TheLargestShareBounds) {
     StageBench bench = known_bench();
-    // 1e8 cell-steps a second: 1e9 operations of 4e9, 2e9 bytes of 1e10, 8e8 bytes of 4e9.
+    // At 1e8 cell-steps a second the stage uses 1e9 of 4e9 operations, 2e9 of 1e10 bytes of the
+    // first-level cache, and 8e8 of 4e9 bytes of the second-level cache.
     auto bounds = bounds_of(bench);
     ASSERT_EQ(bounds.size(), 3u);
     EXPECT_NEAR(bounds[0].share(), 0.25, 1e-12);
@@ -176,7 +178,7 @@ TEST(Bounds, TheLargestShareBounds) {
     EXPECT_EQ(tightest(bounds_of(bench)).kind, Bound::Kind::home);
     EXPECT_NEAR(attainable(bench)->cell_steps_per_second, 1.25e8, 1);
     EXPECT_EQ(attainable(bench)->name, "memory");
-    // Less is asked of memory than is counted: something else bounds it.
+    // At this speed memory would carry more than it can, so it cannot be what bounds the stage.
     bench.step = 1e-7;
     EXPECT_NE(tightest(bounds_of(bench)).kind, Bound::Kind::home);
 }
@@ -193,8 +195,8 @@ TEST(Bounds, TilesShareTheBytesOfMemoryAndAreFedByACache) {
     EXPECT_NEAR(bounds[2].share(), 0.2, 1e-12);
     EXPECT_EQ(bounds[3].name, "planes, memory");
     EXPECT_NEAR(bounds[3].share(), 0.8 / 16, 1e-12);
-    // 1e9 bytes a second from memory for half a byte, 4e9 from the cache for 8, 4e9 operations
-    // for 10.
+    // A cell-step takes half a byte of the 1e9 that memory gives in a second, 8 bytes of the
+    // cache's 4e9, and 10 of 4e9 operations.
     EXPECT_NEAR(attainable(bench)->cell_steps_per_second, 4e8, 1);
     bench.work.bytes = 80;
     EXPECT_NEAR(attainable(bench)->cell_steps_per_second, 5e7, 1);

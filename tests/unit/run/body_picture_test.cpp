@@ -20,7 +20,7 @@
 namespace cascade {
 namespace {
 
-/// Of a field that is the depth below the surface of a ball of radius 0.3.
+/// A script whose u is the depth of a place below the surface of a ball of radius 0.3.
 std::string ball(const std::string& picture, const std::string& domain = "") {
     return "domain { grid: 24, 24, 24; boundary: noflux; " + domain + " }\n" +
            "system ball { u: 0.3 - sqrt((x - 0.5)^2 + (y - 0.5)^2 + (z - 0.5)^2); u' = 0 }\n"
@@ -62,7 +62,7 @@ TEST(BodyPicture, HasTheAreaAndVolumeOfABall) {
     using std::numbers::pi;
     EXPECT_NEAR(body.total_area(), 4 * pi * 0.09, 0.02 * 4 * pi * 0.09);
     EXPECT_NEAR(volume_of(body), 4 * pi * 0.027 / 3, 0.02 * 4 * pi * 0.027 / 3);
-    // Its colours are those of the places.
+    // Each point of the surface has the field's values at its own place.
     for (std::size_t k = 0; k < body.points.size(); ++k) {
         const auto n = static_cast<std::int64_t>(k);
         ASSERT_NEAR(drawn.canvas.fields[0].at(n, 0), body.points[k].x, 1e-5);
@@ -71,7 +71,7 @@ TEST(BodyPicture, HasTheAreaAndVolumeOfABall) {
 }
 
 TEST(BodyPicture, IsClosedBySidesAndMasks) {
-    // Half of the box.
+    // The body is one half of the box.
     const Drawn half(ball("body: 0.5 - x"));
     EXPECT_TRUE(is_closed(*half.canvas.body));
     EXPECT_NEAR(volume_of(*half.canvas.body), 0.5, 0.01);

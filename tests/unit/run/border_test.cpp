@@ -93,8 +93,8 @@ TEST(Border, AConstraintHoldsTheSidesOfTheSmallGrid) {
     }
 }
 
-/// What flows in is the flux times the length of the border, which is a staircase: the number of
-/// faces between a cell inside and one outside.
+/// The inflow is the flux times the length of the border. The border is a staircase: its length is
+/// the number of faces between a cell inside and a cell outside.
 TEST(Border, AFluxAddsTheLengthOfTheStaircase) {
     const int size = 40;
     const auto script = [size](const char* rates) {
@@ -126,7 +126,7 @@ TEST(Border, AFluxAddsTheLengthOfTheStaircase) {
     }
 }
 
-/// What one species loses at the border another one gains.
+/// At the border, one species gains what another one loses.
 TEST(Border, AMembraneKeepsTheSum) {
     const auto script = [](int steps) {
         return fmt::format(

@@ -1,6 +1,6 @@
-// Sides against calculus: manufactured solutions for every kind of side and of operator, values
-// that change with time under every solver, and the same bits whichever way. Closed solutions are
-// in tests/scripts/boundaries.
+// Rules at the sides of the domain against calculus: manufactured solutions for every kind of side
+// and operator, values that change with time under every solver, and the same bits however steps
+// are taken. Solutions in closed form are in tests/scripts/boundaries.
 #include "run/simulation/simulation.h"
 
 #include "run/script/script.h"
@@ -77,7 +77,7 @@ std::vector<Solution> solutions() {
     };
 }
 
-/// An operator, and what calculus says it is of w.
+/// An operator, and the exact result of applying it to w.
 struct OperatorCase {
     const char* name;
     const char* applied;
@@ -109,8 +109,9 @@ double error_of(const Solution& solution, const OperatorCase& each, int n) {
                          [&](double x, double y) { return solution.value(x, y, 0.25); });
 }
 
-/// Corners of sides with values, which mixed derivatives read, are known to first order, and so is
-/// a coefficient beyond a side: it is mirrored (spec/domain.md).
+/// Mixed derivatives read cells beyond the corners, which sides with values give to first order
+/// only. A coefficient beyond a side is of first order too, because it is mirrored
+/// (spec/domain.md).
 double expected_order(const Solution& solution, const OperatorCase& each) {
     const std::string where = fmt::format("{} at {}", each.name, solution.name);
     const bool is_first = where == "diffuse at fixed" || where == "diffuse at species" ||
@@ -145,7 +146,8 @@ TEST(Boundaries, EveryOperatorAtEveryKindOfSide) {
     }
 }
 
-/// u = x g(t), a line at every moment: exact in space, so that what is left is the solver's error.
+/// The solution u = x g(t) is linear in x, so operators are exact and all of the error is the
+/// solver's.
 double error_in_time(const std::string& solver, double step, const std::string& right) {
     const Ran ran =
         run_text(fmt::format("system line {{ u: x; u' = 0.5 * lap(u) + x * 2 * cos(2 * t)\n"
@@ -187,7 +189,8 @@ TEST(Boundaries, ASideThatReadsItsSpeciesIsRobins) {
         "system rod { u: 1; k: 2; u' = lap(u); u.right: slope(-k * u) }\n"
         "domain { grid: 32; spacing: 1/32; boundary: noflux; precision: double }\n"
         "stage only: rod { speed: 1/4096; iterations: 2048 }\n");
-    // The same by hand. The value at the face is (c + g) / 2, so (g - c) / h = -k (c + g) / 2.
+    // The same steps by hand. With c the last cell and g the cell beyond the side, the value at the
+    // face is (c + g) / 2, so (g - c) / h = -k (c + g) / 2.
     std::vector<double> u(34, 1), next(34);
     const double q = 2 * (1.0 / 32) / 2;
     for (int step = 0; step < 2048; ++step) {
@@ -201,7 +204,8 @@ TEST(Boundaries, ASideThatReadsItsSpeciesIsRobins) {
     for (int i = 0; i < 32; ++i) EXPECT_NEAR(ran.species().number_at(i, 0), u[i + 1], 1e-12) << i;
 }
 
-/// A script with a value at each of six sides, which `and_time` and `and_species` make change.
+/// A script with a value at each of six sides. `and_time` and `and_species` are added to make the
+/// values vary.
 std::string volume(const std::string& and_time, const std::string& and_species,
                    const std::string& solver) {
     return fmt::format(
@@ -226,7 +230,7 @@ TEST(Boundaries, ThreadsLanesAndBreaksChangeNothing) {
         for (const SimulationOptions& options :
              {SimulationOptions{"jit", 4, 3}, SimulationOptions{"jit", 16, 2}}) {
             const Ran other = run_text(text, options);
-            EXPECT_EQ(same_bits(one.state().species, other.state().species), "");
+            EXPECT_EQ(same_bits(one.state().species(), other.state().species()), "");
         }
 #endif
         Script script = load_script("test", text, ".");
@@ -238,7 +242,7 @@ TEST(Boundaries, ThreadsLanesAndBreaksChangeNothing) {
         ASSERT_TRUE(second->start_stage(0));
         restore(*second, 0, record_of(first->state(0), *first->domain().program, 0));
         ASSERT_TRUE(second->advance_stage(0, 25, control, {}));
-        EXPECT_EQ(same_bits(one.state().species, second->state(0).species), "");
+        EXPECT_EQ(same_bits(one.state().species(), second->state(0).species()), "");
     }
 }
 
@@ -261,7 +265,7 @@ TEST(Boundaries, SpeciesOfOneKernelMayHaveSidesOfDifferentKinds) {
                 ASSERT_TRUE(expected.simulation);
                 for (const int lanes : {4, 8, 16}) {
                     const Ran native = run_text(text, {"jit", lanes, 1});
-                    EXPECT_EQ(same_bits(expected.state().species, native.state().species), "")
+                    EXPECT_EQ(same_bits(expected.state().species(), native.state().species()), "")
                         << text;
                 }
             }
@@ -270,7 +274,8 @@ TEST(Boundaries, SpeciesOfOneKernelMayHaveSidesOfDifferentKinds) {
 }
 #endif
 
-/// What is beyond a side of a function is made of what is beyond it of the species.
+/// The value of a function beyond a side is computed from the values of the species beyond that
+/// side.
 TEST(BeyondSides, FunctionsAreMadeOfWhatStandsThere) {
     const auto after_a_step = [](const std::string& rate, const PlanOptions& planning) {
         SimulationOptions options{"interp", 0, 1};
@@ -290,7 +295,7 @@ TEST(BeyondSides, FunctionsAreMadeOfWhatStandsThere) {
                     1e-4);
         EXPECT_NEAR(after_a_step("lap(exp(u)) + 0 * mean(exp(u) over domain)", planning),
                     u0 + std::exp(ghost) + std::exp(u1) - 2 * std::exp(u0), 1e-4);
-        // The operator inside is mirrored, the rest is not.
+        // Beyond the side, the result of the inner operator is mirrored, the species are not.
         const double lap0 = ghost + u1 - 2 * u0, lap1 = u0 + 1.625 - 2 * u1;
         EXPECT_NEAR(after_a_step("lap(u^2 - lap(u))", planning),
                     u0 + (ghost * ghost - lap0) + (u1 * u1 - lap1) - 2 * (u0 * u0 - lap0), 1e-4);

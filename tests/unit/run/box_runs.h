@@ -1,4 +1,4 @@
-// A box in a mask against a grid of its size: scripts for both, and the comparison.
+// Compares a run inside a box-shaped mask with the run on a grid of the box's size.
 #pragma once
 
 #include "mask_runs.h"
@@ -12,8 +12,9 @@
 
 namespace cascade::test {
 
-/// Systems in p, q and r, which count the cells of a box from its corner: each with another
-/// operator. Everything differs from cell to cell, so that a wrong neighbour shows.
+/// A system with these rates, which may use p, q and r, the cell's numbers from a corner of the
+/// box. All starting values differ from cell to cell, so that reading a wrong neighbour changes the
+/// result.
 inline std::string system_of(const std::string& rates) {
     return "system s {\n"
            "  p: P; q: Q; r: R\n"
@@ -43,9 +44,9 @@ inline const Operator operators_of_planes[] = {
      "u' = div(tensor(1, 0.2, a) * grad(u))\nv' = div(tensor(k, 0.5, 1) * grad(u * v))\n"},
 };
 
-/// The part of a large grid inside of a box against a small grid of its own, cell by cell. Rates
-/// may end with rules for u.WALL and so on: of the border of the box, or of the sides of the small
-/// grid.
+/// Compares the cells of a large grid inside a box with a small grid of the box's size, cell by
+/// cell. Rates may end with rules for u.WALL and the like, where WALL becomes the border of the
+/// box's mask or the sides of the small grid.
 inline void expect_box_is_grid(const std::string& rates, const std::string& stage, GridSize large,
                                GridSize small, GridSize corner, const std::string& what) {
     const auto with_walls = [](std::string text, std::string_view name) {

@@ -1,5 +1,5 @@
-// Models that pages carry: they come back as they were, or are refused. The sanitizers' build is
-// where damaged ones bite.
+// Models that pages carry are read as they were written, or are refused. Damaged models do visible
+// harm only in the build with sanitizers.
 #include "run/domain/carried_model.h"
 
 #include "core/file.h"
@@ -41,7 +41,7 @@ protected:
     std::shared_ptr<const ModelCells> linked(CarriedModel carried) {
         return link_carried_model(*run_.script().program, std::move(carried));
     }
-    /// Refused, or cells that can be linked.
+    /// Expects that the bytes are refused or describe cells that can be linked.
     void expect_sound(const std::string& bytes) {
         auto carried = parse_carried_model(bytes);
         if (!carried) return;

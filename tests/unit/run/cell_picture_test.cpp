@@ -20,7 +20,7 @@ DrawOptions small_picture(std::int64_t side) {
     return options;
 }
 
-/// A surface with what it takes to draw it.
+/// A surface with its cells and everything else that drawing needs.
 struct Scene {
     SurfaceMesh mesh;
     SurfaceCells cells;
@@ -52,7 +52,7 @@ Colour black_or_white(std::span<const float> values, const SurfacePlace&) {
     return {shade, shade, shade};
 }
 
-/// Of what is not background, red and green and blue together.
+/// The mean of red + green + blue over all pixels that are not background.
 double mean_light(const Image& image) {
     double sum = 0;
     for (const Colour& pixel : image.pixels) {
@@ -72,7 +72,7 @@ TEST(CellPicture, ASphereIsLitFromTheLeft) {
 
 TEST(CellPicture, ColoursAreWhereTheCellsAre) {
     Scene cube(box(), 800);
-    // Seen from −y, x grows to the right: red there, blue to the left.
+    // Seen from −y, x grows to the right, so the right is red and the left is blue.
     const std::vector<float> values = cube.values([](Vector3d p) { return p.x; });
     const auto colour = [](std::span<const float> v, const SurfacePlace&) -> Colour {
         return v[0] > 0.5F ? Colour{0.8F, 0, 0} : Colour{0, 0, 0.8F};
@@ -97,7 +97,7 @@ TEST(CellPicture, ACubeHasEdgesAndASphereHasNone) {
 
 TEST(CellPicture, BumpsAreLitFromTheLeftToo) {
     Scene flat(square(), 3000);
-    // A ridge along y in the middle, seen from above.
+    // A ridge along y in the middle of the square, seen from above.
     const std::vector<float> values(3000, 0.5F);
     const std::vector<float> heights =
         flat.values([](Vector3d p) { return 0.05 * std::exp(-100 * (p.x - 0.5) * (p.x - 0.5)); });
@@ -110,7 +110,8 @@ TEST(CellPicture, BumpsAreLitFromTheLeftToo) {
         for (std::int64_t y = 30; y < 70; ++y) sum += static_cast<double>(image.at(x, y)[0]);
         return sum / 40;
     };
-    // Its left slope faces the sun, its right one does not; far from it nothing has changed.
+    // The left slope of the ridge faces the sun, the right one does not, and far from the ridge
+    // nothing has changed.
     EXPECT_GT(mean_of_column(bumpy, 44), mean_of_column(plain, 44) + 0.01);
     EXPECT_LT(mean_of_column(bumpy, 56), mean_of_column(plain, 56) - 0.03);
     EXPECT_NEAR(mean_of_column(bumpy, 15), mean_of_column(plain, 15), 0.002);
@@ -147,7 +148,8 @@ TEST(CellPicture, FarViewsKeepTheirLight) {
 
 TEST(CellPicture, FarViewsDoNotShimmer) {
     Scene ball(sphere(20), 20'000);
-    // A chequered pattern, much finer than pixels; turning the sphere a little changes nothing.
+    // The squares of this pattern are much smaller than pixels, so turning the sphere a little
+    // changes nothing.
     const std::vector<float> values = ball.values([](Vector3d p) {
         return std::sin(50 * p.x) * std::sin(50 * p.y) * std::sin(50 * p.z) > 0 ? 1 : -1;
     });

@@ -16,7 +16,7 @@
 namespace cascade {
 namespace {
 
-/// The unit ball, with facets about 1/1000 from it.
+/// The unit ball, made of facets at most about 1/1000 away from the sphere.
 TriangleMesh fine_ball() {
     constexpr std::uint32_t rows = 64, columns = 128;
     TriangleMesh ball;
@@ -88,7 +88,8 @@ TEST(CellsFromOutside, MapsOfABallAreThoseOfItsFormula) {
 }
 
 TEST(CellsFromOutside, AnotherPartOfTheSurfaceHidesNothing) {
-    // A square that looks upwards, and 0.3 above it one that looks downwards and has the ball.
+    // A square that faces upwards, and 0.3 above it another one that faces downwards and carries a
+    // ball.
     PolygonSoup soup;
     for (const double z : {0.0, 0.3}) {
         const auto first = static_cast<std::uint32_t>(soup.points.size());
@@ -105,7 +106,8 @@ TEST(CellsFromOutside, AnotherPartOfTheSurfaceHidesNothing) {
     int seen = 0;
     for (std::uint32_t triangle = 0; triangle < mesh.triangles.size(); ++triangle) {
         for (std::size_t corner = 0; corner < 3; ++corner) {
-            // Close to the middle of an edge, which is that of the square or of one of its sides.
+            // A place close to the middle of a triangle's edge: the diagonal or a side of the
+            // square.
             std::array<double, 3> weights{0.495, 0.495, 0.495};
             weights[corner] = 0.01;
             const SurfacePlace place{triangle, weights};

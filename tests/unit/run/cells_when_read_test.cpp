@@ -1,5 +1,6 @@
-// Where all stages are of cells that crawl, the cells of the model are made when something reads a
-// value in them, and have the same values then. Whether they were made is seen by the cache.
+// If all stages are of cells that crawl, the cells of the model are made only when something reads
+// a value in them, and the values are the same as if they had been made at the start. The tests
+// look into the cache to see whether they were made.
 #include "ran_text.h"
 
 #include "lang/check/check.h"
@@ -36,7 +37,7 @@ protected:
     }
     static std::vector<double> shown(const Ran& ran) {
         const auto values = ran.simulation->evaluate(ran.script.program->stages[0].show, 0);
-        return number_order(values[0], *ran.state().tissue);
+        return number_order(values[0], *ran.state().tissue());
     }
     bool has_cells_of_model() const { return !std::filesystem::is_empty(cache_); }
 
@@ -70,7 +71,8 @@ TEST_F(CellsWhenReadTest, WhatIsReadLaterIsWhatARuleReads) {
         parse_expression(source, later.script.sources, later.script.tree, diagnostics);
     const auto view = check_view(later.script.tree, *read, 0, 0, *later.script.program,
                                  later.script.sources, diagnostics);
-    EXPECT_EQ(number_order(later.simulation->evaluate(*view, 0)[0], *later.state().tissue), known);
+    EXPECT_EQ(number_order(later.simulation->evaluate(*view, 0)[0], *later.state().tissue()),
+              known);
     EXPECT_TRUE(has_cells_of_model());
 }
 

@@ -1,5 +1,5 @@
-// Runs that are kept while they run: keeping changes no bit, and whatever was kept ends with the
-// bits of a run in one go.
+// Runs whose state is saved while they run: saving changes no bit, and a run that is resumed from
+// any saved state ends with the bits of an uninterrupted run.
 #include "resumed_run.h"
 
 #include <gmock/gmock.h>
@@ -15,8 +15,8 @@ namespace fs = std::filesystem;
 
 class CheckpointTest : public ResumedRunTest {
 protected:
-    /// Saves the state at every moment at which it can be kept, in kept0, kept1, …; returns how
-    /// many they are.
+    /// Saves the state at every moment at which this is possible, in the folders kept0, kept1, ….
+    /// Returns their number.
     int keep_all(const std::string& text) {
         Script script = load(text);
         auto made = Simulation::create(script, request().simulation);
@@ -55,7 +55,8 @@ protected:
         }
     }
 
-    /// Some of the states that are kept, each gone on with to the end.
+    /// Resumes from some of the saved states, and expects the bits of an uninterrupted run at the
+    /// end.
     void expect_no_bit_to_change(const std::string& text) {
         run_whole(text);
         const int count = keep_all(text);
@@ -112,7 +113,7 @@ TEST_F(CheckpointTest, ARunIsKeptWhereItIsSavedWhenTheTimeHasCome) {
     wanted.checkpoint_seconds = 1e-9;
     RunControl control;
     std::set<std::string> seen;
-    // As it is told how far it is, it has kept what was before.
+    // When a run reports its progress, it has already saved the state before the report.
     control.report = [&](const Progress&) {
         if (fs::exists(path("saved/run.json"))) seen.insert(bytes("saved/run.json"));
     };
@@ -129,7 +130,7 @@ TEST_F(CheckpointTest, WhatCannotBeKeptDoesNotEndTheRun) {
     RunControl control;
     bool has_gone = false;
     control.report = [&](const Progress&) {
-        // Somebody puts a file of another program in the way, for a while.
+        // For a while, the folder has a run.json that another program wrote.
         if (!has_gone && fs::exists(path("saved"))) {
             fs::remove_all(path("saved"));
             fs::create_directory(path("saved"));
@@ -144,8 +145,10 @@ TEST_F(CheckpointTest, WhatCannotBeKeptDoesNotEndTheRun) {
     };
     ASSERT_TRUE(run(script, wanted, control));
     ASSERT_EQ(warnings.size(), 1u);
-    EXPECT_THAT(warnings[0], HasSubstr("the run could not be saved at stage 'large', step "));
-    EXPECT_THAT(warnings[0], HasSubstr("and continues: '"));
+    EXPECT_THAT(warnings[0],
+                HasSubstr(
+                    "the run continues, although it could not be saved at stage 'large', step "));
+    EXPECT_THAT(warnings[0], HasSubstr(": '"));
     EXPECT_TRUE(fs::exists(path("saved/small.b.npy")));
 }
 

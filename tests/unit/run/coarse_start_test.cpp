@@ -1,5 +1,6 @@
-// Stages that start on coarser grids: as good a pattern as of a fine run, and where a run may be
-// stopped. What each grid starts with is in tests/scripts/steps.
+// Stages that start on coarser grids: their pattern is as good as that of a run on the fine grid
+// alone, and a run may be stopped on any grid. What each grid starts with is tested in
+// tests/scripts/steps.
 #include "ran_text.h"
 #include "resumed_run.h"
 
@@ -35,8 +36,8 @@ TEST(CoarseStart, GrowsAsGoodAPattern) {
     };
     const Ran fine = spots("iterations: 28000");
     const Ran coarse = spots("iterations: 1750; start: coarse(4)");
-    const Field& expected = fine.simulation->state(0).species[1];
-    const Field& found = coarse.simulation->state(0).species[1];
+    const Field& expected = fine.simulation->state(0).species()[1];
+    const Field& found = coarse.simulation->state(0).species()[1];
     EXPECT_NEAR(wavelength(found) / wavelength(expected), 1, 0.08);
     EXPECT_NEAR(moments(found).mean / moments(expected).mean, 1, 0.03);
     EXPECT_NEAR(moments(found).deviation / moments(expected).deviation, 1, 0.08);

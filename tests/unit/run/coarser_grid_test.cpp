@@ -1,5 +1,6 @@
-// Stages on coarser grids: their steps are those of such a grid, a run may be stopped in them, and
-// what is painted and divided in them. Their values are in tests/scripts/steps.
+// Stages on coarser grids: they take the steps of a domain with that grid, a run may be stopped in
+// them, and they may be painted and drawn with --detail. Their values are tested in
+// tests/scripts/steps.
 #include "detailed_simulations.h"
 #include "ran_text.h"
 #include "resumed_run.h"
@@ -28,7 +29,7 @@ TEST(CoarserGrid, TakesTheStepsOfAGridOfItsCells) {
     for (const SimulationOptions& options : {interpreted(), compiled()}) {
         const Ran expected = run_text(all_lengths + plain, options);
         const Ran found = run_text(all_lengths + wide, options);
-        EXPECT_EQ(same_bits(found.state().species, expected.state().species), "");
+        EXPECT_EQ(same_bits(found.state().species(), expected.state().species()), "");
         EXPECT_EQ(found.simulation->domain().grid.width, 96);
         EXPECT_EQ(found.simulation->domain(0).grid.width, 24);
     }
@@ -49,7 +50,7 @@ TEST(CoarserGrid, KeepsWhatAStrokeDoesNotReach) {
     Field more(simulation.field(0, ItemId(0)));
     for (std::int64_t j = 0; j < 8; ++j) more.row(j)[9] += 2;
     const Field painted = in_cells_of(simulation, 0, ItemId(0), std::move(more));
-    const Field& own = ran.state().species[0];
+    const Field& own = ran.state().species()[0];
     EXPECT_NEAR(painted.row(2)[4], own.row(2)[4] + 1, 1e-5) << "half of the cells of a wider one";
     EXPECT_EQ(painted.row(4)[4], own.row(4)[4]);
     EXPECT_EQ(painted.row(2)[5], own.row(2)[5]);

@@ -1,5 +1,5 @@
-// Directions that cells comb on closed surfaces: what topology demands of their singular places,
-// and that combing leaves few others.
+// Directions that cells comb on closed surfaces: the sum of the indices of their singular places is
+// the one that topology demands, and combing leaves few other singular places.
 #include "run/pictures/drawn_cells.h"
 #include "started_script.h"
 
@@ -21,7 +21,8 @@ namespace {
 
 using test::start;
 
-/// Directions at the points of a mesh: of the cells around each, those nearby most of all.
+/// A direction at each point of a mesh: the tangential part of the sum of all cells' directions,
+/// weighted by nearness.
 std::vector<Vector3d> directions_at(const std::vector<Vector3d>& points,
                                     const std::vector<Vector3d>& normals,
                                     const PlacedFrames& cells) {
@@ -39,7 +40,8 @@ std::vector<Vector3d> directions_at(const std::vector<Vector3d>& points,
     return directions;
 }
 
-/// A tangent vector carried to where the normal is another one, by the rotation between the two.
+/// A tangent vector carried from a place with the normal `from` to one with the normal `to`, by the
+/// rotation that takes one normal to the other.
 Vector3d carried(const Vector3d& v, const Vector3d& from, const Vector3d& to) {
     return v - (from + to) * (dot(v, to) / (1 + dot(from, to)));
 }
@@ -50,12 +52,12 @@ double angle(const Vector3d& a, const Vector3d& b, const Vector3d& axis) {
 }
 
 struct Singularities {
-    int sum = 0;    ///< Of their indices.
-    int count = 0;  ///< The number of triangles that have one.
+    int sum = 0;    ///< The sum of all indices.
+    int count = 0;  ///< The number of triangles with an index.
 };
 
-/// A direction that is carried along with the field around a triangle has turned by 2π times the
-/// index of what is singular inside, and by the little that the surface bends there.
+/// The field turns along the border of a triangle by 2π times the index of the singular place
+/// inside, and by a small angle that comes from the curvature of the surface.
 Singularities singularities(const SurfaceMesh& mesh, const std::vector<Vector3d>& normals,
                             const std::vector<Vector3d>& directions) {
     Singularities result;
@@ -75,7 +77,7 @@ Singularities singularities(const SurfaceMesh& mesh, const std::vector<Vector3d>
 
 class Combing : public ::testing::Test {
 protected:
-    /// Of the cells of a stage at its end.
+    /// The singular places of the directions of a stage's cells at its end.
     Singularities after(const std::string& text) {
         Script script = load_script("test.cascade", text, ".");
         const auto simulation = start(script);

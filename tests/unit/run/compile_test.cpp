@@ -18,8 +18,8 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// Starts stage $ of $$, takes argv[1] steps and writes all species. SET stands for what the
-/// program sets before the start.
+/// A C program that starts the stage `$`, takes argv[1] steps and writes all species. SET is
+/// replaced by what the program sets before the start.
 constexpr const char* c_program = R"(
 #include "step.h"
 #include <stdio.h>
@@ -95,7 +95,7 @@ protected:
         run_well(script, wanted);
     }
 
-    /// The program's species are those of the run that was saved in "end".
+    /// Runs the program, and expects the species of the run that was saved in "end".
     void expect_same_bits(const std::string& stage, const std::vector<std::string>& species,
                           const std::string& steps) {
         ASSERT_EQ(command("./program " + steps + " > out.raw"), 0);
@@ -109,7 +109,8 @@ protected:
         EXPECT_EQ(std::memcmp(raw.data(), expected.data(), raw.size()), 0);
     }
 
-    /// A script of one stage, `only`, that needs nothing from outside.
+    /// Compares the program with a run. The script has one stage, `only`, whose program has to set
+    /// nothing.
     void expect_bits_of_run(const std::string& text, const std::vector<std::string>& species,
                             std::optional<std::uint32_t> stages = {}) {
         save_stopped_at(text, "only", 23, "end");
@@ -129,7 +130,7 @@ protected:
     }
 };
 
-/// Sets what the second of two_stages reads of the first.
+/// C code that sets the values which the second stage of two_stages reads from the first one.
 constexpr const char* load_large = R"(
     load(s.planes[TEST_SMALL_PLANE_LARGE_A], "start/large.a.npy");
     load(s.planes[TEST_SMALL_PLANE_LARGE_B], "start/large.b.npy");
@@ -252,7 +253,7 @@ stage only: heat { u.front: slope(0.1 * sy); u.back: fixed(sx); u.top: fixed(1);
                        {"u"});
 }
 
-/// Its diffusion takes coefficients of cells, which no step changes.
+/// A script whose diffusion has coefficients for each cell that no step changes.
 constexpr const char* spots_on_torus = R"(
 domain {
   grid: 36, 12
@@ -261,7 +262,7 @@ domain {
 stage only: turing_spots { speed: 0.5; ka: 1/60 }
 )";
 
-// A run keeps what no step changes, a compiled stage computes it again.
+// Values that no step changes are kept by a run, and computed again by a compiled stage.
 TEST_F(CompileTest, FastSteps) {
     if (!has_multiply_add()) GTEST_SKIP() << "this processor has no multiply-add";
     overrides_.fast = true;
@@ -321,7 +322,8 @@ stage only: spread { speed: 1.5; solver: SOLVER }
 )";
     for (const std::string solver : {"rkl1", "rkl2"}) {
         SCOPED_TRACE(solver);
-        // The bound is (8 · 2 + 0.1) · 1.5 = 24.15: 5 stages are stable to 30, and to 14.
+        // The bound is (8 · 2 + 0.1) · 1.5 = 24.15. With 5 stages, rkl1 is stable up to 30, but
+        // rkl2 only up to 14.
         expect_bits_of_run(replaced(text, "SOLVER", solver), {"u"}, solver == "rkl1" ? 5 : 7);
     }
 }
@@ -390,11 +392,13 @@ TEST_F(CompileTest, StepsOfChosenLengthAreRefused) {
     const auto message = [&](const std::string& statements, const CompileRequest& wanted = {}) {
         return refused("stage only: turing_spots { " + statements + " }", wanted).message;
     };
-    EXPECT_EQ(message("solver: rk23; duration: 10"),
-              "stage 'only' is solved by rk23, which chooses its steps as it runs, but compiled "
-              "steps are of one length");
-    EXPECT_EQ(message("speed: auto; duration: 10"),
-              "stage 'only' chooses its steps as it runs, but compiled steps are of one length");
+    EXPECT_EQ(
+        message("solver: rk23; duration: 10"),
+        "stage 'only' is solved by rk23, which chooses its steps during the run, but compiled "
+        "steps are of one length");
+    EXPECT_EQ(
+        message("speed: auto; duration: 10"),
+        "stage 'only' chooses its steps during the run, but compiled steps are of one length");
     EXPECT_EQ(message("solver: rkl1; duration: 10"),
               "stage 'only' is solved by rkl1, which chooses the number of its stages as it "
               "runs, but a compiled step has a fixed number");

@@ -29,7 +29,7 @@ std::vector<double> final_values(const std::string& text, int threads) {
     EXPECT_TRUE(
         simulation->advance_stage(0, script.program->stages[0].iterations, control, nullptr));
     std::vector<double> values;
-    const Field& field = simulation->state(0).species[0];
+    const Field& field = simulation->state(0).species()[0];
     field.visit([&](const auto& plane) {
         for (std::int64_t row = 0; row < plane.layout().row_count(); ++row) {
             const auto* const cells = plane.row(row);
@@ -39,8 +39,8 @@ std::vector<double> final_values(const std::string& text, int threads) {
     return values;
 }
 
-/// −∇·(k ∇φ) + φ = ρ on the unit square, with k = 1 + x / 2 and ρ so that φ = cos(πx) cos(2πy),
-/// which has no flux through the sides.
+/// The error of φ for −∇·(k ∇φ) + φ = ρ on the unit square, with k = 1 + x / 2. ρ is chosen so that
+/// the solution is φ = cos(πx) cos(2πy), which has no flux through the sides.
 double error_with_constraint(int side) {
     const std::vector<double> found = final_values(
         fmt::format(
@@ -76,7 +76,7 @@ TEST(Constraints, HaveErrorsOfSecondOrderWhereCoefficientsVary) {
     EXPECT_LT(finest, 3e-3);
 }
 
-/// What is left of the equation in a cell, where `extra` and the domain are given.
+/// The largest residual of the equation 0 = lap(φ) + ρ, with the terms `extra` added, in any cell.
 double largest_rest(const std::string& extra, const std::string& domain) {
     const std::vector<double> rest = final_values(
         "system s { u: 0; w: random(0, 1); rho = w - mean(w over domain)\n"
@@ -96,9 +96,8 @@ double largest_rest(const std::string& extra, const std::string& domain) {
     return largest;
 }
 
-/// The last row of 500 cells is not full.
-/// After the first iteration, all that is left is where the coefficient varies, at a right angle to
-/// the residual that the iterations began with.
+/// The last row of 500 cells is not full. After the first iteration, the residual is nonzero only
+/// where the coefficient varies, and orthogonal to the first residual.
 TEST(Constraints, AreSolvedWhereCoefficientsVaryFarFromTheSource) {
     const std::vector<double> rest = final_values(
         "system s {\n"

@@ -1,5 +1,5 @@
-// Runs that are asked for in a way that does not fit their script, and files of earlier runs that
-// have been damaged since: a message for each, and never a crash.
+// Requests that do not fit their script, and damaged files of earlier runs: each gives a message,
+// and none a crash.
 #include "run/simulation/stage_record.h"
 #include "run_fixture.h"
 
@@ -45,7 +45,7 @@ protected:
         return run_badly(*script, wanted);
     }
 
-    /// The faults of a request that does not fit, as they are drawn.
+    /// The messages about the faults of a request that does not fit its script.
     std::string faults(const RunRequest& request, const Overrides& overrides = {}) {
         Script script = load(two_stages, overrides);
         run_badly(script, request);
@@ -85,7 +85,7 @@ TEST_F(DamagedTest, WhatAManifestRepeatsOfItsScriptMustAgreeWithIt) {
 }
 
 TEST_F(DamagedTest, ArraysWithValuesThatAreNotFiniteAreRefused) {
-    // As a run of an earlier version, which has no checksums.
+    // Saved runs of earlier versions have no checksums.
     EXPECT_THAT(resume_with([this](auto& run) {
                     run.erase("files");
                     std::string array = bytes("saved/large.b.npy");
@@ -106,7 +106,7 @@ TEST_F(DamagedTest, AStartThatIsNotFiniteIsToldAtAnyStep) {
     ASSERT_TRUE(simulation);
     ASSERT_TRUE((*simulation)->start_stage(0));
     StageRecord record = record_of((*simulation)->state(0), *(*simulation)->domain().program, 0);
-    record.fields.at("b").at(3, 2) = INFINITY;
+    std::get<RecordedFields>(record.values).at("b").at(3, 2) = INFINITY;
     record.steps = 70;
     record.t = 70;
     restore(**simulation, 0, std::move(record));
@@ -174,7 +174,7 @@ TEST_F(DamagedTest, ARefusedRunLeavesNoFolder) {
     run_badly(script, wanted);
     EXPECT_FALSE(std::filesystem::exists(wanted.frames));
     EXPECT_FALSE(std::filesystem::exists(wanted.save));
-    // The same file, missing in two places, is one fault; a device is no file at all.
+    // A missing file that two places name is reported once, and a device is refused.
     const std::string messages = script.messages(false);
     EXPECT_THAT(messages, HasSubstr("test.cascade:1:34: error: cannot read"));
     EXPECT_THAT(messages, HasSubstr("test.cascade:2:10: error: '/dev/zero' is a pipe or a device"));

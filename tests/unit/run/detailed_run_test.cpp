@@ -1,4 +1,4 @@
-// `--detail` as a part of a run: what is shown, what is saved, what is refused.
+// `--detail` in runs: what pictures show, what is saved, and what is refused.
 #include "resumed_run.h"
 
 #include <utility>
@@ -21,7 +21,7 @@ protected:
         return wanted;
     }
 
-    /// The pixels across and down, which a PNG begins with.
+    /// The width and height in pixels, from the header of a PNG.
     std::pair<int, int> size_of(const std::string& picture) const {
         const std::string png = bytes(picture);
         if (png.size() < 24) return {0, 0};
@@ -74,7 +74,7 @@ TEST_F(DetailedRunTest, TheRunItselfIsThatOfTheScriptsCells) {
     run_well(script, wanted);
     for (const std::string array : {"large.b", "small.a", "small.b", "small.frozen"})
         EXPECT_EQ(bytes("saved/" + array + ".npy"), bytes("whole/" + array + ".npy")) << array;
-    // It is carried from there to the same picture, though no step is left.
+    // Resumed from the saved run, which has no step left, the finer run gives the same picture.
     auto saved = load_saved_script(path("saved"), {});
     ASSERT_TRUE(saved);
     RunRequest later = detailed("later.png");

@@ -20,8 +20,8 @@ namespace cascade::test {
 
 class DetailedSimulations {
 public:
-    /// Runs all stages, carries them to cells `times` as short, and lets the last one settle unless
-    /// `settles` is false.
+    /// Runs all stages, carries their values to a grid whose cells are shorter by the factor
+    /// `times`, and lets the last stage settle there unless `settles` is false.
     explicit DetailedSimulations(const std::string& text, std::int64_t times = 2,
                                  SimulationOptions options = interpreted(), bool settles = true)
         : coarse_script_(std::make_unique<Script>(load_script("test", text, "."))),
@@ -45,7 +45,7 @@ public:
         EXPECT_TRUE(end) << text << (end ? "" : end.error().message);
     }
 
-    /// An item of a stage: its plane, in the coarse or the finer run.
+    /// The plane of an item of a stage in one of the two runs.
     const Field& field(const Simulation& of, const std::string& name,
                        std::uint32_t stage = 0) const {
         return of.state(stage).field(item(of, name, stage));

@@ -1,4 +1,5 @@
-// Diffusion with a direction on models: waves along and across it, sums, and all kinds of cells.
+// Diffusion with a direction on models: waves along and across the direction, sums that are
+// conserved, and all kinds of cells.
 #include "run_fixture.h"
 #include "run/domain/model_cells.h"
 #include "torus_triangles.h"
@@ -16,7 +17,7 @@ namespace {
 using std::numbers::pi;
 using test::Triangles;
 
-/// A square of side 1 in the plane of x and y, n · n squares cut in two.
+/// A mesh of the unit square in the plane z = 0: n · n squares, each cut into two triangles.
 std::string square(int n) {
     std::string text;
     for (int j = 0; j <= n; ++j) {
@@ -56,7 +57,7 @@ protected:
 
     std::vector<std::vector<double>> all() const {
         std::vector<std::vector<double>> values;
-        for (const Field& field : simulation_->state(0).species)
+        for (const Field& field : simulation_->state(0).species())
             values.push_back(cell_values(field, *simulation_->domain().model->cells));
         return values;
     }
@@ -75,7 +76,7 @@ protected:
     double sum(const std::vector<double>& a) const {
         return product(a, std::vector<double>(a.size(), 1));
     }
-    /// The rate at which what a species began with decays.
+    /// The rate at which the starting values of a species decay.
     double rate(std::size_t species) const {
         return -std::log(product(before_[species], after_[species]) /
                          product(before_[species], before_[species])) /
@@ -102,7 +103,8 @@ TEST_F(DirectedDiffusionTest, WavesDecayAsAlongAndAcross) {
         EXPECT_NEAR(errors[n][0], 0, 0.1) << domains[n];
         EXPECT_NEAR(errors[n][1], 0, 0.03) << domains[n];
     }
-    // Of second order; the error across is so small that the places of the cells show.
+    // Both errors are of second order. The second one is so small that the irregular places of the
+    // cells affect the quotient.
     EXPECT_NEAR(errors[0][0] / errors[1][0], 4, 1);
     EXPECT_NEAR(errors[0][1] / errors[1][1], 4, 2);
     for (const char* cells : {"faces", "vertices"}) {
@@ -117,8 +119,8 @@ TEST_F(DirectedDiffusionTest, WavesDecayAsAlongAndAcross) {
 }
 
 TEST_F(DirectedDiffusionTest, ASpotBecomesTheEllipseOfItsTensor) {
-    // The matrix of second moments grows by 2 t A, here along a line that rises by a right angle's
-    // half: clockwise from the right that is -pi/4.
+    // The matrix of second moments grows by 2 t A. The direction rises by 45 degrees to the right.
+    // Angles count clockwise from the right, so this is -pi/4.
     ASSERT_TRUE(write_file(path("square.obj"), square(20)));
     constexpr double t = 4e-4;
     for (const char* theta : {"along(axis(1, 1, 0))", "along(vector(-1, -1, 3))", "-pi/4",
@@ -191,7 +193,7 @@ TEST_F(DirectedDiffusionTest, OfEqualRatesIsTheLaplacian) {
 }
 
 TEST_F(DirectedDiffusionTest, FollowsAFieldThatTurns) {
-    // The direction is the gradient of a species, or across it.
+    // The direction is along the gradient of a species, or at a right angle to the gradient.
     run("surface: sphere; cells: 2000",
         "v: y\n u: noise(0.1)\n w: u\n s: u\n"
         "u' = diffuse(u, 1, 0.3, along(grad(v)))\n w' = diffuse(w, 1, 0.3, along(axis(0, 1, 0)))\n"
@@ -199,7 +201,7 @@ TEST_F(DirectedDiffusionTest, FollowsAFieldThatTurns) {
         0.05, 60);
     double largest = 0, apart = 0;
     for (std::size_t k = 0; k < after_[0].size(); ++k) {
-        // Near the poles the gradient of y is small, and its direction is that of rounding.
+        // Near a pole the gradient of y is so small that rounding determines its direction.
         if (std::abs(before_[0][k]) < 0.05) continue;
         largest = std::max(largest, std::abs(after_[1][k] - after_[2][k]));
         apart = std::max(apart, std::abs(after_[1][k] - before_[1][k]));

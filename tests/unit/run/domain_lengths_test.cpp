@@ -41,7 +41,7 @@ TEST(DomainLengthsInRuns, AgreeWithTheoryOnAnyGrid) {
         errors.push_back(std::abs(decayed - std::exp(-rate * 0.1)));
         EXPECT_NEAR(ran.species(2).number_at(0, 0), 0.1 * 2 * std::numbers::pi * 0.01, 1e-7);
     }
-    // Of second order in the spacing.
+    // The errors are of second order in the spacing.
     EXPECT_NEAR(errors[0] / errors[1], 4, 0.2);
     EXPECT_NEAR(errors[1] / errors[2], 4, 0.1);
 }

@@ -1,4 +1,4 @@
-// Errors that are known before the cells of a model are made are reported before that.
+// Errors that can be found without the cells of a model are reported before these cells are made.
 #include "run/commands/run.h"
 #include "run/script/script.h"
 
@@ -55,7 +55,7 @@ TEST(EarlyErrors, ComeBeforeCellsAreMade) {
 }
 
 TEST(EarlyErrors, OfTextureCoordinates) {
-    // A square with a picture of a tile of which there are a hundred.
+    // A square whose texture repeats a tile a hundred times.
     const char* const name = "early_errors.obj";
     std::ofstream(name) << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
                            "vt 0 0\nvt 10 0\nvt 10 10\nvt 0 10\nf 1/1 2/2 3/3 4/4\n";

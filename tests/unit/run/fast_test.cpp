@@ -1,5 +1,5 @@
-// Runs with --fast: bits of their own, which depend on nothing that a run's bits must not depend
-// on.
+// Runs with --fast: their bits differ from other runs, but are the same with any number of
+// threads and after the run was resumed.
 #include "resumed_run.h"
 
 #include "ir/multiply_add.h"
@@ -11,8 +11,8 @@
 namespace cascade {
 namespace {
 
-/// Products and sums, a division by what is the same in all cells, functions, a direction that no
-/// step changes, and an operator inside another.
+/// A script with products and sums, a division by a value that is the same in all cells, functions,
+/// a direction that no step changes, and an operator inside another.
 constexpr const char* mixed = R"(
 system mixed {
   speed: 0.05

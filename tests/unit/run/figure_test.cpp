@@ -29,7 +29,7 @@ TEST_F(FigureTest, OfAPlaneHasLengthsAndColours) {
         "stage left_to_right: s { duration: 3; speed: 1 }\n");
     EXPECT_THAT(svg, HasSubstr("<svg "));
     EXPECT_THAT(svg, HasSubstr(">test.cascade: left_to_right, t = 3</text>"));
-    // 20 lengths across and 10 down; u is from −4.75 to 14.75.
+    // The domain is 20 units wide and 10 high, and u goes from −4.75 to 14.75.
     EXPECT_THAT(svg, HasSubstr("text-anchor=\"middle\" fill=\"#29292b\">20</text>"));
     EXPECT_THAT(svg, HasSubstr("text-anchor=\"end\" fill=\"#29292b\">10</text>"));
     EXPECT_THAT(svg, Not(HasSubstr("text-anchor=\"end\" fill=\"#29292b\">12</text>")));
@@ -108,7 +108,7 @@ TEST(Figures, HavePanelsInRowsOfThree) {
     EXPECT_EQ(side_by_side(std::span(panels).first(4), "all").width, 2 * panel.width);
 }
 
-/// The wide side of a long plane is as long as ever, and the other one can still be seen.
+/// The longer side of a very long plane has the usual length, and the shorter one is still visible.
 TEST(Figures, OfLongPlanesCanBeSeen) {
     const Drawing drawing = draw_figure(Image(1000, 1), "long", PlaneExtent{1000, 1, "x", "y"}, {});
     EXPECT_GT(drawing.height, 100);

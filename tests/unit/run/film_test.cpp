@@ -1,4 +1,5 @@
-// Films of runs: what their frames show, where they end, and what is refused before.
+// Films of runs: what their frames show, where they end, and which requests are refused before the
+// run.
 #include "run_fixture.h"
 
 #include "film/film.h"
@@ -20,8 +21,8 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// The frames of a GIF film, as levels of red; empty if it cannot be read to its end. Its frames
-/// replace each other.
+/// A GIF film whose frames each replace the one before. `frames` has the red channel of each frame,
+/// and is empty if the file cannot be read to its end.
 struct Film {
     std::vector<std::vector<int>> frames;
     std::vector<int> times;  ///< In hundredths of a second.
@@ -109,7 +110,7 @@ TEST_F(FilmRun, HasThePixelsOfFrames) {
 }
 
 TEST_F(FilmRun, KeepsOneRangeForAllFrames) {
-    // u grows from 1 … 2 to 2.7 … 5.4: with ranges of their own, all frames would be alike.
+    // u grows from 1 … 2 to 2.7 … 5.4. If each frame had its own range, all frames would be alike.
     Script script = load(R"(
 system g { u: 1 + x; u' = 0.01 * u }
 domain { grid: 32, 4 }
@@ -211,7 +212,7 @@ TEST_F(FilmRun, CarriesLabels) {
     const Film plain = labelled({}, "plain"), steps = labelled({"stage", "step"}, "steps");
     const Film means = labelled({"mean(b over domain)", "ka"}, "means");
     ASSERT_EQ(plain.frames.size(), 8U);
-    const std::size_t plate = 240 * (180 - 15);  // The first pixel of the rows of the label.
+    const std::size_t plate = 240 * (180 - 15);  // The number of pixels above the label.
     for (std::size_t k = 0; k < 8; ++k) {
         const auto top = [&](const std::vector<int>& levels) {
             return std::vector<int>(levels.begin(), levels.begin() + plate);
@@ -219,7 +220,7 @@ TEST_F(FilmRun, CarriesLabels) {
         EXPECT_EQ(top(steps.frames[k]), top(plain.frames[k]));
         EXPECT_NE(steps.frames[k], plain.frames[k]);
         EXPECT_NE(steps.frames[k], means.frames[k]);
-        // Frames as pictures have it, too.
+        // Frames that are separate pictures have the label, too.
         const auto picture = levels(sorted("steps")[k]);
         EXPECT_EQ(top(picture), top(plain.frames[k]));
         EXPECT_NE(picture, levels(sorted("plain")[k]));
@@ -300,7 +301,7 @@ TEST_F(FilmRun, LeavesNothingOnAFullDisk) {
     getrlimit(RLIMIT_FSIZE, &usual);
     RunControl control;
     control.report = [&](const Progress& progress) {
-        // 21 frames of 64² cells of 4 bytes fit into the temporary file before that.
+        // The temporary file has room for 21 frames of 64² cells of 4 bytes before it fails.
         const rlimit small{20000, usual.rlim_max};
         if (progress.doing == "drawing 4 of 21") setrlimit(RLIMIT_FSIZE, &small);
     };

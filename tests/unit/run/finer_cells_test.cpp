@@ -1,4 +1,4 @@
-// Runs that go on in finer cells: the same pattern, the same lengths, the same noise.
+// Runs that go on in finer cells keep their pattern, their lengths and their noise.
 #include "detailed_simulations.h"
 
 #include "core/resample.h"
@@ -15,7 +15,7 @@ namespace {
 
 using Runs = DetailedSimulations;
 
-/// The part of the values above the middle of their range.
+/// The fraction of the values above the middle of their range.
 double part_above_middle(const std::vector<double>& values) {
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
     const double middle = (*low + *high) / 2;
@@ -65,7 +65,7 @@ TEST(FinerCells, ResultsDependNeitherOnCodeNorOnThreads) {
     }
 }
 
-/// A wave that decays by diffusion, exp(−k² t), of `length` and n cells, along each axis.
+/// Expects that a wave along each axis decays by diffusion as exp(−rate t).
 void expect_decay(const std::string& start, double rate, const std::string& domain) {
     const Runs runs("system heat {\n  u: " + start + "\n  u' = lap(u)\n}\ndomain { " + domain +
                     " }\nstage one: heat { iterations: 100; speed: 0.1 * domain.spacing^2 }");
@@ -110,8 +110,8 @@ TEST(FinerCells, WhatWasDrawnInEachCellIsCarried) {
                 EXPECT_EQ(runs.field(*runs.finer, name).at(i, j), wanted.at(i, j)) << name;
         }
     }
-    // Noise belongs to places: in the finer cells it is that of a grid that was as fine from the
-    // beginning.
+    // Noise is a function of the place, so finer cells have the noise of a grid that was as fine
+    // from the beginning.
     const Runs fine(
         "system s {\n  u: 0\n  n: noise(0.3)\n  u' = n - u\n}\n"
         "domain { grid: 32, 24 }\nstage one: s { iterations: 0 }",
@@ -177,8 +177,8 @@ TEST(FinerCells, EverySolverStaysStable) {
     }
 }
 
-/// Diffusion limits the step in one half, and in the other one the bound of a reaction, which has
-/// become large meanwhile, says nothing of it.
+/// Diffusion limits the step in one half of the domain. In the other half there is none, and the
+/// bound of the reaction, which has become large by then, must not hide that limit.
 TEST(FinerCells, StepsAreSplitByTheDiffusionOfEachCell) {
     const Runs runs(
         "system s {\n  u: 0.1 * noise(0.2)\n  m: 0\n  d: 0.24 * (x > 0.5)\n"
@@ -244,7 +244,7 @@ TEST(FinerCells, SurfacesKeepTheirUnit) {
     }
 }
 
-/// The largest and the mean error with which x, and a wave along it, are carried.
+/// The largest and the mean error with which x, and a wave along x, are carried to finer cells.
 std::pair<double, double> error_on_sphere(int cells) {
     const Runs runs("system s {\n  u: sin(6 * x)\n  u' = 0\n}\ndomain { surface: sphere; cells: " +
                         std::to_string(cells) + " }\nstage one: s { iterations: 1 }",
@@ -269,7 +269,7 @@ std::pair<double, double> error_on_sphere(int cells) {
 TEST(FinerCells, AreOfSecondOrderOnModels) {
     const auto [coarse_worst, coarse_mean] = error_on_sphere(600);
     const auto [fine_worst, fine_mean] = error_on_sphere(2400);
-    EXPECT_LT(fine_mean, coarse_mean / 3.5);  // A quarter for half the width of cells.
+    EXPECT_LT(fine_mean, coarse_mean / 3.5);  // Half the width of cells gives a quarter of it.
     EXPECT_LT(fine_worst, coarse_worst / 2.5);
     EXPECT_LT(coarse_mean, 0.01);
 }

@@ -1,4 +1,4 @@
-// How far steps may go through rates that change with time.
+// How long steps may be where rates change with time.
 #include "run/stage/forcing.h"
 
 #include <gtest/gtest.h>

@@ -54,7 +54,7 @@ TEST_F(FrameFolder, OfAnotherScriptIsLeftAlone) {
     EXPECT_THAT(run_badly(other, frames_in("film")),
                 HasSubstr("holds frames that other.cascade did not draw, as 0000-s-0000000.png"));
     EXPECT_THAT(names("film"), testing::SizeIs(3));
-    // Nor is a picture of nobody knows whom removed.
+    // A picture that the program did not write is not removed either.
     std::filesystem::create_directories(path("mine"));
     ASSERT_TRUE(write_file(path("mine/0000-holiday-0000001.png"), "sun"));
     EXPECT_THAT(run_badly(script, frames_in("mine")), HasSubstr("as 0000-holiday-0000001.png"));
@@ -83,7 +83,7 @@ TEST_F(FrameFolder, HoldsThePixelsOfPictures) {
     }
 }
 
-/// As many threads as there are frames, so that later ones are ready when an earlier one fails.
+/// There are as many threads as frames, so that later frames are ready when an earlier one fails.
 TEST_F(FrameFolder, HoldsTheFramesBeforeOneThatCannotBeWritten) {
     Script script =
         load("domain { grid: 16, 16 }\nstage s: turing_spots { iterations: 50; interval: 10 }\n");

@@ -1,5 +1,5 @@
-// Frames, which are drawn one after the other in the same memory or straight into files, are the
-// pictures of runs that stop there.
+// Frames are drawn one after the other in the same memory, or straight into files. Each one equals
+// the picture of a run that stops at its step.
 #include "run_fixture.h"
 
 #include "picture/grey_picture.h"

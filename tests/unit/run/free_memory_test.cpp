@@ -1,4 +1,4 @@
-// Memory that containers give, read from folders that look like /proc and /sys.
+// The memory that is available in containers, read from test folders laid out like /proc and /sys.
 #include "run/domain/free_memory.h"
 
 #include <gtest/gtest.h>
@@ -59,7 +59,7 @@ TEST_F(FreeMemory, AGroupAndThoseAboveItLimitIt) {
     EXPECT_EQ(available_memory(root_), 400000u);
     group("/outer/inner", "50000000", "100000");
     EXPECT_EQ(available_memory(root_), 2000000u);
-    // What a group holds of files is given back.
+    // Memory in which a group only caches files counts as available.
     write("sys/fs/cgroup/outer/memory.stat",
           "anon 500000\nfile 400000\ninactive_file 300000\nactive_file 100000\n");
     EXPECT_EQ(available_memory(root_), 2400000u);

@@ -1,4 +1,5 @@
-// Bodies that fields have grown: made, given up, and drawn below the cells on them.
+// Bodies that fields have grown: when they are made or given up, and how they are drawn below the
+// cells on them.
 #include "run/pictures/painter.h"
 #include "run/simulation/tissue_stage.h"
 #include "unit/run/ran_text.h"
@@ -31,7 +32,7 @@ Image drawn(const std::string& text) {
     return painter->image(painter->canvas(*ran.simulation));
 }
 
-/// The largest channel of a pixel, by its name; "" of a grey one.
+/// The name of the largest channel of a pixel, and "" for a grey pixel.
 std::string tint(const Colour& pixel) {
     std::size_t most = 0;
     for (std::size_t k = 1; k < 3; ++k) most = pixel[k] > pixel[most] ? k : most;

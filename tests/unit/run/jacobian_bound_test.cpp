@@ -1,4 +1,4 @@
-// Bounds of the rates' Jacobian against the Jacobian itself, found by differences of whole steps.
+// Bounds of the rates' Jacobian, compared with the Jacobian that differences of whole steps give.
 #include "lang/calculus/derivative.h"
 #include "lang/library/library.h"
 #include "run/simulation/simulation.h"
@@ -18,7 +18,7 @@ namespace {
 
 using Vector = std::vector<double>;
 
-/// A stage of one system, of which a step of length 1 adds the rates.
+/// A stage with one system. A step of length 1 adds the rates to the species.
 class Rates {
 public:
     explicit Rates(const std::string& text, std::int64_t warm_up = 0) {
@@ -33,7 +33,7 @@ public:
             RunControl control;
             EXPECT_TRUE(simulation_->advance_stage(0, warm_up, control, {}));
         }
-        for (const Field& field : simulation_->state(0).species) state_.push_back(field.clone());
+        for (const Field& field : simulation_->state(0).species()) state_.push_back(field.clone());
     }
 
     bool ok() const { return simulation_ != nullptr; }
@@ -69,7 +69,7 @@ public:
     }
 
 private:
-    /// The rates where one cell is moved.
+    /// The rates after `by` is added to one value.
     Vector rates(std::size_t moved, std::int64_t row, std::int64_t column, float by) {
         std::vector<Field> species;
         for (const Field& field : state_) species.push_back(field.clone());
@@ -77,17 +77,17 @@ private:
         std::vector<Field> before;
         for (const Field& field : species) before.push_back(field.clone());
         const System& system = simulation_->domain().program->system_of(0);
-        StageRecord record;
+        RecordedFields fields;
         for (const ItemId item : system.species()) {
             const std::size_t k = system.species_of(item)->index();
-            record.fields.emplace(system.item_name(item), std::move(species[k]));
+            fields.emplace(system.item_name(item), std::move(species[k]));
         }
-        restore(*simulation_, 0, std::move(record));
+        restore(*simulation_, 0, {{}, std::move(fields)});
         RunControl control;
         EXPECT_TRUE(simulation_->advance_stage(0, 1, control, {}));
         Vector rates;
         for (std::size_t k = 0; k < before.size(); ++k) {
-            const Field& after = simulation_->state(0).species[k];
+            const Field& after = simulation_->state(0).species()[k];
             for (std::int64_t j = 0; j < after.layout().row_count(); ++j) {
                 for (std::int64_t i = 0; i < after.layout().width; ++i) {
                     rates.push_back(double{after.row(j)[i]} - before[k].row(j)[i]);
@@ -108,7 +108,8 @@ double length(const Vector& v) {
     return std::sqrt(squares);
 }
 
-/// The largest magnitude of an eigenvalue of J + shift: how much vectors grow with each product.
+/// The largest magnitude of an eigenvalue of J + shift, found as the factor by which repeated
+/// products lengthen a vector.
 double spectral_radius(const std::vector<Vector>& columns, double shift) {
     constexpr int products = 300;
     const std::size_t size = columns.size();
@@ -138,8 +139,9 @@ std::string script_with_rates(const std::string& rates, const std::string& domai
            domain + " }\n";
 }
 
-/// No eigenvalue is larger than one bound, and what grows does not grow faster than the other;
-/// neither is far too large.
+/// Expects that no eigenvalue's magnitude exceeds the bound of the whole Jacobian, that this bound
+/// is at most `at_most` times too large, and that no mode grows faster than the bound of the
+/// reaction.
 void expect_sound(const std::string& rates, double at_most,
                   const std::string& domain = "grid: 12, 6") {
     Rates run(script_with_rates(rates, domain));
@@ -193,7 +195,8 @@ TEST(JacobianBounds, HoldOnASurface) {
 }
 
 TEST(JacobianBounds, GrowthThroughOperatorsIsThatOfTheory) {
-    // Cahn and Hilliard: of cos kx the growth is k² (1 − 3c²) − γ k⁴, at most (1 − 3c²)² / 4γ.
+    // In the equation of Cahn and Hilliard cos kx grows at the rate k² (1 − 3c²) − γ k⁴, which is
+    // at most (1 − 3c²)² / 4γ.
     for (const double gamma : {0.25, 0.5, 2.0}) {
         Rates run(
             "system s {\n c: 0.3\n c' = lap(c^3 - c - " + std::to_string(gamma) +
@@ -207,7 +210,7 @@ TEST(JacobianBounds, GrowthThroughOperatorsIsThatOfTheory) {
     }
 }
 
-/// Of every system in the library, after some steps of its own.
+/// Every system in the library is tested after some steps.
 TEST(JacobianBounds, HoldForTheLibrary) {
     int without_rule = 0;
     for (const LibraryText& text : library_texts()) {

@@ -1,4 +1,4 @@
-// What is found about tilings, remembered in a process and on disk.
+// Which tilings were found to be fastest is remembered in the process and on disk.
 #include "run/stage/kept_tilings.h"
 #include "tests/unit/solvers/cell_function_kernel.h"
 

@@ -32,7 +32,7 @@ protected:
         Script script;
         std::unique_ptr<Simulation> simulation;
         const Field& species(std::size_t number) const {
-            return simulation->state(0).species[number];
+            return simulation->state(0).species()[number];
         }
     };
 
@@ -79,7 +79,7 @@ TEST_F(KernelFiles, AnElementWeightsTheCellOnWhichItLies) {
                            "domain { grid: 9, 9 }\nstage a: s { iterations: 1 }\n");
     ASSERT_TRUE(run);
     EXPECT_EQ(run->species(0).number_at(4, 4), 1);
-    // The cell to the left of the only one with a value sees it to its right.
+    // One cell has a value. The cell to the left of it finds this value to its right.
     for (std::int64_t j = 0; j < 3; ++j) {
         for (std::int64_t i = 0; i < 3; ++i) {
             EXPECT_NEAR(run->species(1).number_at(5 - i, 5 - j),
@@ -117,10 +117,11 @@ TEST_F(KernelFiles, AreTheSameInWiderCellsAndInNativeCode) {
                             "domain { grid: 128, 64; spacing: 1/2 }\n"
                             "stage a: s { grid: coarse(2); iterations: 4; speed: 0.1 }\n");
     ASSERT_TRUE(expected && native && wide);
-    EXPECT_EQ(same_bits(expected->simulation->state(0).species,
-                        native->simulation->state(0).species),
+    EXPECT_EQ(same_bits(expected->simulation->state(0).species(),
+                        native->simulation->state(0).species()),
               "");
-    EXPECT_EQ(same_bits(expected->simulation->state(0).species, wide->simulation->state(0).species),
+    EXPECT_EQ(same_bits(expected->simulation->state(0).species(),
+                        wide->simulation->state(0).species()),
               "");
 }
 

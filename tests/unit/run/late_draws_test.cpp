@@ -1,4 +1,4 @@
-// Random numbers of late steps, where the number of a step has more digits than binary32.
+// Random numbers of late steps, whose numbers need more binary digits than binary32 has.
 #include "run/simulation/stage_record.h"
 #include "started_script.h"
 
@@ -8,7 +8,7 @@
 namespace cascade {
 namespace {
 
-/// What each of three steps from `first` on draws in the cells of a row.
+/// The random numbers of the cells of a row in three steps that begin with the step `first`.
 std::vector<std::vector<double>> draws_from(std::int64_t first, const std::string& precision,
                                             std::string_view backend) {
     std::vector<std::vector<double>> draws;
@@ -33,7 +33,7 @@ std::vector<std::vector<double>> draws_from(std::int64_t first, const std::strin
         EXPECT_TRUE((*simulation)->advance_stage(0, step + 1, control, {}));
         std::vector<double>& row = draws.emplace_back();
         for (int i = 0; i < 8; ++i)
-            row.push_back((*simulation)->state(0).species[0].number_at(i, 0));
+            row.push_back((*simulation)->state(0).species()[0].number_at(i, 0));
     }
     return draws;
 }

@@ -10,7 +10,7 @@ class LiveCoarserGrid : public LiveRunFixture {
 protected:
     std::string difference_of_values(const StageState& one, const StageState& other,
                                      bool) const override {
-        return same_bits(one.species, other.species);
+        return same_bits(one.species(), other.species());
     }
 };
 

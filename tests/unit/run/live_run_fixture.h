@@ -15,7 +15,7 @@
 
 namespace cascade::test {
 
-/// The text with the first `old` in it replaced; it must be there.
+/// The text with the first `old` replaced. The text must contain `old`.
 inline std::string with(std::string text, const std::string& old, const std::string& changed) {
     return text.replace(text.find(old), old.size(), changed);
 }
@@ -46,12 +46,13 @@ protected:
         return made ? "" : made.error().messages(false);
     }
 
-    /// In what the values of a stage differ; "" if they do not. The last stage that has begun
-    /// `goes_on`.
+    /// Names a difference between the values of two states of a stage, and is "" if there is none.
+    /// `goes_on` is true for the last stage that has begun.
     virtual std::string difference_of_values(const StageState& one, const StageState& other,
                                              bool goes_on) const = 0;
 
-    /// Empty if all stages have the same values and are equally far.
+    /// Names a difference between two runs, and is empty if all stages have the same values and
+    /// have taken the same steps.
     std::string difference(const LiveRun& first, const LiveRun& second) const {
         if (first.place() != second.place()) return "they are at other places";
         for (std::uint32_t k = 0; k <= first.place().stage; ++k) {
@@ -64,28 +65,29 @@ protected:
         return "";
     }
 
-    /// Applies, undoes and repeats nine changes at random and goes between two stages, `count`
+    /// Applies, undoes and repeats these changes at random and goes between two stages, `count`
     /// times, each after fewer than `steps` steps.
     void change_at_random(LiveRun& run, const std::vector<Change>& changes, int count,
                           std::uint32_t steps, RandomStream& random) {
-        ASSERT_EQ(changes.size(), 9u);
         run.set_undo_memory(random.chance(50) ? std::size_t{20000} : std::size_t{1} << 24);
         for (int k = 0; k < count; ++k) {
             advance(run, random.below(steps));
-            const std::uint32_t what = random.below(14);
-            if (what < 9) {
+            const auto count_of_changes = static_cast<std::uint32_t>(changes.size());
+            const std::uint32_t what = random.below(count_of_changes + 5);
+            if (what < count_of_changes) {
                 (void)run.apply(changes[what], control_, random.chance(30));
-            } else if (what < 11) {
+            } else if (what < count_of_changes + 2) {
                 (void)run.undo(control_);
-            } else if (what == 11) {
+            } else if (what == count_of_changes + 2) {
                 (void)run.redo(control_);
-            } else if (what == 12) {
+            } else if (what == count_of_changes + 3) {
                 (void)run.go_to(random.below(2), control_);
             }
         }
     }
 
-    /// Whatever was done, the log gives the same bits again, from its text as well.
+    /// Expects that playing the log, and playing it after it was written as text and read, give the
+    /// same bits.
     void expect_same_from_log(const LiveRun& run) {
         const std::string text = print_session_log(run.log());
         const auto log = parse_session_log(text);

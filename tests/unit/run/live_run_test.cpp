@@ -1,5 +1,5 @@
-// A run that is changed while it runs: what is kept, what is refused, and that its log gives the
-// same bits again.
+// A run that is changed while it runs: which values it keeps, which changes are refused, and that
+// playing its log gives the same bits.
 #include "live_run_fixture.h"
 
 #include "support/kernel_comparison.h"
@@ -31,7 +31,7 @@ class LiveRunTest : public LiveRunFixture {
 protected:
     std::string difference_of_values(const StageState& one, const StageState& other,
                                      bool) const override {
-        return same_bits(one.species, other.species);
+        return same_bits(one.species(), other.species());
     }
 };
 
@@ -88,15 +88,15 @@ TEST_F(LiveRunTest, TimeGoesOnWhereTheStepChanges) {
 TEST_F(LiveRunTest, AnEditKeepsWhatHasTheSameName) {
     const auto run = begun(coupled_stages);
     advance(*run, 30);
-    const Field u = run->simulation().state(0).species[0].clone();
-    // Species change their order, one comes, one goes.
+    const Field u = run->simulation().state(0).species()[0].clone();
+    // Species change their order, one is added and one is removed.
     apply(*run, SetText{with(coupled_stages, "v: y;", "w: 7; w' = 0;  v: 3;")});
     EXPECT_EQ(run->place(), (RunPlace{0, 30}));
     const StageState& state = run->simulation().state(0);
-    ASSERT_EQ(state.species.size(), 3u);
-    EXPECT_EQ(state.species[0].number_at(3, 5), u.number_at(3, 5));
-    EXPECT_EQ(state.species[1].number_at(3, 5), 7);
-    EXPECT_NE(state.species[2].number_at(3, 5), 3);
+    ASSERT_EQ(state.species().size(), 3u);
+    EXPECT_EQ(state.species()[0].number_at(3, 5), u.number_at(3, 5));
+    EXPECT_EQ(state.species()[1].number_at(3, 5), 7);
+    EXPECT_NE(state.species()[2].number_at(3, 5), 3);
 }
 
 TEST_F(LiveRunTest, AWrongEditChangesNothing) {
@@ -124,6 +124,24 @@ TEST_F(LiveRunTest, OtherCellsBeginAnew) {
     EXPECT_EQ(run->place(), (RunPlace{1, 10}));
 }
 
+TEST_F(LiveRunTest, AModelThatTakesTooLongIsRefused) {
+    const std::string still =
+        "system still { u: x; u' = 0 }\nstage only: still { iterations: 4 }\n";
+    const auto run = begun("domain { grid: 8, 8 }\n" + still);
+    run->limit_models(1e-6);
+    const std::string why =
+        refused(*run, SetText{"domain { surface: creature; cells: 100000 }\n" + still});
+    EXPECT_NE(why.find("the cells of the model are not made after 1e-06 s"), std::string::npos)
+        << why;
+    EXPECT_NE(why.find("--simplify"), std::string::npos) << why;
+    // Nothing is cancelled after that.
+    advance(*run, 2);
+    EXPECT_EQ(run->place().steps, 2);
+    run->limit_models(0);
+    apply(*run, SetText{"domain { surface: sphere; cells: 300 }\n" + still});
+    EXPECT_TRUE(run->simulation().domain().model);
+}
+
 TEST_F(LiveRunTest, SettingsThatLostTheirMeaningAreDropped) {
     const auto run = begun(coupled_stages);
     apply(*run, SetNumber{"c", "0.2"});
@@ -138,14 +156,14 @@ TEST_F(LiveRunTest, PaintingReplacesValuesOfTheCells) {
     const auto run = begun(with(coupled_stages, "speed: 0.2 }", "speed: 0.2; frozen: x > 0.9 }"));
     advance(*run, 10);
     apply(*run, Paint{"u", "if(disc(0.3, 0.3, 0.2) > 0, 9, u)"});
-    EXPECT_EQ(run->simulation().state(0).species[0].number_at(5, 5), 9);
+    EXPECT_EQ(run->simulation().state(0).species()[0].number_at(5, 5), 9);
     apply(*run, Paint{"k", "0.5"});
     apply(*run, Paint{"frozen", "1"});
-    const Field before = run->simulation().state(0).species[0].clone();
+    const Field before = run->simulation().state(0).species()[0].clone();
     advance(*run, 5);
-    EXPECT_EQ(run->simulation().state(0).species[0].number_at(12, 12), before.number_at(12, 12))
+    EXPECT_EQ(run->simulation().state(0).species()[0].number_at(12, 12), before.number_at(12, 12))
         << "all cells are frozen";
-    // A parameter that was painted stays so when another one changes.
+    // A painted parameter keeps what was painted when another parameter changes.
     apply(*run, SetNumber{"c", "0.2"});
     const System& system = run->simulation().domain().program->system_of(0);
     for (const ItemId item : system.items()) {
@@ -237,7 +255,7 @@ TEST_F(LiveRunTest, PartsOfOneStrokeAreUndoneTogether) {
     EXPECT_EQ(difference(*run, *begun(coupled_stages)), "");
 }
 
-/// What the first of two changes loses does not come back with the second one.
+/// Values that the first of two changes removes do not come back with the second one.
 TEST_F(LiveRunTest, ChangesAtOneStepAreLoggedWhereTheFirstLosesValues) {
     const std::string stage = "stage one: s { iterations: 60; speed: 0.2 }\n";
     const std::string with_v =
@@ -266,7 +284,8 @@ TEST_F(LiveRunTest, ANumberThatIsMovedAtOneStepIsLoggedOnce) {
     EXPECT_EQ(*log.changes[0], (LoggedChange{{0, 30}, SetNumber{"c", "0.4"}}));
 }
 
-/// Whatever is done, the log gives the same bits again, from its text as well.
+/// Whatever is done, playing the log gives the same bits, also after it was written as text and
+/// read.
 TEST_F(LiveRunTest, ALogThatIsPlayedAgainGivesTheSameBits) {
     const std::string scripts[] = {
         coupled_stages,
@@ -278,7 +297,11 @@ TEST_F(LiveRunTest, ALogThatIsPlayedAgainGivesTheSameBits) {
         with(coupled_stages, "grid: 20, 16; boundary: noflux", "surface: torus; cells: 300"),
     };
     for (const std::string& script : scripts) {
+        std::vector<double> values(script.find("cells: 300") == std::string::npos ? 20 * 16 : 300);
+        for (std::size_t k = 0; k < values.size(); ++k) values[k] = static_cast<double>(k % 7) / 8;
         const std::vector<Change> changes = {
+            SetValues{"u", values},
+            SetValues{"k", values},
             SetNumber{"c", "0.15"},
             SetNumber{"c", "0.05 + 0.05"},
             SetNumber{"one.k", "1.2 + 0.1*x"},
@@ -314,6 +337,9 @@ TEST(SessionLogTest, TextsOfAllKindsSurvive) {
     add({1, 0}, SetNumber{"s.k", "a == b"});
     add({1, 7}, Paint{"u", "x=y"});
     add({1, 7}, NextStage{});
+    add({2, 0}, SetValues{"u", {0.5, -0.0, 1e30, 1e-40}});
+    add({2, 0}, SetValues{"u", {1.0 / 3, 1e300, 5e-324}});
+    add({2, 0}, SetValues{"u", {}});
     log.end = {2, 0};
     const auto read = parse_session_log(print_session_log(log));
     ASSERT_TRUE(read) << read.error().message;
@@ -342,6 +368,12 @@ TEST(SessionLogTest, WhatIsNoLogIsRefusedWithItsLine) {
         {good + "paint =1\nend 1 1\n", "line 6"},
         {good + "dance\nend 1 1\n", "line 6"},
         {good + "text 2\nend 1 1\n", "line 7"},
+        {good + "values u\nend 1 1\n", "line 6"},
+        {good + "values u=\nend 1 1\n", "line 6"},
+        {good + "values u=f16 AAAA\nend 1 1\n", "line 6"},
+        {good + "values u=f32 AA==\nend 1 1\n", "line 6"},
+        {good + "values u=f64 AAAAAA==\nend 1 1\n", "line 6"},
+        {good + "values u=f32 not base64\nend 1 1\n", "line 6"},
         {good + "end 1 1\nnext\n", "follows the end"},
     };
     for (const auto& [text, where] : wrong) {
@@ -351,7 +383,7 @@ TEST(SessionLogTest, WhatIsNoLogIsRefusedWithItsLine) {
     }
 }
 
-/// A log may come from a stranger.
+/// A log may come from a stranger, so no text may cause a crash.
 TEST(SessionLogTest, NoTextIsTooStrange) {
     SessionLog log;
     log.text = "stage s: turing_spots { }\n";
@@ -359,6 +391,8 @@ TEST(SessionLogTest, NoTextIsTooStrange) {
         LoggedChange{{0, 5}, SetText{"stage s: gray_scott { }"}}));
     log.changes.push_back(
         std::make_shared<const LoggedChange>(LoggedChange{{0, 9}, Paint{"u", "x"}}));
+    log.changes.push_back(
+        std::make_shared<const LoggedChange>(LoggedChange{{0, 9}, SetValues{"u", {1, 0.1}}}));
     log.end = {0, 12};
     const std::string good = print_session_log(log);
     RandomStream random(new_seed());

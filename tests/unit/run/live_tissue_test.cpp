@@ -1,5 +1,5 @@
-// Cells that crawl while their run is changed: what they keep, what starts where they are, and that
-// a log gives the same bits again.
+// Cells that crawl while their run is changed: which values they keep, which values start anew at
+// their places, and that playing the log gives the same bits.
 #include "live_run_fixture.h"
 
 #include "run/pictures/drawn_cells.h"
@@ -21,7 +21,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Le;
 
-/// Cells that divide for a while; of their parameters `tone` is inherited and `mood` starts again.
+/// Cells that divide for a while. Daughters inherit the parameter `tone`, and `mood` starts again.
 constexpr const char* growing =
     "cells spot {\n"
     "  r: 0.05\n"
@@ -43,24 +43,24 @@ constexpr const char* growing =
 
 class LiveTissueTest : public LiveRunFixture {
 protected:
-    /// Until some cells have divided.
+    /// Advances until some cells have divided.
     void grow(LiveRun& run) {
         while (count(run) < 11) advance(run, 1);
         EXPECT_EQ(run.place().stage, 0u);
     }
-    /// Of the cells of the present stage, in the order of their numbers.
+    /// The values of an item in the cells of the present stage, in the order of the cells' numbers.
     static std::vector<double> values(const LiveRun& run, const std::string& name) {
         const std::uint32_t stage = run.place().stage;
         const StageState& state = run.simulation().state(stage);
         const auto item = find_item(run.simulation().domain().program->system_of(stage), name);
-        return number_order(state.field(*item), *state.tissue);
+        return number_order(state.field(*item), *state.tissue());
     }
     static std::size_t count(const LiveRun& run) {
-        return run.simulation().state(run.place().stage).tissue->count();
+        return run.simulation().state(run.place().stage).tissue()->count();
     }
     std::string difference_of_values(const StageState& one, const StageState& other,
                                      bool goes_on) const override {
-        const TissueRecord a = one.tissue->record(), b = other.tissue->record();
+        const TissueRecord a = one.tissue()->record(), b = other.tissue()->record();
         if (a.numbers != b.numbers) return "other cells";
         if (a.species != b.species) return "other species";
         if (a.kept != b.kept) return "other parameters";
@@ -97,7 +97,7 @@ TEST_F(LiveTissueTest, AnEditKeepsWhatHasTheSameName) {
     const auto run = begun(growing);
     grow(*run);
     const auto c = values(*run, "c"), tones = values(*run, "tone");
-    // A parameter and a species come before the others, and another one goes.
+    // A parameter and a species are added before the others, and another one is removed.
     std::string text = with(growing, "  r: 0.05\n", "  wide: 2 * x\n  d: 3\n  r: 0.05\n  d' = 0\n");
     text = with(with(text, "  mood: random(0.5, 0.4) after divide\n", ""), "mood: mood; ", "");
     text = with(text, "tone: tone; ", "tone: tone; d: d; ");
@@ -182,7 +182,8 @@ TEST_F(LiveTissueTest, FieldsAndCellsDoNotGoOnAsEachOther) {
     EXPECT_EQ(count(*run), 5u);
 }
 
-/// Whatever is done, the log gives the same bits again, from its text as well.
+/// Whatever is done, playing the log gives the same bits, also after it was written as text and
+/// read.
 TEST_F(LiveTissueTest, ALogThatIsPlayedAgainGivesTheSameBits) {
     const std::string on_sphere =
         with(with(growing, "grid: 32, 32; boundary: noflux", "surface: sphere; cells: 100"),

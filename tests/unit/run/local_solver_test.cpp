@@ -1,5 +1,5 @@
-// A solver that takes the reaction of each cell implicitly: its order through the language, stiff
-// kinetics of the literature, steps that no explicit solver can take.
+// The solver that takes the reaction in each cell implicitly, in scripts: its order, stiff kinetics
+// from the literature, and steps that are too long for any explicit solver.
 #include "ran_text.h"
 
 #include "solvers/field_norms.h"
@@ -61,8 +61,8 @@ TEST(LocalSolver, IsOfSecondOrderWithAReactionAndDiffusion) {
     EXPECT_NEAR(std::log2(coarse / fine), 2, 0.15);
 }
 
-/// The values of Hairer and Wanner's RADAU5 at t = 40. An explicit method would need steps of 10⁻³,
-/// as b decays at a rate of 2200: more than 40,000 of them.
+/// Compares with the values of Hairer and Wanner's RADAU5 at t = 40. b decays at a rate of 2200, so
+/// an explicit method would need more than 40,000 steps of 10⁻³.
 TEST(LocalSolver, SolvesRobertsonsKinetics) {
     const Ran ran =
         run_system(robertson, "solver: ros2; speed: auto; tolerance: 0.0001; duration: 40");
@@ -88,20 +88,21 @@ TEST(LocalSolver, TakesStepsThatNoExplicitSolverCan) {
     }
 }
 
-/// A decay that is far faster than a step is over after it: the method is L-stable.
+/// The method is L-stable: a decay much faster than one step is complete after this step.
 TEST(LocalSolver, EndsWhatDecaysFasterThanAStep) {
     const Ran ran = run_system("u: 1; u' = -10000000 * u + 0.1 * lap(u)",
                                "solver: ros2; speed: 1; iterations: 1");
     EXPECT_LT(std::abs(ran.species().number_at(0, 0)), 1e-5);
 }
 
-/// The equations of u alone are singular at this step, those of u and v together are not.
+/// At this length of step the equation for u alone is singular, but that for u and v together is
+/// not.
 TEST(LocalSolver, ExchangesEquationsWhereAPivotVanishes) {
     const double growth = 1 / (1 - std::numbers::sqrt2 / 2);
     const Ran ran = run_system(
         fmt::format("u: 1; v: 0.5; u' = {:.17g} * u - 20 * v; v' = 20 * u - 5 * v", growth),
         "solver: ros2; speed: 1; iterations: 1");
-    // k1 and k2 by Cramer's rule.
+    // The two stages k1 and k2 of the step, found by Cramer's rule.
     const double g = 1 - std::numbers::sqrt2 / 2;
     const double a = 1 - g * growth, b = 20 * g, c = -20 * g, d = 1 + 5 * g, det = a * d - b * c;
     const auto solve = [&](double p, double q) {
@@ -118,7 +119,8 @@ TEST(LocalSolver, ExchangesEquationsWhereAPivotVanishes) {
     EXPECT_NEAR(ran.species(1).number_at(0, 0), 0.5 + 1.5 * l1 + 0.5 * l2, 1e-11);
 }
 
-/// Waves of the Belousov-Zhabotinsky reaction, stiffer than those of the library.
+/// The Belousov-Zhabotinsky reaction with parameters that make it stiffer than the one in the
+/// library.
 TEST(LocalSolver, GrowsTheWavesOfATightExplicitSolver) {
     const std::string system =
         "eps: 0.001; q: 0.002; f: 1.4; u: if(sx < 0.2, 0.8, 0.012); v: 0.012\n"

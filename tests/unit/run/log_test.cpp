@@ -38,7 +38,8 @@ TEST_F(LogTest, ARowAtEachIntervalAndAtBothEnds) {
     wanted.log.expressions = {"t*2", "ka", "small.speed"};
     const RunReport report = run_well(script, wanted);
     EXPECT_EQ(report.written.back(), path("picture.csv"));
-    // stripes has no ka, and the first stage cannot read the second.
+    // Entries are empty where an expression has no value: the system stripes has no ka, and the
+    // first stage cannot read the second stage.
     EXPECT_THAT(lines("picture.csv"),
                 ElementsAre("stage,step,t,t*2,ka,small.speed", "large,0,0,0,0.0125,",
                             "large,10,5,10,0.0125,", "large,20,10,20,0.0125,", "small,0,0,0,,0.25",
@@ -58,14 +59,15 @@ TEST_F(LogTest, StepsOfItsOwnAndWithFrames) {
                     ElementsAre("stage,step,t,step", "large,0,0,0", "large,7,3.5,7",
                                 "large,14,7,14", "large,20,10,20", "small,0,0,0", "small,6,1.5,6"));
         if (frames) {
-            // The frames are those of the intervals, as without a log.
+            // Frames are drawn at the stage's intervals, whether or not there is a log.
             const auto begin = std::filesystem::directory_iterator(path("film"));
             EXPECT_EQ(std::distance(begin, std::filesystem::directory_iterator{}), 5);
         }
     }
 }
 
-// A stage with a duration and no interval is drawn at its tenths, however often it is logged.
+// A stage with a duration and no interval is drawn after each tenth of it, however often it is
+// logged.
 TEST_F(LogTest, FramesOfADurationHaveAnIntervalOfTheirOwn) {
     Script script = load(
         "stage s: turing_spots { duration: 10; speed: 0.25 }\n"
@@ -88,7 +90,8 @@ TEST_F(LogTest, FramesOfADurationHaveAnIntervalOfTheirOwn) {
 }
 
 TEST_F(LogTest, AggregatesOverTime) {
-    // The mean decays by 1/64 a step, whatever diffusion does; 8 cells of 1 and 24 of 0.
+    // The mean decays by 1/64 a step, whatever diffusion does. It begins with 8 cells of 1 and 24
+    // of 0.
     Script script = load(
         "system s { u: sx < 0.25; u' = lap(u) / 8 - u / 64 }\n"
         "domain { grid: 8, 4 }\n"
@@ -198,7 +201,7 @@ TEST_F(RunTest, MemoryCountsWhatSolversAndSurfacesKeep) {
     };
     const double plain = planes("", "");
     EXPECT_GE(planes("", "solver: rk45"), plain + 2 * 6);  // Six rates of two species at least.
-    // Stages in turn, the rates of the old step, and what bounds are computed in.
+    // The stages of two species, and the rates of the old step.
     EXPECT_GE(planes("", "solver: rkl1"), plain + 2 + 2);
     EXPECT_EQ(planes("", "solver: rkl2"), planes("", "solver: rkl1") + 2);
     EXPECT_LE(planes("", "solver: rkl2"), plain + 10);

@@ -1,4 +1,4 @@
-// The least power of 2 that is wide enough.
+// The width of maps: the least power of 2 that is wide enough for the cells.
 #include "run/pictures/map_size.h"
 
 #include <gtest/gtest.h>

@@ -81,10 +81,10 @@ TEST_F(RunTest, ValuesOfTheDomainThatAreNotFiniteAreRefused) {
     const auto damaged = read_npy(path("saved/second.a.npy"));
     ASSERT_TRUE(damaged);
     Field values = to_field(*damaged);
-    EXPECT_FALSE(std::isfinite(values.at(0, 0)));  // Outside it may be so.
+    EXPECT_FALSE(std::isfinite(values.at(0, 0)));  // This cell is outside of the mask.
     values.at(10, 8) = values.at(0, 0);
     ASSERT_TRUE(write_npy(path("saved/second.a.npy"), values));
-    // As a run of an earlier version, which has no checksums.
+    // Saved runs of earlier versions have no checksums.
     auto manifest = nlohmann::json::parse(bytes("saved/run.json"));
     manifest.erase("files");
     ASSERT_TRUE(write_file(path("saved/run.json"), manifest.dump()));
@@ -106,7 +106,7 @@ TEST_F(RunTest, AMaskIsNotCompiledToAnObjectFile) {
 TEST_F(RunTest, MaskedPicturesAreTransparentOutside) {
     Script script = load(disc_in_two_stages);
     RunRequest wanted = request();
-    wanted.picture.range = ValueRange{1000, 2000};  // All that is seen is black.
+    wanted.picture.range = ValueRange{1000, 2000};  // All cells inside are black.
     wanted.frames = path("frames");
     wanted.sheet = path("sheet.png");
     const RunReport report = run_well(script, wanted);
@@ -144,7 +144,7 @@ TEST_F(RunTest, TheRangeOfAPictureIsThatOfTheDomain) {
 }
 
 TEST_F(RunTest, FeaturesAreOfTheDomain) {
-    // Two islands, and a spot in one of them: all that is above lies inside.
+    // Two islands, one of which has a spot. Values of the other cells of the islands are 0.
     Script script = load(
         "domain { grid: 40, 40; mask: disc(0.25, 0.25, 0.15) or disc(0.7, 0.7, 0.2) }\n"
         "system s { u: disc(0.7, 0.7, 0.1); u' = 0 }\n"

@@ -40,7 +40,8 @@ struct FinishedScript {
     }
 };
 
-/// Runs every stage to its end. The script stays where it is: the simulation refers to it.
+/// Runs every stage to its end. The result is on the heap, because the simulation refers to the
+/// script in it.
 inline std::unique_ptr<FinishedScript> finished_script(const std::string& text,
                                                        std::string_view backend = stepper()) {
     auto ran = std::make_unique<FinishedScript>();
@@ -68,12 +69,12 @@ inline std::unique_ptr<FinishedScript> finished_script(const std::string& text,
     return ran;
 }
 
-/// The word of a number; all NaN are one.
+/// The bits of a number. All NaN give the same bits.
 inline std::uint32_t word(float value) {
     return std::isnan(value) ? 0x7fc00000U : std::bit_cast<std::uint32_t>(value);
 }
 
-/// The sum over the grid. Outside cells are 0, so it is that over the domain.
+/// The sum over the grid, which is the sum over the domain, as cells outside are 0.
 inline double sum_of(const Field& field) {
     double sum = 0;
     for (std::int64_t row = 0; row < field.layout().row_count(); ++row) {

@@ -1,4 +1,4 @@
-// Domains of any shape: what operators see of a mask.
+// Domains with a mask: which neighbours operators read at its border.
 
 #include "box_runs.h"
 
@@ -25,7 +25,8 @@ TEST(Mask, ABoxIsTheSmallGridToTheBit) {
 }
 
 TEST(Mask, ABoxAtTheSideIsTheSmallGridToTheBit) {
-    // The other side of the grid lies beyond: periodic neighbours are outside.
+    // The box touches a side of the grid, and the neighbours across this periodic side are outside
+    // of the mask.
     for (const Operator& each : operators_of_planes) {
         expect_box_is_grid(each.rates, "iterations: 7; speed: 0.01", {32, 24, 1}, {16, 8, 1},
                            {0, 16, 0}, each.name);
@@ -50,7 +51,7 @@ TEST(Mask, SolversTakeTheStepsOfTheSmallGrid) {
     }
 }
 
-/// A mask that is the same everywhere changes no bit, whatever the sides are.
+/// A mask that contains all cells changes no bit, whatever the sides are.
 TEST(Mask, AMaskOfAllCellsIsNone) {
     for (const char* boundary : {"boundary: periodic", "boundary: noflux",
                                  "boundary: noflux, periodic; left: fixed(1); right: slope(0.3)"}) {
@@ -82,7 +83,8 @@ TEST(Mask, AMaskOfAllCellsIsNone) {
     }
 }
 
-/// A blob that reaches across periodic sides, and the same one in the middle of the grid.
+/// A blob that reaches across periodic sides gives the same values as the same blob in the middle
+/// of the grid.
 TEST(Mask, TheOppositeSideIsBeside) {
     constexpr int side = 32;
     const auto script = [&](int across, int down) {
@@ -108,7 +110,7 @@ TEST(Mask, TheOppositeSideIsBeside) {
     }
 }
 
-/// Corners that a border turns around favour neither axis.
+/// Mixed derivatives at the corners of a border favour neither axis.
 TEST(Mask, MixedDerivativesFavourNoAxis) {
     const auto script = [](const char* x, const char* y) {
         return fmt::format(
@@ -149,7 +151,7 @@ TEST(Mask, FluxesLoseNothing) {
     }
 }
 
-/// On a surface the integral stays: each cell counts as much as its area.
+/// On a surface the sum of the values, weighted by the cells' areas, does not change.
 TEST(Mask, FluxesOnASurfaceLoseNothing) {
     for (const char* rate :
          {"lap(u)", "div(u * vector(sin(9 * sy), 1))", "div(tensor(1, 0.3, 5 * sx) * grad(u^2))"}) {
@@ -167,7 +169,7 @@ TEST(Mask, FluxesOnASurfaceLoseNothing) {
     }
 }
 
-/// A flat surface of square cells is the plane, with a mask too.
+/// A flat surface of square cells gives the values of the plane, also with a mask.
 TEST(Mask, AFlatSurfaceIsThePlane) {
     const auto script = [](const char* surface) {
         return fmt::format(

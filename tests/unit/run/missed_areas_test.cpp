@@ -1,4 +1,4 @@
-// Areas of space that meet no cell of a model: they do nothing, and that is said.
+// Shapes in space that contain no cell of a model have no effect, and a warning says so.
 #include "run_fixture.h"
 
 #include <gmock/gmock.h>
@@ -51,7 +51,7 @@ TEST_F(MissedAreas, OthersAreNot) {
     EXPECT_THAT(warnings(octahedron, "a: 4 + disc(0.5, 1, 0.5, 0.2) + disc(0.5, 0.5, 0.1)"),
                 IsEmpty());
     EXPECT_THAT(warnings(octahedron, "a: 4 + ring(0.5, 0.5, 0.5, 0.5, 0.1)"), IsEmpty());
-    // Areas that are computed may well be empty at the start.
+    // A shape whose size is computed may be empty at the start, so there is no warning.
     EXPECT_THAT(warnings(octahedron, "a: 4 + disc(0.5, 0.5, 0.5, 0.2 * ny)"), IsEmpty());
     EXPECT_THAT(warnings("grid: 9, 9", "a: 4 + disc(2, 2, 0.001)"), IsEmpty());
 }

@@ -1,5 +1,5 @@
-// Files of runs on models: what a name says, what travels in pictures, what the library makes of
-// cells.
+// Files of runs on models: what the ending of a name chooses, what pictures carry, and that the
+// public library gives the cells as one row.
 #include "cascade/cascade.h"
 #include "core/file_format.h"
 #include "run/commands/run_checks.h"

@@ -1,4 +1,4 @@
-// What a script may not ask of a model: each has its message.
+// Statements about a model that are refused, each with its message.
 #include "core/file.h"
 #include "lang/program/models.h"
 #include "run/emit_c/compile.h"

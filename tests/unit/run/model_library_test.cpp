@@ -1,4 +1,4 @@
-// The library of systems on a small model, and stopped runs on one.
+// The systems of the library on a small model, and stopped runs on a model.
 #include "lang/library/library.h"
 #include "resumed_run.h"
 #include "run/simulation/simulation.h"
@@ -48,7 +48,8 @@ TEST_F(ModelLibraryTest, StoppedRunsEndInTheSameBits) {
         "domain { mesh: \"torus.obj\"; cells: 700; seed: 3 }\n"
         "stage one: turing_spots { iterations: 300 }\n"
         "stage two: gray_scott { iterations: 100; solver: rkl1 }\n";
-    // A saved run finds the model beside a script that has its text.
+    // A saved run looks for the model beside the script file, if this file has the text of the
+    // saved run.
     std::ofstream(path("test.cascade")) << text;
     run_whole(text);
     run_in_two_parts(text, "two", 40);

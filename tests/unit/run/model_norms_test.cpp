@@ -1,5 +1,5 @@
-// What steps and ends are chosen by counts every cell of a model once, and not what fills up the
-// last row of planes: 520 cells lie in two rows of 512.
+// The norms that choose steps and ends of stages count every cell of a model once, and not the
+// copies that fill up the last row of planes: 520 cells lie in two rows of 512.
 #include "model_runs.h"
 #include "solvers/steady.h"
 #include "solvers/step_control.h"
@@ -24,8 +24,8 @@ std::string script_on_sphere(const std::string& system, const std::string& stage
         cells_in_two_rows, system, stage);
 }
 
-/// The time of an adaptive run of u' = 20 u (1 − u) after so many steps, and so many copies of the
-/// last value being counted with the others.
+/// The time that an adaptive run of u' = 20 u (1 − u) reaches after `steps` steps, if `copies`
+/// copies of the last value count as cells too.
 double time_by_hand(std::vector<double> start, std::size_t copies, int steps) {
     constexpr double tolerance = 1e-6, duration = 50;
     start.insert(start.end(), copies, double{start.back()});
@@ -72,7 +72,7 @@ TEST(ModelNorms, StepsAreChosenByTheErrorsOfCells) {
         << "copies that count are seen";
 }
 
-/// The step after which a stage has settled, as fields of these planes say.
+/// The step after which a stage has settled, judged by the fields that `look` makes of its planes.
 template <typename Look>
 std::int64_t settled_by_hand(const std::string& system, double tolerance, const Look& look) {
     ModelRun run(script_on_sphere(system, "iterations: 10000; speed: 1"), Precision::binary64);
@@ -81,7 +81,7 @@ std::int64_t settled_by_hand(const std::string& system, double tolerance, const 
     const auto fields = [&] {
         std::vector<Field> seen;
         seen.push_back(
-            look(run.simulation().state(0).species[0], *run.simulation().domain().model->cells));
+            look(run.simulation().state(0).species()[0], *run.simulation().domain().model->cells));
         return seen;
     };
     watch.begin(fields());

@@ -1,5 +1,5 @@
-// Cells of a model lie in memory as steps are fastest, which nobody sees: files, random numbers and
-// sums are those of the cells in their own order.
+// The cells of a model lie in memory in the order in which steps are fastest. No result shows it:
+// files, random numbers and sums follow the cells' own order.
 #include "mesh/flat.h"
 #include "run/domain/model_cells.h"
 #include "started_script.h"
@@ -52,7 +52,7 @@ TEST(ModelOrder, PlanesAreThoseOfTheCellsInTheirOwnOrder) {
         const float as_float = numbers.plane<float>().row(0)[k];
         std::memcpy(&number, &as_float, sizeof number);
         EXPECT_EQ(number, k);
-        // On a sphere around the origin normals are places.
+        // On the unit sphere around the origin the normal at a place equals the place.
         const Vector3d place = unit(position_of(model.mesh, model.spread().cells.places[k]));
         EXPECT_NEAR(x[k], place.x, 0.02);
         EXPECT_NEAR(y[k], place.y, 0.02);
@@ -64,7 +64,7 @@ TEST(ModelOrder, RowsOfFilesComeBackAsTheyWere) {
     const auto simulation = start(script);
     ASSERT_TRUE(simulation);
     const ModelCells& model = *simulation->domain().model->cells;
-    const Field& field = simulation->state(0).species[0];
+    const Field& field = simulation->state(0).species()[0];
     const Field back = in_rows(in_one_row(field, model), model);
     for (std::int64_t row = 0; row < model.grid().height; ++row) {
         for (std::int64_t i = 0; i < model.grid().width; ++i) {
@@ -73,7 +73,8 @@ TEST(ModelOrder, RowsOfFilesComeBackAsTheyWere) {
     }
 }
 
-/// The stages as a loop over the cells in their own order, edges in theirs, in floats.
+/// Compares with a loop in single precision over the cells in their own order, and over the edges
+/// in theirs.
 TEST(ModelOrder, StepsAreThoseOfALoopOverTheCellsInTheirOwnOrder) {
     Script script = load(on_sphere("  u: random(0, 1)\n  u' = lap(u)\n"));
     const auto simulation = start(script);
@@ -81,7 +82,7 @@ TEST(ModelOrder, StepsAreThoseOfALoopOverTheCellsInTheirOwnOrder) {
     const ModelCells& model = *simulation->domain().model->cells;
     const SurfaceCells& cells = model.spread().cells;
     const auto values = [&] {
-        const std::vector<double> found = cell_values(simulation->state(0).species[0], model);
+        const std::vector<double> found = cell_values(simulation->state(0).species()[0], model);
         return std::vector<float>(found.begin(), found.end());
     };
     std::vector<float> expected = values();

@@ -1,4 +1,4 @@
-// Runs on models for tests: what a script's text comes to.
+// Runs of scripts on models, for tests.
 #pragma once
 
 #include "run/script/script.h"
@@ -56,7 +56,7 @@ public:
 
     double number(const std::string& name) const { return values(name).at(0); }
 
-    /// Of the cells, in square units.
+    /// The areas of the cells, in square units.
     std::vector<double> areas() const {
         if (!simulation_) return {};
         return cell_values(simulation_->domain()
@@ -80,7 +80,8 @@ public:
         return *std::max_element(of.begin(), of.end()) - *std::min_element(of.begin(), of.end());
     }
 
-    /// Parts into which a step is cut, known from the first one on; 0 for one.
+    /// The number of parts into which a step is cut, known after the first step, and 0 if it is not
+    /// cut.
     std::uint32_t substeps() const { return simulation_ ? simulation_->state(0).time.stages : 0; }
 
     Simulation& simulation() { return *simulation_; }

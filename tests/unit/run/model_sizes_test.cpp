@@ -1,5 +1,5 @@
-// Models whose cells do not fill their last row: every function is finite there, and the copies
-// that fill the row count nowhere.
+// Models whose cells do not fill the last row of memory: every function is finite in that row, and
+// the copies that fill it count nowhere.
 #include "model_runs.h"
 
 #include <fmt/format.h>
@@ -93,7 +93,7 @@ TEST(ModelSizes, WhiteNoiseIsAsStrongOnEverySize) {
         }
         const double variance = sum / static_cast<double>(values.size());
         const double expected = s * s * dt / (1 - (1 - k * dt) * (1 - k * dt));
-        // A variance of n draws deviates by √(2 / n) of itself.
+        // The relative standard deviation of a variance of n draws is √(2 / n).
         const double deviation = std::sqrt(2 / static_cast<double>(values.size()));
         EXPECT_NEAR(variance / expected, 1, 4 * deviation) << cells;
     }

@@ -26,7 +26,7 @@ std::string heat(const std::string& domain, const std::string& start, double spe
     return script_of_steps(domain, "u: " + start + "\n u' = lap(u)", speed, steps);
 }
 
-/// The rate at which what a plane began with has become less of it in time t.
+/// The rate at which the values `before` have decayed to `after` in the time t.
 double decay_rate(const std::vector<double>& before, const std::vector<double>& after, double t) {
     double both = 0, square = 0;
     for (std::size_t k = 0; k < before.size(); ++k) {
@@ -37,15 +37,15 @@ double decay_rate(const std::vector<double>& before, const std::vector<double>& 
 }
 
 TEST(ModelTheory, HeatOnASphereDecaysByHarmonics) {
-    // c' = lap(c) takes a harmonic of degree l to exp(−l (l + 1) t) of it. nz is the sine of the
-    // latitude.
+    // c' = lap(c) multiplies a harmonic of degree l by exp(−l (l + 1) t). nz, the sine of the
+    // latitude, is a harmonic of degree 1.
     constexpr double t = 0.02;
     constexpr int steps = 40;
     struct Case {
         const char* domain;
         double tolerance;
     };
-    // Turk's cells all count as equally large and hexagonal.
+    // Turk's Laplacian treats all cells as equally large hexagons.
     for (const auto& [domain, tolerance] :
          {Case{"cells: 6000", 0.03}, Case{"cells: 6000; laplacian: turk", 0.12},
           Case{"cells: faces", 0.03}, Case{"cells: vertices", 0.03}}) {
@@ -100,7 +100,7 @@ TEST(ModelTheory, AConstantHasNoDerivatives) {
     }
 }
 
-/// Mean of the absolute values of an item.
+/// The mean of the absolute values of an item.
 double mean_size(const ModelRun& run, const std::string& name) {
     const std::vector<double> values = run.values(name);
     double sum = 0;
@@ -110,7 +110,8 @@ double mean_size(const ModelRun& run, const std::string& name) {
 
 TEST(ModelTheory, GradientsOfLinearFunctions) {
     // x runs from 0 to 1 along the longest side, which is 2 units on a sphere of radius 1: the
-    // gradient of f in space is G = (1, -1/2, 3/2), and on the surface what is tangent of it.
+    // gradient of f in space is G = (1, -1/2, 3/2), and that on the surface is the tangential part
+    // of G.
     ModelRun sphere(script_of_steps(
         "surface: sphere; cells: 6000; unit: 1",
         "f: 2*x - y + 3*z\n n: nx - 0.5*ny + 1.5*nz\n"
@@ -119,10 +120,10 @@ TEST(ModelTheory, GradientsOfLinearFunctions) {
         1, 0));
     sphere.start();
     for (const char* name : {"ex", "ey", "ez"}) EXPECT_LT(mean_size(sphere, name), 0.02) << name;
-    // The cells' shapes shift what flows through their walls to and fro; the mean is right.
+    // The irregular shapes of cells disturb the flow through single walls, but the mean is right.
     EXPECT_LT(mean_size(sphere, "e2"), 0.25);
     EXPECT_NEAR(sphere.number("m2"), 3.5 * 2 / 3, 0.02);
-    // Flat sides; cells at edges see around them.
+    // The sides of a box are flat, but cells at its edges have neighbours on two sides.
     ModelRun box(script_of_steps("surface: box(1, 1, 1); cells: 6000; unit: 1",
                                  "f: 2*x - y + 3*z\n ex: dx(f) - 2 * (abs(nx) < 0.5)\n"
                                  "ez: dz(f) - 3 * (abs(nz) < 0.5)\n u: 0\n u' = 0*u",
@@ -145,19 +146,19 @@ TEST(ModelTheory, BothSquaresOfGradientsConverge) {
                                      1, 0),
                      Precision::binary64);
         run.start();
-        EXPECT_NEAR(run.number("g") + run.number("e"), 0, 1e-10);  // Nothing is lost by parts.
+        EXPECT_NEAR(run.number("g") + run.number("e"), 0, 1e-10);  // Integration by parts is exact.
         return std::array{1 - run.number("g") / run.number("m"),
                           1 - run.number("d") / run.number("m")};
     };
     const auto coarse = errors(1250), fine = errors(5000);
-    // Of second order both; over two cells at once differences see a fourth of the resolution.
+    // Both errors are of second order. Differences over two cells have four times the error.
     for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(coarse[k] / fine[k], 4, 0.6) << k;
     EXPECT_NEAR(coarse[1] / coarse[0], 4, 0.6);
     EXPECT_NEAR(coarse[0], 0.05, 0.005);
 }
 
 TEST(ModelTheory, AggregatesCountAreasAndNoCellTwice) {
-    // 1300 cells leave 236 places of the last row that are no cells.
+    // 1300 cells leave 236 places of the last row of memory without a cell.
     ModelRun run(
         "domain { surface: sphere; cells: 1300; unit: 1 }\n"
         "system s { u: sx\n total: sum(1 + 0*u over domain)\n middle: mean(u over domain)\n"
@@ -194,8 +195,8 @@ TEST(ModelTheory, SubstepsAreStepsOfTheirLength) {
 }
 
 TEST(ModelTheory, ManyPartsOfAStepAreStagesOfLegendre) {
-    // In stages of Runge-Kutta-Legendre, as in parts, a step of length h takes a mode of rate r to
-    // 1 - r h + O(h^2) of it, and the shortest waves to less than before.
+    // Stages of the Runge-Kutta-Legendre method, like the parts of a step, multiply a mode of rate
+    // r by 1 - r h + O(h^2) in a step of length h, and damp the shortest waves.
     constexpr double speed = 0.02;
     ModelRun run(script_of_steps("surface: sphere; cells: 6000; unit: 1",
                                  "p: nz\n rough: noise(0.05)\n p' = lap(p)\n rough' = lap(rough)",

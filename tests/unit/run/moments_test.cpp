@@ -1,4 +1,4 @@
-// Runs observed at moments of time, which are read between steps.
+// Runs observed at moments of time, where values are interpolated between steps.
 #include "run/commands/moments.h"
 
 #include "run_fixture.h"
@@ -67,14 +67,79 @@ TEST_F(MomentsTest, ReplaceIntervals) {
     EXPECT_THAT(lines(),
                 ElementsAre("stage,step,t,max(u over domain)", "one,0,0,1", "one,2,0.75,1.75",
                             "one,2,1,2", "one,4,2,3", "two,0,0,3", "two,1,0.5,3.5", "two,3,2,5"));
-    EXPECT_THAT(warnings_, ::testing::Contains("the run ends at t = 4, before 9 of --at"));
+    EXPECT_THAT(warnings_, ::testing::Contains("the run ends at t = 4, before the time 9 of --at"));
     std::vector<double> times;
     const auto about = nlohmann::json::parse(bytes("grown.json"), nullptr, false);
     for (const auto& moment : about["moments"]) times.push_back(moment["time"]);
     EXPECT_THAT(times, ElementsAre(0, 0.75, 1, 2, 2.5, 4));
 }
 
-// The classical method and the curve are both of fourth order.
+// Frames, films, logs and series are made at the moments of `every` in a script, where steps end.
+TEST_F(MomentsTest, OfAScriptAreEndsOfSteps) {
+    Script script = load(
+        "system s { u: 1; u' = 1; every: 1 }\ndomain { grid: 2, 2 }\n"
+        "stage one: s { iterations: 4; speed: 0.75 }\n"
+        "stage two: s { u: u; duration: 1.5; speed: 0.4; every: 0.5 }\n"
+        "stage three: s { u: u; iterations: 2; speed: 0.25; interval: 1 }\n");
+    RunRequest wanted = logged({"max(u over domain)"});
+    wanted.series = path("grown.npy");
+    wanted.frames = path("film");
+    run_well(script, wanted);
+    EXPECT_THAT(lines(),
+                ElementsAre("stage,step,t,max(u over domain)", "one,0,0,1", "one,2,1,2",
+                            "one,4,2,3", "two,0,0,3", "two,2,0.5,3.5", "two,4,1,4", "two,6,1.5,4.5",
+                            "three,0,0,4.5", "three,1,0.25,4.75", "three,2,0.5,5"));
+    std::vector<double> times;
+    const auto about = nlohmann::json::parse(bytes("grown.json"), nullptr, false);
+    for (const auto& moment : about["moments"]) times.push_back(moment["time"]);
+    EXPECT_THAT(times, ElementsAre(0, 1, 2, 2.5, 3, 3.5, 3.75, 4));
+    EXPECT_TRUE(std::filesystem::exists(path("film/0001-one-0000002.png")));
+    EXPECT_TRUE(std::filesystem::exists(path("film/0005-two-0000006.png")));
+}
+
+// A row of the log each few steps does not take the frames' moments away.
+TEST_F(MomentsTest, OfAScriptStayWithRowsOfSteps) {
+    Script script = load(
+        "system s { u: 1; u' = 1 }\ndomain { grid: 2, 2 }\n"
+        "stage one: s { iterations: 8; speed: 0.75; every: 1 }\n");
+    RunRequest wanted = logged({"max(u over domain)"});
+    wanted.log.every = 3;
+    wanted.frames = path("film");
+    run_well(script, wanted);
+    EXPECT_THAT(lines(), ElementsAre("stage,step,t,max(u over domain)", "one,0,0,1",
+                                     "one,3,1.75,2.75", "one,6,3,4", "one,8,4,5"));
+    EXPECT_TRUE(std::filesystem::exists(path("film/0004-one-0000008.png")));
+    EXPECT_FALSE(std::filesystem::exists(path("film/0005-one-0000008.png")));
+}
+
+TEST_F(MomentsTest, OfAScriptSurviveAStop) {
+    for (const std::string stage :
+         {"iterations: 60; speed: 0.7; every: 3", "duration: 30; speed: auto; every: 3.3",
+          "duration: 30; solver: rk45; every: 3.3", "duration: 30; solver: rkl2; every: 3.3"}) {
+        const std::string text =
+            "stage s: turing_spots { ka: 1/20; " + stage + " }\ndomain { grid: 16, 16 }\n";
+        Script whole = load(text), part = load(text), rest = load(text);
+        RunRequest wanted = request();
+        wanted.save = path("whole");
+        run_well(whole, wanted);
+        wanted.save = path("part");
+        wanted.stop_at = StopAt{"s", 5};
+        run_well(part, wanted);
+        wanted.stop_at.reset();
+        wanted.resume = path("part");
+        wanted.save = path("rest");
+        run_well(rest, wanted);
+        for (const std::string name : {"a", "b", "beta"}) {
+            const std::string file = "/s." + name + ".npy";
+            EXPECT_FALSE(bytes("whole" + file).empty());
+            EXPECT_TRUE(bytes("whole" + file) == bytes("rest" + file)) << stage << file;
+        }
+        for (const char* folder : {"whole", "part", "rest"})
+            std::filesystem::remove_all(path(folder));
+    }
+}
+
+// The classical Runge-Kutta method and the curve between steps are both of fourth order.
 TEST_F(MomentsTest, AreReadAsExactlyAsTheSolverIs) {
     const auto error = [&](const std::string& stage) {
         Overrides overrides;
@@ -96,7 +161,7 @@ TEST_F(MomentsTest, AreReadAsExactlyAsTheSolverIs) {
     const double fine = error("solver: rk4; speed: 0.2; iterations: 20");
     EXPECT_LT(coarse, 2e-3);
     EXPECT_NEAR(coarse / fine, 16, 3);
-    // A straight line between the same steps would be wrong by 0.02.
+    // Linear interpolation between the same steps would have an error of 0.02.
     EXPECT_LT(error("solver: rk45; duration: 4; tolerance: 1e-6; speed: 0.1"), 2e-3);
 }
 

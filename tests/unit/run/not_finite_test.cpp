@@ -33,7 +33,8 @@ TEST(NotFinite, NamesTheStep) {
                 HasSubstr("the starting value of u is not finite"));
 }
 
-// Looks may be one step apart: the step is known then, and the values before it are not.
+// If values are checked after every step, the failing step is known, although the values before it
+// may not have been kept.
 TEST(NotFinite, SaysNothingOfValuesThatWereNotKept) {
     for (const std::int64_t last_finite : {0, 63}) {
         NotFiniteReport report = report_of(last_finite, 64);
@@ -48,7 +49,7 @@ TEST(NotFinite, SaysNothingOfValuesThatWereNotKept) {
     EXPECT_THAT(describe(kept).hint, Not(HasSubstr("no value was above")));
 }
 
-// At 1e20 any reaction looks stiff.
+// At values of 1e20 any reaction looks stiff, so such a state says nothing about stable speeds.
 TEST(NotFinite, DoesNotAskAStateThatIsSpoiled) {
     NotFiniteReport report = report_of(63, 64);
     report.largest_at_start = 2;
@@ -59,7 +60,7 @@ TEST(NotFinite, DoesNotAskAStateThatIsSpoiled) {
                 HasSubstr("or steps are too long to follow it; 'solver: rk23', which"));
     report.estimate_at_start.largest_speed = 1.5;
     EXPECT_THAT(describe(report).hint, HasSubstr("the largest stable speed is about 1.5 "));
-    // A state that has only begun to grow is asked.
+    // The stable speed of a state that has only begun to grow is reported.
     report.largest_before = 20;
     report.estimate_before.largest_speed = 0.5;
     EXPECT_THAT(describe(report).hint, HasSubstr("the largest stable speed is about 0.5 "));
@@ -72,7 +73,7 @@ TEST(NotFinite, KnowsThatAnAdaptiveSolverFollowsWhatGrows) {
     EXPECT_EQ(describe(report).hint, "the reaction itself grows without bound here");
 }
 
-// rk4 is stable for steps 2.785 / 2 times as long as Euler's.
+// Steps of rk4 are stable up to 2.785 / 2 times the largest stable step of Euler's method.
 TEST(StepAdvice, IsOfTheSolverInUse) {
     StabilityEstimate estimate;
     estimate.largest_speed = 1;

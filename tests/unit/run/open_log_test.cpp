@@ -1,4 +1,5 @@
-// A log that grows line by line is at every moment the log of its session, wherever it is cut off.
+// A log that grows line by line is a complete log of its session at every moment, even if its last
+// line is cut off.
 #include "run/session/open_log.h"
 
 #include "live_run_fixture.h"
@@ -28,9 +29,9 @@ class OpenLogTest : public LiveRunFixture {
 protected:
     std::string difference_of_values(const StageState& one, const StageState& other,
                                      bool) const override {
-        return same_bits(one.species, other.species);
+        return same_bits(one.species(), other.species());
     }
-    /// From now on the lines of what is done are in text_.
+    /// Adds the log's lines for everything that the run does from now on to text_.
     void keep_log_of(LiveRun& run) {
         run.tell([this](const SessionLog& log, RunPlace now, bool) {
             const OpenLog::Lines lines = log_.lines(log, now);

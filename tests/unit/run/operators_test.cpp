@@ -1,6 +1,6 @@
 // Operators against calculus: manufactured solutions and their orders, directions, aggregates; what
-// is conserved is in tests/scripts/operators. Parameters of a stage are computed from others, so a
-// stage that takes no step is enough to see what an operator gives.
+// is conserved is tested in tests/scripts/operators. A parameter may be computed with an operator,
+// so the result of an operator can be read from a stage that has taken no step.
 #include "run/simulation/simulation.h"
 
 #include "core/grid.h"
@@ -20,7 +20,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// A script that has been started, and perhaps has run.
+/// A script with a simulation that has started and may have taken steps.
 class Started {
 public:
     explicit Started(const std::string& text, bool runs = false)
@@ -72,8 +72,9 @@ private:
 
 using Function2 = std::function<double(double x, double y)>;
 
-/// The largest error of `operation`, applied to f, on a square of `side` cells that is 1 wide.
-/// `derivatives` counts its derivatives, for operators are in units of the cell.
+/// The largest error of `operation`, applied to f, on a square of width 1 with `side` cells along
+/// each side. `derivatives` is its order of differentiation, by which results are scaled from units
+/// of the cell.
 double largest_error(const std::string& operation, const std::string& extra, int side,
                      int derivatives, const Function2& exact, const std::string& boundary) {
     const Started run(
@@ -246,7 +247,7 @@ TEST(Operators, OfTheStencilFourthConvergeAtThatOrder) {
                   "f: cos(pi * x) * cos(2 * pi * y)", "noflux; stencil: fourth; precision: double");
 }
 
-/// The error of the isotropic Laplacian is h²/12 lap(lap(f)), the same in all directions.
+/// The error of the isotropic Laplacian is h²/12 lap(lap(f)), which is the same in all directions.
 TEST(Operators, OfTheIsotropicStencilFavourNoDirection) {
     const auto error = [](const std::string& stencil, int across) {
         // Waves of equal length: (5, 0) and (3, 4) periods.

@@ -1,5 +1,5 @@
-// Options of the command line are statements: they are checked as the script's are, and have the
-// last word.
+// Options of the command line are statements: they are checked like those of the script, and
+// override them.
 #include "run/script/script.h"
 
 #include <gmock/gmock.h>
@@ -64,7 +64,7 @@ TEST(OptionStatements, HaveTheLastWord) {
     EXPECT_EQ(domain.precision, Precision::binary64);
     EXPECT_EQ(script.program->stages[0].time.solver, Solver::rk4);
     EXPECT_EQ(script.program->stages[0].iterations, 20);
-    EXPECT_EQ(script.program->stages[0].interval, 5);  // A tenth of what the script has.
+    EXPECT_EQ(script.program->stages[0].interval, 5);  // A tenth of the script's interval.
 }
 
 TEST(OptionStatements, MendWhatTheScriptCannotHaveItself) {

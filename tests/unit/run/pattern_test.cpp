@@ -82,7 +82,8 @@ TEST(Pattern, AChangeThatIsRefusedSaysWhy) {
     EXPECT_FALSE(Pattern::play("nonsense").ok());
 }
 
-/// Of all cells; those outside of a mask are NaN, which equals nothing.
+/// The bits of an expression's values in all cells. Bits are compared because cells outside of a
+/// mask are NaN, which equals no number.
 std::vector<std::uint32_t> bits_of(Pattern& pattern, const std::string& expression) {
     std::vector<std::uint32_t> bits;
     for (const float value : pattern.values(expression)) {
@@ -91,8 +92,8 @@ std::vector<std::uint32_t> bits_of(Pattern& pattern, const std::string& expressi
     return bits;
 }
 
-/// What a running stage keeps from call to call is not seen in any result: whatever chooses steps,
-/// ends the stage or changes with time, and also where values are read between the steps.
+/// However many steps a call takes, results are the same. This holds for all ways to choose steps
+/// and to end stages, for rates that change with time, and if values are read between the calls.
 TEST(Pattern, NoResultDependsOnHowManyStepsAreTakenAtOnce) {
     const std::string system =
         "system s { u: 1 + 0.3 * sin(7 * x + 3 * y); v: 0.5 + 0.2 * cos(9 * y); k: 0.1 + 0.1 * x\n"
@@ -278,7 +279,7 @@ TEST(Pattern, AViewLiesInThePatternsMemoryAndKeepsItsMoment) {
     }
 }
 
-/// Whoever keeps views changes no result, whatever steps keep between calls.
+/// Views that a caller keeps during later steps change no result.
 TEST(Pattern, NoResultDependsOnViewsThatAreKept) {
     for (const char* how : {"iterations: 90", "iterations: 40; solver: rk4",
                             "duration: 30; solver: rk45", "iterations: 400; until: steady(0.05)",
@@ -313,7 +314,7 @@ TEST(Pattern, NumbersAreNotRounded) {
     EXPECT_EQ(pattern.view("u").number, PatternView::Number::binary64);
 }
 
-/// Elsewhere values are computed in the order that values() has.
+/// With a mask or on a model, a view is computed, in the order of values().
 TEST(Pattern, AViewHasTheOrderAndTheGapsOfValues) {
     for (const char* domain : {"domain { grid: 20, 12; mask: x + y > 0.5 }\n",
                                "domain { surface: sphere; cells: 300 }\n"}) {

@@ -1,4 +1,5 @@
-// Runs in double precision: what they share with runs in single, and what single cannot show.
+// Runs in double precision: what they have in common with runs in single precision, and what single
+// precision is too coarse to show.
 #include "resumed_run.h"
 
 #include "run/simulation/simulation.h"
@@ -35,7 +36,7 @@ public:
     std::vector<double> species() const {
         const auto last = static_cast<std::uint32_t>(script_.program->stages.size() - 1);
         std::vector<double> values;
-        simulation_->state(last).species[0].visit([&](const auto& plane) {
+        simulation_->state(last).species()[0].visit([&](const auto& plane) {
             for (std::int64_t j = 0; j < plane.layout().row_count(); ++j) {
                 values.insert(values.end(), plane.row(j), plane.row(j) + plane.layout().width);
             }
@@ -105,7 +106,7 @@ stage one: heat {{ solver: {}; speed: 8 / {}; iterations: {} }}
     return std::abs(run.species()[0] - exact);
 }
 
-// In single the error of rk4 would be lost in rounding at once.
+// In single precision the error of rk4 would be lost in rounding at once.
 TEST(Precision, OrdersOfSolversDownToTheLastDigits) {
     EXPECT_NEAR(std::log2(error_of_decay("euler", 64) / error_of_decay("euler", 128)), 1, 0.02);
     EXPECT_NEAR(std::log2(error_of_decay("rk2", 64) / error_of_decay("rk2", 128)), 2, 0.02);

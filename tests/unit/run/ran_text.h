@@ -1,4 +1,4 @@
-// Scripts that are run to their ends without files, for tests of what they leave.
+// Scripts that are run to their ends without writing files, for tests of their results.
 #pragma once
 
 #include "run/script/script.h"
@@ -27,8 +27,8 @@ struct Ran {
     const StageState& last() const {
         return state(static_cast<std::uint32_t>(script.stage_count() - 1));
     }
-    /// Of the last stage.
-    const Field& species(std::size_t number = 0) const { return last().species[number]; }
+    /// A species of the last stage.
+    const Field& species(std::size_t number = 0) const { return last().species()[number]; }
 };
 
 inline Ran run_text(const std::string& text, const SimulationOptions& options = {"interp", 0, 1},

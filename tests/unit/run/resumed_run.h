@@ -15,7 +15,7 @@ protected:
         run_well(script, wanted);
     }
 
-    /// Stops at a step of a stage, resumes, and saves what comes of it in "rest".
+    /// Stops at a step of a stage, resumes, and saves the completed run in "rest".
     void run_in_two_parts(const std::string& text, const std::string& stage, std::int64_t step,
                           const Overrides& overrides = {}) {
         Script part = load(text, overrides);

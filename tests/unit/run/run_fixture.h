@@ -1,4 +1,4 @@
-// What tests of run/ share: a folder of their own, scripts, runs.
+// What tests of run/ share: a new folder for each test, scripts, runs.
 #pragma once
 
 #include "core/file.h"
@@ -72,7 +72,7 @@ protected:
         return report ? "" : report.error().message + "\n" + report.error().hint;
     }
 
-    /// An array of numbers of a precision.
+    /// The numbers of an .npy file, in the precision of `Number`.
     template <typename Number = float>
     std::vector<Number> array(const std::string& name) const {
         const auto read = read_npy(path(name), precision_of<Number>);

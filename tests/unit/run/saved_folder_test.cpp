@@ -1,5 +1,5 @@
-// Saved runs: replaced in one move, whole at every moment, with nothing else touched and nothing
-// taken that has changed.
+// Saved runs are replaced in one move and complete at every moment. Saving touches no other file,
+// and a run whose files have changed is not resumed.
 #include "core/descriptor.h"
 #include "resumed_run.h"
 
@@ -37,7 +37,7 @@ protected:
         wanted.save = path("saved");
         return run_badly(script, wanted);
     }
-    /// Goes on to the end, which has to have the same bits as a run in one go.
+    /// Resumes to the end, and expects the bits of an uninterrupted run.
     void expect_resumable() {
         if (!fs::exists(path("whole"))) run_whole(two_stages);
         auto script = load_saved_script(path("saved"), {});
@@ -70,12 +70,12 @@ protected:
 TEST_F(SavedFolderTest, AKilledWriterHasCommittedTheNewRunOrHasNot) {
     save(two_stages, 70);
     const std::set<std::string> before = names();
-    // Not committed: something of a new run lies there.
+    // A new run was not committed, and one of its files is left.
     const std::string unfinished = ".cascade-" + std::string(32, 'a') + ".npy";
     ASSERT_TRUE(write_file(path("saved/" + unfinished), "half of an array"));
     expect_resumable();
-    // Committed: all files, or some, have not taken their names yet, and those of an older run have
-    // them.
+    // A new run was committed, but some or all of its files still have temporary names, and files
+    // of an older run have their final names.
     nlohmann::json committed = manifest();
     std::size_t renamed = 0;
     for (const auto& file : committed.at("files").items()) {
@@ -88,7 +88,7 @@ TEST_F(SavedFolderTest, AKilledWriterHasCommittedTheNewRunOrHasNot) {
         }
         expect_resumable();
     }
-    // The next writer tidies up.
+    // The next save removes what was left.
     save(two_stages, 90);
     EXPECT_EQ(names(), before);
     expect_resumable();
@@ -148,7 +148,7 @@ TEST_F(SavedFolderTest, WhatIsNotASavedRunIsNotReplaced) {
     fs::remove(path("saved/large.a.npy"));
     ASSERT_EQ(::mkfifo(path("saved/run.json").c_str(), 0600), 0);
     EXPECT_THAT(why_not_saved(two_stages), HasSubstr("does not belong to a saved run"));
-    EXPECT_THAT(why_not_resumed(), HasSubstr("is a pipe or a device and no file"));
+    EXPECT_THAT(why_not_resumed(), HasSubstr("is a pipe or a device, not a file"));
     EXPECT_FALSE(fs::exists(path("picture.png"))) << "found before the first step";
 }
 
@@ -181,7 +181,7 @@ TEST_F(SavedFolderTest, EveryChangedByteOfAnArrayIsNoticedAndItsFileNamed) {
     fs::remove(path("saved/large.b.npy"));
     fs::create_symlink(path("elsewhere.npy"), path("saved/large.b.npy"));
     ASSERT_TRUE(write_file(path("elsewhere.npy"), array));
-    EXPECT_THAT(why_not_resumed(), HasSubstr("large.b.npy' is a link and no file"));
+    EXPECT_THAT(why_not_resumed(), HasSubstr("large.b.npy' is a link, not a file"));
     fs::remove(path("saved/large.b.npy"));
     ASSERT_TRUE(write_file(path("saved/large.b.npy"), array));
     expect_resumable();
@@ -209,7 +209,7 @@ TEST_F(SavedFolderTest, ListsOfFilesAreNotBelieved) {
     changed["files"] = nlohmann::json::array();
     ASSERT_TRUE(write_file(path("saved/run.json"), changed.dump()));
     EXPECT_THAT(why_not_resumed(), HasSubstr("does not name"));
-    // Nor does a save remove or rename what such a list says.
+    // A save does not remove or rename files that such a list names, either.
     ASSERT_TRUE(write_file(path("keep.npy"), "mine"));
     changed["files"] = {{"../keep.npy", good.at("files").at("large.b.npy")},
                         {"notes", good.at("files").at("large.b.npy")}};

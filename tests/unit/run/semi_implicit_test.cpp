@@ -1,5 +1,5 @@
-// Solvers that take diffusion wave by wave, through the language: what each wave becomes in a step,
-// what is conserved, steps far beyond the explicit limit, and the same bits wherever it runs.
+// Solvers that treat diffusion wave by wave, in scripts: how a step changes each wave, what is
+// conserved, steps far beyond the explicit limit, and the same bits with every executor.
 #include "ran_text.h"
 #include "resumed_run.h"
 
@@ -46,7 +46,7 @@ struct Wave {
             "domain {{ grid: 24, 20; boundary: periodic, noflux }}",
             rate, solver, speed, steps);
     }
-    /// What is left of its height.
+    /// The height of the wave in u.
     static double height(const Field& u) {
         double sum = 0;
         for (std::int64_t j = 0; j < 20; ++j) {
@@ -99,7 +99,7 @@ TEST(SemiImplicit, CahnHilliardAtAThousandTimesTheExplicitLimit) {
                 run_text(fmt::format(fmt::runtime(alloy), 0.2, boundary, solver, 40, 400), fast());
             EXPECT_EQ(ran.failure, "");
             const FieldMoments found = moments(ran.species());
-            // What there is of each stays to rounding, and the parts have come apart.
+            // The mean is conserved up to rounding, and the two components have separated.
             EXPECT_NEAR(found.mean, moments(start.species()).mean, 2e-6) << solver;
             EXPECT_GT(found.deviation, 0.85) << solver;
             EXPECT_LT(found.deviation, 1.0) << solver;
@@ -124,8 +124,8 @@ TEST(SemiImplicit, CahnHilliardCoarsensAsWithEuler) {
         return measure::peak_wavelength(measure::radial_spectrum(samples));
     };
     const double euler = wavelength("euler", 0.025, 8000);
-    // Of first order, and damped by what the steepest cells need: shorter steps for the same
-    // course.
+    // imex is of first order, and the damping that the steepest cells need slows all cells, so it
+    // takes shorter steps than the other two solvers.
     EXPECT_NEAR(wavelength("imex", 0.2, 1000) / euler, 1, 0.12);
     EXPECT_NEAR(wavelength("etdrk4", 0.5, 400) / euler, 1, 0.12);
     EXPECT_NEAR(wavelength("gauss", 0.5, 400) / euler, 1, 0.12);
@@ -149,14 +149,14 @@ TEST(SemiImplicit, GrowsTheSameSpotsAsEuler) {
         const Field& b = found.species(1);
         const double difference =
             moments_of_difference(a, b).root_mean_square / moments(a).deviation;
-        // The correlation of two fields of one mean and deviation is 1 − difference² / 2.
+        // The correlation of two fields with the same mean and deviation is 1 − difference² / 2.
         const double correlation = std::string_view(solver) == "imex" ? 0.95 : 0.98;
         EXPECT_LT(difference, std::sqrt(2 * (1 - correlation))) << solver;
     }
 }
 
-// A factor that depends on the species itself: u' = lap(u^3) spreads with a front, and its total
-// stays.
+// A diffusion coefficient that depends on the species itself: with u' = lap(u^3) a sharp front
+// spreads and the total stays the same.
 TEST(SemiImplicit, FactorsThatVaryAreBounded) {
     for (const char* solver : {"imex", "gauss"}) {
         const Ran ran = run_text(fmt::format(
@@ -225,9 +225,9 @@ TEST(SemiImplicit, SaysWhatItCannotTake) {
     Overrides changes;
     changes.solver = "etdrk4";
     EXPECT_THAT(faults_of("stage one: turing_spots { speed: 0.5 + x }", changes),
-                HasSubstr("1:34: error: with etdrk4 the speed is the same in all cells"));
+                HasSubstr("1:34: error: with etdrk4 all cells must have the same speed"));
     EXPECT_THAT(faults_of("stage one: turing_spots { frozen: x > 0.5 }", changes),
-                HasSubstr("stage 'one' freezes cells, which etdrk4 cannot"));
+                HasSubstr("stage 'one' freezes cells, but etdrk4 cannot"));
 }
 
 }  // namespace

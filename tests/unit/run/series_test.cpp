@@ -51,7 +51,7 @@ TEST_F(SeriesTest, HasAFileForEachMomentWithItsTime) {
     EXPECT_THAT(piece, HasSubstr("WholeExtent=\"0 6 0 4 0 2\""));
     EXPECT_THAT(piece, HasSubstr("Name=\"u\""));
     EXPECT_THAT(piece, HasSubstr("Name=\"v\""));
-    // v is the last array: 0.75⁴ in all cells.
+    // v is the last array, with 0.75⁴ in all cells.
     const auto end = piece.rfind("\n  </AppendedData>");
     float value = 0;
     std::memcpy(&value, piece.data() + end - sizeof value, sizeof value);

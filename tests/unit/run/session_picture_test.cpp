@@ -1,4 +1,4 @@
-// Pictures that carry a session, also those that were changed to do harm.
+// Pictures that carry a session, including pictures that were changed to do harm.
 #include "run/session/session_picture.h"
 
 #include "run/commands/run.h"
@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 
 class SessionPictureTest : public RunTest {
 protected:
-    /// A picture of a small script with this text for a session.
+    /// A picture that carries a small script, and this text as its session.
     std::string picture_with(const std::string& session) {
         const Script script = load_script("small", small, ".");
         PngTexts texts = embed_script(script, {});
@@ -27,7 +27,7 @@ protected:
         EXPECT_TRUE(write_png(file, Image(2, 2), PngDepth::eight, texts));
         return file;
     }
-    /// Why the picture cannot be run.
+    /// The message that says why a picture with this session cannot be run.
     std::string refused(const std::string& session) {
         auto file = load_script_file(picture_with(session));
         EXPECT_TRUE(file);

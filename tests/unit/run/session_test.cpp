@@ -1,4 +1,5 @@
-// The thread of a session: what it obeys, what its readers see, and that threads change no bit.
+// The thread of a session: which commands it obeys, what its readers get, and that threads change
+// no bit.
 #include "run/session/session.h"
 
 #include "support/kernel_comparison.h"
@@ -58,7 +59,7 @@ std::vector<Field> species_of(Session& session) {
     session.ask([&](LiveRun& run) {
         std::vector<Field> copies;
         const auto& state = run.simulation().state(run.place().stage);
-        for (const Field& field : state.species) copies.push_back(field.clone());
+        for (const Field& field : state.species()) copies.push_back(field.clone());
         values.set_value(std::move(copies));
     });
     return values.get_future().get();
@@ -102,7 +103,7 @@ TEST(SessionTest, TakesAsManyStepsAsAskedFor) {
     snapshot_when(*session, [](const Snapshot& s) { return s.place == RunPlace{1, 37}; });
 }
 
-/// Its first stage ends in a chequerboard, whose steps are too long.
+/// A script whose first stage ends in a chequerboard, because its steps are too long.
 constexpr const char* too_long_steps =
     "domain { grid: 32, 32 }\n"
     "stage warm: turing_spots { iterations: 3000; diff_a: .25; diff_b: .0625; ka: 0.02 }\n"
@@ -136,6 +137,18 @@ TEST(SessionTest, TellsTheDoubtsOfAStageThatIsLeft) {
     snapshot_when(*session, [](const Snapshot& s) { return s.place == RunPlace{0, 2990}; });
     EXPECT_EQ(done(*session, MakeChange{NextStage{}}), "");
     snapshot_when(*session, has_doubt);
+}
+
+TEST(SessionTest, ForgetsWhatItSaidOfAnEndThatIsTakenBack) {
+    const auto session = begun(too_long_steps);
+    done(*session, TakeSteps{3000});
+    snapshot_when(*session, [](const Snapshot& s) { return has_doubt(s) && !s.is_going_on; });
+    done(*session, Show{"b"});
+    snapshot_when(*session, has_doubt);
+    done(*session, GoToStage{0});
+    snapshot_when(*session, [](const Snapshot& s) {
+        return s.place == RunPlace{0, 0} && !has_doubt(s);
+    });
 }
 
 TEST(SessionTest, AnswersWhatIsWrongAndGoesOn) {
@@ -195,7 +208,7 @@ TEST(SessionTest, AFailureStopsItAtTheLastGoodStep) {
     snapshot_when(*session, [](const Snapshot& s) { return s.failure.empty(); });
 }
 
-/// Whatever readers and writers do at the same time, the log gives the same bits.
+/// Whatever readers and writers do at the same time, playing the log gives the same bits.
 TEST(SessionTest, ThreadsChangeNoBit) {
     std::string text = spots_of_session;
     text.replace(text.find("400"), 3, "400000");
@@ -235,7 +248,7 @@ TEST(SessionTest, ThreadsChangeNoBit) {
     options.threads = 2;
     const auto again = LiveRun::play(log_of(*session), ".", options, control);
     ASSERT_TRUE(again) << again.error().messages(false);
-    EXPECT_EQ(same_bits(species_of(*session), (*again)->simulation().state(1).species), "");
+    EXPECT_EQ(same_bits(species_of(*session), (*again)->simulation().state(1).species()), "");
 }
 
 TEST(SessionTest, EndsWhileStepsAreTaken) {

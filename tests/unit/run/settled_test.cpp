@@ -1,5 +1,5 @@
-// A stage that waits until it has settled is resumed with the same end; when stages have settled is
-// in tests/scripts/steps.
+// A stage that runs until it has settled ends in the same way after it was resumed. When stages
+// count as settled is tested in tests/scripts/steps.
 #include "resumed_run.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Shapes by formulas against what they were meant to be.
+// Meshes of shapes that formulas describe, compared with the intended shapes.
 #include "run/pictures/shape_meshes.h"
 
 #include "lang/check/picture_shape.h"
@@ -66,7 +66,7 @@ TEST(ShapeMeshes, AreTheFormulas) {
             EXPECT_NEAR(parts[1].shade(t, s), t, 1e-12);
         }
     }
-    // The middle line without another is straight.
+    // Without a rule for it, the middle line is straight.
     const ShapeForm cone = shape_of("shape a { radius = 1 - t }");
     const auto mesh = mesh_of(parts_of(cone, cone.usual), {1, 0.002});
     ASSERT_TRUE(mesh);
@@ -91,7 +91,7 @@ TEST(ShapeMeshes, OfTheLibraryAreClosedAndStandOnTheirBase) {
             EXPECT_LT(std::abs(box.low.x + box.high.x), 0.3F) << text.file_name;
             EXPECT_GE(box.low.x, -1.2F) << text.file_name;
             EXPECT_LE(box.high.y, 1.3F) << text.file_name;
-            // It reaches at least as far along ez as against it.
+            // The shape extends at least as far in the direction ez as in the opposite direction.
             EXPECT_GE(box.high.z, -box.low.z - 1e-5F) << text.file_name;
         }
     }
@@ -135,7 +135,8 @@ TEST(ShapeMeshes, AreSharedByCells) {
         "radius = (1 - t) * (k + n + free) }");
     const ItemId k = *form.find("k"), n = *form.find("n"), free = *form.find("free");
     const double nan = std::nan("");
-    // Nearest sixteenths, clamped; what is not finite has no shape.
+    // Values are clamped and rounded to the nearest sixteenth. A value that is not finite gives no
+    // shape.
     const SharedShapes by_k =
         share_shapes(form, std::vector<QuantityValues>{{k, {0.49, 0.51, 0, -1, 2, nan}}}, 6);
     EXPECT_THAT(by_k.of_cells, ::testing::ElementsAre(0, 0, 1, 1, 2, SharedShapes::none));
@@ -151,7 +152,7 @@ TEST(ShapeMeshes, AreSharedByCells) {
         share_shapes(form, std::vector<QuantityValues>{{free, {100, 260, 109, 101}}}, 4);
     EXPECT_THAT(by_free.of_cells, ::testing::ElementsAre(0, 1, 2, 0));
     EXPECT_EQ(by_free.shapes[2][free.index()], 110);
-    // Too many shapes are rounded more.
+    // If there are too many shapes, values are rounded more coarsely.
     std::vector<double> many;
     for (int i = 0; i <= 1000; ++i) many.push_back(i / 1000.0);
     EXPECT_EQ(share_shapes(form, std::vector<QuantityValues>{{k, many}}, 1001).shapes.size(), 17u);
@@ -181,8 +182,8 @@ SurfacePlace place_on(const SurfaceMesh& square, double x, double y) {
 }
 
 TEST(ShapeMeshes, PlatesOverlapLikeRoofTiles) {
-    // Cells that touch, six around each, combed in any direction, with the measures of a picture
-    // that says none.
+    // Cells that touch six neighbours each, combed in any direction, with the sizes that pictures
+    // have by default.
     constexpr double r = 0.04;
     const ShapeForm form = library_shape("plate");
     const SurfaceMesh square = test::flat_square(1);

@@ -68,7 +68,8 @@ TEST(ShownSurface, VerticesOfAModelShowTheCellsAroundThem) {
     EXPECT_EQ(mesh.up, Axis::y);
     EXPECT_TRUE(mesh.places.empty());
     EXPECT_GT(mesh.positions.size(), 1500U);
-    // Scripts and meshes have the same coordinates, and the filter is a few cells wide.
+    // Scripts and meshes use the same coordinates, so u = x shows the x of each vertex up to the
+    // width of the filter.
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         EXPECT_NEAR(value_at(mesh, v, *snapshot), mesh.positions[v].x, mesh.spacing);
     }
@@ -99,7 +100,7 @@ TEST(ShownSurface, VerticesOfAFunctionLieInCellsAndBetweenThem) {
     ASSERT_EQ(mesh.places.size(), mesh.positions.size());
     ASSERT_EQ(mesh.positions.size(), 193U * 161U);
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-        // Beyond the middle of the outermost cells values stay what they are there.
+        // Between the centres of the outermost cells and the sides, values are constant.
         const double y = std::clamp(static_cast<double>(mesh.places[v][1]), 0.5 / 96, 79.5 / 96);
         EXPECT_NEAR(value_at(mesh, v, *snapshot), y, 1e-6);
     }

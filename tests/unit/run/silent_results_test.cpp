@@ -1,6 +1,6 @@
-// Runs that end well and show nothing, or something else than one would think, say so in one line;
-// and runs that are as they should be say nothing. Here are those that depend on what is asked of a
-// run; what scripts alone make it say is in tests/scripts/remarks.
+// Runs that succeed but show nothing, or something misleading, print a line that says so. Other
+// runs print nothing. These tests have remarks that depend on the request. Remarks that depend on
+// the script alone are tested in tests/scripts/remarks.
 #include "run_fixture.h"
 
 #include "run/commands/sweep.h"
@@ -19,7 +19,7 @@ using testing::StartsWith;
 
 class SilentResults : public RunTest {
 protected:
-    /// What a run of `text` says, of its script and of its result.
+    /// The remarks of a run of `text` about its script and about its result.
     std::vector<std::string> words_of(const std::string& text) { return words_of(text, request()); }
     std::vector<std::string> words_of(const std::string& text, const RunRequest& request,
                                       const Overrides& changes = {}) {
@@ -66,7 +66,7 @@ TEST_F(SilentResults, AGridThatIsALine) {
     EXPECT_THAT(words_of(text, request(), line),
                 ElementsAre("this is a line of 100 cells | for a square write --grid 100x100"));
     EXPECT_THAT(load(text, line).messages(false), HasSubstr("\n    1 | 100\n"));
-    // Another line in place of one.
+    // A line of the command line replaces a statement of the script.
     EXPECT_THAT(words_of("domain { grid: 60 }\n" + text, request(), line), IsEmpty());
 }
 
@@ -89,7 +89,8 @@ TEST_F(SilentResults, ASeedOfNothingRandom) {
     }
 }
 
-/// Dying fields in a sweep: the numbers are those of a ripple, and the remark says what it is.
+/// A sweep over fields that die out. Their features are those of a faint ripple, and a remark says
+/// so.
 TEST_F(SilentResults, SweepsRemarkOnTheirRuns) {
     const Script script = load(
         "system s { u: 3.7 + random(0, 0.5); c: -0.02; u' = c*(u - 3.7) + 0.02*lap(u) }\n"
@@ -107,7 +108,7 @@ TEST_F(SilentResults, SweepsRemarkOnTheirRuns) {
     EXPECT_THAT(rows[1],
                 HasSubstr(
                     "stage 'skin' is dying out: the deviations left are small and falling (u "));
-    EXPECT_THAT(rows[2], HasSubstr("stage 'skin' died out: it is even since step "));
+    EXPECT_THAT(rows[2], HasSubstr("stage 'skin' died out: it has been uniform since step "));
     EXPECT_THAT(rows[3], testing::EndsWith(",200,"));
 }
 

@@ -1,4 +1,4 @@
-// How tests run simulations.
+// The options with which tests run simulations.
 #pragma once
 
 #include "run/simulation/simulation.h"

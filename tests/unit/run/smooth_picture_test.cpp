@@ -70,7 +70,7 @@ TEST(SmoothPicture, FitsIntoItsSizeInProportion) {
     EXPECT_EQ(size_of("grid: 24, 12", copies), (PictureSize{99, 34}));
     copies.scale = 2;
     EXPECT_EQ(size_of("grid: 24, 12", copies), (PictureSize{198, 68}));
-    // Fewer pixels than cells: each is the mean of its cells.
+    // If there are fewer pixels than cells, each pixel is the mean of its cells.
     const Image small =
         drawn(plane("grid: 64, 64", "if(mod(floor(64 * x), 2) < 1, 0, 1)"), smooth(16, 16));
     for (const Colour& pixel : small.pixels) EXPECT_NEAR(pixel[0], 0.735F, 0.03F);
@@ -90,7 +90,7 @@ TEST(SmoothPicture, OutlinesOfThresholdsAreRound) {
             return image.at(std::llround(239.5 + 480 * radius * std::cos(angle)),
                             std::llround(239.5 + 480 * radius * std::sin(angle)))[0];
         };
-        EXPECT_GT(at(0.29), 0.9F) << k;  // A fifth of a cell from the outline.
+        EXPECT_GT(at(0.29), 0.9F) << k;  // A fifth of a cell away from the outline.
         EXPECT_LT(at(0.31), 0.1F) << k;
     }
 }
@@ -138,7 +138,7 @@ TEST(SmoothPicture, CopiesJoin) {
                 largest = std::max(largest, std::abs(image.at(x, y)[0] - image.at(x, y - 1)[0]));
         }
     }
-    EXPECT_LT(largest, 0.08F);  // That of the steepest place, 0.5 · 2π/48, and none at a seam.
+    EXPECT_LT(largest, 0.08F);  // 0.5 · 2π/48 at the steepest place; no jump at seams.
     PictureRequest squares;
     squares.copies = {2, 1};
     squares.scale = 3;
@@ -159,12 +159,12 @@ TEST_F(SmoothPictureRun, WhatCannotBeIsRefused) {
     PictureRequest copies;
     copies.copies = {2, 1};
     EXPECT_THAT(reason(plane("grid: 8, 8; boundary: noflux", "0"), copies),
-                HasSubstr("the pattern does not go on at its left and right sides"));
+                HasSubstr("the pattern does not repeat across its left and right sides"));
     EXPECT_THAT(reason(plane("surface: sphere; cells: 200", "0"), copies),
                 HasSubstr("only planes are drawn in copies"));
     copies.copies = {1, 2};
     EXPECT_THAT(reason(plane("grid: 8, 8; boundary: periodic, noflux", "0"), copies),
-                HasSubstr("the pattern does not go on at its upper and lower sides"));
+                HasSubstr("the pattern does not repeat across its upper and lower sides"));
     PictureRequest rows = smooth(100, 100);
     rows.space_time = true;
     EXPECT_THAT(reason(plane("grid: 8", "0"), rows),

@@ -1,6 +1,6 @@
-// Solvers through the language: orders against solutions that are known, stabilised ones against
-// Euler's, the same bits after a break. Bits of every executor, ends of stages and conserved energy
-// are in tests/scripts/steps.
+// Solvers in scripts: orders against known solutions, stabilised solvers against Euler's method,
+// and the same bits after a run is resumed. The bits of all executors, the ends of stages and
+// conserved energy are tested in tests/scripts/steps.
 #include "ran_text.h"
 #include "resumed_run.h"
 
@@ -19,8 +19,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// u = 1 + cos t · cos 2πx: what a source makes it beside diffusion, whose eigenvalue on 16 cells
-/// is known; v swings with the angle sin t.
+/// A system whose solution is u = 1 + cos t · cos 2πx. Diffusion, whose eigenvalue on 16 cells is
+/// q, and a source together give this u. (v, w) turns on a circle by the angle sin t.
 std::string manufactured(const std::string& settings) {
     return "system made {\n"
            "  u: 1 + cos(2 * pi * x)\n  v: 0\n  w: 1\n"
@@ -37,9 +37,9 @@ double manufactured_error(const Ran& ran) {
     for (std::int64_t i = 0; i < 16; ++i) {
         const double x = (static_cast<double>(i) + 0.5) / 16;
         const double u = 1 + std::cos(t) * std::cos(2 * std::numbers::pi * x);
-        most = std::max(most, std::abs(ran.state().species[0].at(i, 0) - u));
-        most = std::max(most, std::abs(ran.state().species[1].at(i, 0) - std::sin(std::sin(t))));
-        most = std::max(most, std::abs(ran.state().species[2].at(i, 0) - std::cos(std::sin(t))));
+        most = std::max(most, std::abs(ran.state().species()[0].at(i, 0) - u));
+        most = std::max(most, std::abs(ran.state().species()[1].at(i, 0) - std::sin(std::sin(t))));
+        most = std::max(most, std::abs(ran.state().species()[2].at(i, 0) - std::cos(std::sin(t))));
     }
     return most;
 }
@@ -63,7 +63,7 @@ TEST(Solvers, OrdersThroughTheLanguage) {
           Case{"gauss", 64}, Case{"ros2", 32}}) {
         const double order = std::log2(error_of(solver, steps) / error_of(solver, 2 * steps));
         RecordProperty(solver, fmt::format("{:.2f}", order));
-        // Steps must be long enough for errors to show beside the rounding of floats.
+        // Steps must be so long that errors exceed the rounding of single precision.
         EXPECT_GT(order, order_of(*solver_of(solver)) - 0.25) << solver;
         EXPECT_LT(order, order_of(*solver_of(solver)) + 0.5) << solver;
     }
@@ -111,7 +111,7 @@ const std::vector<std::string>& all_settings() {
     return settings;
 }
 
-/// Steps of a stage of Cahn and Hilliard by a stabilised solver, and its outcome.
+/// The equation of Cahn and Hilliard with a stabilised solver: the number of steps, and the result.
 TEST(Solvers, LegendreTakesNestedOperatorsInStages) {
     const auto run = [](const std::string& settings) {
         return run_text("stage s: cahn_hilliard { " + settings + " }\ndomain { grid: 48, 48 }",
@@ -123,8 +123,8 @@ TEST(Solvers, LegendreTakesNestedOperatorsInStages) {
             run(fmt::format("solver: {}; speed: auto; tolerance: 0.01; duration: 50", solver));
         EXPECT_EQ(legendre.failure, "");
         EXPECT_LT(legendre.state().steps * (legendre.state().time.stages + 2), 1400) << solver;
-        const Field& a = euler.state().species[0];
-        const Field& b = legendre.state().species[0];
+        const Field& a = euler.state().species()[0];
+        const Field& b = legendre.state().species()[0];
         EXPECT_NEAR(moments(b).mean, moments(a).mean, 1e-5) << solver;  // Nothing is lost.
         const double difference =
             moments_of_difference(a, b).root_mean_square / moments(a).deviation;
@@ -132,7 +132,8 @@ TEST(Solvers, LegendreTakesNestedOperatorsInStages) {
     }
 }
 
-/// Diffusion with a direction on a surface: a fifth of Euler's evaluations or fewer.
+/// Diffusion with a direction on a surface takes at most a fifth of the evaluations of Euler's
+/// method.
 TEST(Solvers, LegendreTakesTensorsOnASurfaceInStages) {
     Overrides changes;
     changes.solver = "rkl1";
@@ -146,7 +147,7 @@ TEST(Solvers, LegendreTakesTensorsOnASurfaceInStages) {
     EXPECT_EQ(ran.failure, "");
     EXPECT_NEAR(ran.state().t, 20, 1e-5);
     EXPECT_LT(ran.state().steps * ran.state().time.stages, 800);
-    EXPECT_GT(moments(ran.state().species[0]).deviation, 0.1);
+    EXPECT_GT(moments(ran.state().species()[0]).deviation, 0.1);
 }
 
 class SolversRun : public ResumedRunTest {};
@@ -164,7 +165,7 @@ TEST_F(SolversRun, ResumeWithTheSameBits) {
 }
 
 TEST_F(SolversRun, StepsThatAreSplitOnAModelResumeWithTheSameBits) {
-    // Weights sum to 4, so that what decays most does so at 8 * 0.4.
+    // The weights of each cell sum to 4, so the fastest mode decays at the rate 8 * 0.4.
     for (const auto& [speed, parts] : {std::pair{1, 2}, {2, 4}, {4, 7}}) {
         const std::string text = fmt::format(
             "system heat {{ u: sx; u' = 0.4 * lap(u) }}\ndomain {{ surface: box; cells: 60; "
@@ -193,11 +194,11 @@ TEST(Solvers, LegendreGrowsTheSameSpotsAsEuler) {
         const Ran legendre = spots(changes);
         EXPECT_DOUBLE_EQ(legendre.state().t, 12000);
         EXPECT_LT(legendre.state().steps, 1500);
-        const Field& a = euler.state().species[1];
-        const Field& b = legendre.state().species[1];
+        const Field& a = euler.state().species()[1];
+        const Field& b = legendre.state().species()[1];
         const double difference =
             moments_of_difference(a, b).root_mean_square / moments(a).deviation;
-        // The correlation of two fields of one mean and deviation is 1 − difference² / 2.
+        // The correlation of two fields with the same mean and deviation is 1 − difference² / 2.
         EXPECT_LT(difference, std::sqrt(2 * (1 - 0.99))) << solver;
     }
 }
@@ -210,7 +211,7 @@ TEST(Solvers, TheOptionKeepsTheTimeOfEachStage) {
         "grid: 4, 1 }",
         {"interp", 0, 1}, changes);
     EXPECT_DOUBLE_EQ(ran.state().t, 2);
-    EXPECT_NEAR(ran.state().species[0].at(0, 0), std::exp(-2.0), 1e-3);
+    EXPECT_NEAR(ran.state().species()[0].at(0, 0), std::exp(-2.0), 1e-3);
 }
 
 TEST(Solvers, TheOptionSaysWhichStageCannotTakeIt) {
@@ -222,7 +223,7 @@ TEST(Solvers, TheOptionSaysWhichStageCannotTakeIt) {
                     changes);
     EXPECT_FALSE(script.program);
     EXPECT_THAT(script.messages(false),
-                HasSubstr("2:25: error: with rk4 the speed is the same in all cells"));
+                HasSubstr("2:25: error: with rk4 all cells must have the same speed"));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The scale of a pattern is a length: it is the same on coarse, fine and badly cut triangles of one
-// surface, whatever the number of cells, and the same as on the plane.
+// The size of spots is a length: it is the same as on the plane, whatever the number of cells, and
+// however finely or badly a surface is cut into triangles.
 #include "measure/regions.h"
 #include "run/pictures/measured.h"
 #include "run_fixture.h"
@@ -17,7 +17,8 @@ namespace {
 using test::mean_of;
 using test::Triangles;
 
-/// Connected parts of the cells above their mean, cells being connected by Voronoi edges.
+/// The number of connected parts of the set of cells above the mean. Cells with a common Voronoi
+/// edge are connected.
 std::int64_t count_spots(const SurfaceCells& cells, const std::vector<double>& values) {
     const double level = mean_of(values);
     std::int64_t spots = 0;
@@ -41,12 +42,13 @@ std::int64_t count_spots(const SurfaceCells& cells, const std::vector<double>& v
     return spots;
 }
 
-// As many units of area as the plane has, and at first as many cells: some 50 spots.
+// The surface has as many square units as the plane, and at first as many cells. This gives about
+// 50 spots.
 constexpr double area_in_units = 5000;
 
 class SpotSizeTest : public RunTest {
 protected:
-    /// How many of Schnakenberg's spots have grown on a domain.
+    /// The number of spots that Schnakenberg's system grows on a domain.
     std::int64_t spots_on(const std::string& domain) {
         Script script =
             load(fmt::format("domain {{ {} }}\nstage spots: schnakenberg {{\n"
@@ -64,7 +66,7 @@ protected:
         const auto end =
             simulation.advance_stage(0, script.program->stages[0].iterations, control, {});
         EXPECT_TRUE(end) << (end ? "" : end.error().message);
-        const Field& field = simulation.state(0).species[0];
+        const Field& field = simulation.state(0).species()[0];
         if (const auto model = simulation.domain().shared_model()) {
             const double area = std::accumulate(model->spread().cells.areas.begin(),
                                                 model->spread().cells.areas.end(), 0.0);
@@ -76,7 +78,7 @@ protected:
         return measure::find_regions(samples, mean_of(samples.values)).above;
     }
 
-    /// The area of a spot on the mean, in square units, of two runs.
+    /// The mean area of a spot in two runs, in square units.
     double spot_area(const std::string& domain) {
         constexpr int runs = 2;
         std::int64_t spots = 0;
@@ -106,7 +108,8 @@ TEST_F(SpotSizeTest, IsTheSameOnAnyTrianglesAndOnThePlane) {
             const double found =
                 spot_area(fmt::format("mesh: \"{}.obj\"; cells: {}; unit: {}", name, cells, unit));
             std::printf(", %s %.1f", name, found);
-            // Among equal runs on the plane the number of spots deviates by 4 %.
+            // Between runs on the plane that differ only in the seed, the number of spots varies by
+            // 4 %.
             EXPECT_NEAR(found / plane, 1, 0.08) << name << ", " << cells;
             areas.push_back(found);
         }

@@ -1,4 +1,4 @@
-// What is told of a stage by the few moments that are remembered of it.
+// What the few remembered moments of a stage tell about its course.
 #include "run/stage/stage_course.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace cascade {
 namespace {
 
-/// One species on 64 × 4 cells: mean + amplitude · cos.
+/// One species on 64 × 4 cells: a cosine of this mean and amplitude.
 std::vector<Field> species(double mean, double amplitude) {
     std::vector<Field> fields;
     Field field{PlaneLayout(Grid{64, 4})};
@@ -25,7 +25,7 @@ std::vector<Field> species(double mean, double amplitude) {
     return fields;
 }
 
-/// One species of a value on 512 × 256 cells, of which one has another value.
+/// One species on 512 × 256 cells, all with the value `value`, except one cell with `of_cell`.
 std::vector<Field> one_cell(float value, float of_cell) {
     std::vector<Field> fields;
     Field& field = fields.emplace_back(PlaneLayout(Grid{512, 256}));
@@ -34,7 +34,8 @@ std::vector<Field> one_cell(float value, float of_cell) {
     return fields;
 }
 
-/// 1000 steps, looked at as a run does, whose amplitude is a function of the time.
+/// The course of a stage of 1000 steps whose amplitude is a function of the time. Moments are
+/// remembered as in a run.
 StageCourse course_of(double mean, const std::function<double(double)>& amplitude) {
     StageCourse course;
     for (std::int64_t step = 0; step <= 1000; step += 10) {
@@ -48,26 +49,26 @@ StageCourse course_of(double mean, const std::function<double(double)>& amplitud
 TEST(StageCourse, EndsWhereItEnds) {
     const StageCourse course = course_of(2, [](double t) { return t / 1000; });
     EXPECT_EQ(course.first().step, 0);
-    EXPECT_TRUE(course.first().is_even);
+    EXPECT_TRUE(course.first().is_uniform);
     EXPECT_EQ(course.last().step, 1000);
-    EXPECT_FALSE(course.ended_even());
+    EXPECT_FALSE(course.ended_uniform());
     EXPECT_NEAR(course.last().species[0].deviation(), std::sqrt(0.5), 1e-6);
     EXPECT_NEAR(course.greatest_contrast(), std::sqrt(0.5) / 3, 1e-3);
 }
 
 TEST(StageCourse, ASingleCellOfALargePlaneMakesItUneven) {
-    const auto is_even = [](float value, float of_cell) {
+    const auto is_uniform = [](float value, float of_cell) {
         StageCourse course;
         course.look(0, 0, one_cell(value, of_cell), nullptr);
-        return course.first().is_even;
+        return course.first().is_uniform;
     };
     constexpr float infinite = std::numeric_limits<float>::infinity();
-    EXPECT_TRUE(is_even(0, 0));
-    EXPECT_TRUE(is_even(3, 3));
-    EXPECT_TRUE(is_even(3, 3.001f));
-    EXPECT_FALSE(is_even(3, 4));
-    EXPECT_FALSE(is_even(0, 1e-3f));
-    EXPECT_TRUE(is_even(3, infinite)) << "what is not finite does not count";
+    EXPECT_TRUE(is_uniform(0, 0));
+    EXPECT_TRUE(is_uniform(3, 3));
+    EXPECT_TRUE(is_uniform(3, 3.001f));
+    EXPECT_FALSE(is_uniform(3, 4));
+    EXPECT_FALSE(is_uniform(0, 1e-3f));
+    EXPECT_TRUE(is_uniform(3, infinite)) << "what is not finite does not count";
 }
 
 TEST(StageCourse, AmplitudeThatRisesIsGrowing) {
@@ -79,7 +80,7 @@ TEST(StageCourse, AmplitudeThatRisesIsGrowing) {
 
 TEST(StageCourse, PatternsThatAreThereAreNot) {
     EXPECT_EQ(course_of(2, [](double t) { return std::tanh(t / 200); }).trend(), Trend::none);
-    // Coarsening, and a pulse that happens to rise.
+    // Coarsening, a pulse that happens to rise, and a pattern that decays slowly.
     EXPECT_EQ(course_of(2, [](double t) { return std::cbrt(t); }).trend(), Trend::none);
     EXPECT_EQ(course_of(2, [](double t) { return 1 + 0.5 * std::sin(t / 20); }).trend(),
               Trend::none);
@@ -89,16 +90,16 @@ TEST(StageCourse, PatternsThatAreThereAreNot) {
 TEST(StageCourse, SmallRestsThatFallAreFading) {
     const StageCourse course = course_of(3.7, [](double t) { return 0.5 * std::exp(-t / 120); });
     EXPECT_EQ(course.trend(), Trend::fading);
-    // What is small and stays is a pattern, if a faint one.
+    // A small amplitude that stays is a faint pattern.
     EXPECT_EQ(course_of(3.7, [](double t) { return 1e-4 + 0.5 * std::exp(-t / 30); }).trend(),
               Trend::none);
 }
 
 TEST(StageCourse, EvenSinceTheFirstOfTheEvenMoments) {
     const StageCourse course = course_of(1, [](double t) { return t < 400 ? 0.2 : 0; });
-    ASSERT_TRUE(course.ended_even());
-    EXPECT_GE(course.even_since().step, 400);
-    EXPECT_LE(course.even_since().step, 450);
+    ASSERT_TRUE(course.ended_uniform());
+    EXPECT_GE(course.uniform_since().step, 400);
+    EXPECT_LE(course.uniform_since().step, 450);
     EXPECT_EQ(course.trend(), Trend::none);
 }
 
@@ -107,10 +108,10 @@ TEST(StageCourse, SomethingSmallBetweenTheRowsLookedAtIsSeen) {
     fields.emplace_back(PlaneLayout(Grid{512, 512}));
     StageCourse course;
     course.look(0, 0, fields, nullptr);
-    EXPECT_TRUE(course.last().is_even);
+    EXPECT_TRUE(course.last().is_uniform);
     fields[0].at(100, 101) = 1;
     course.look(1, 1, fields, nullptr);
-    EXPECT_FALSE(course.last().is_even);
+    EXPECT_FALSE(course.last().is_uniform);
 }
 
 TEST(StageCourse, CellsOutsideOfAMaskDoNotCount) {
@@ -120,7 +121,7 @@ TEST(StageCourse, CellsOutsideOfAMaskDoNotCount) {
     StageCourse course;
     course.look(0, 0, fields, &inside);
     EXPECT_EQ(course.last().species[0].count, 1);
-    EXPECT_TRUE(course.last().is_even);
+    EXPECT_TRUE(course.last().is_uniform);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A stage that runs keeps what its steps take from call to call, and notices when states change.
+// A running stage keeps its memory between calls that take steps, and notices changes of the state.
 #include "run/simulation/end_remarks.h"
 #include "run/simulation/simulation.h"
 
@@ -50,11 +50,11 @@ TEST_F(RunningStage, StatesThatAreReplacedAreGoneOnFrom) {
     advance(*first, 0, 20);
     StageRecord record = record_of(first->state(0), *first->domain().program, 0);
     advance(*first, 0, 45);
-    // Back to step 20, in the middle of a stage that runs.
+    // Goes back to step 20 while the stage is running.
     restore(*first, 0, std::move(record));
     advance(*first, 0, 60);
     advance(*second, 0, 60);
-    EXPECT_EQ(same_bits(first->state(0).species, second->state(0).species), "");
+    EXPECT_EQ(same_bits(first->state(0).species(), second->state(0).species()), "");
 }
 
 TEST_F(RunningStage, StagesMayTakeTurns) {
@@ -71,7 +71,7 @@ TEST_F(RunningStage, StagesMayTakeTurns) {
     advance(*second, 0, 60);
     advance(*second, 1, 60);
     for (const std::uint32_t stage : {0u, 1u}) {
-        EXPECT_EQ(same_bits(first->state(stage).species, second->state(stage).species), "");
+        EXPECT_EQ(same_bits(first->state(stage).species(), second->state(stage).species()), "");
     }
 }
 
@@ -83,7 +83,7 @@ TEST_F(RunningStage, AStageMayStartAgainInTheMiddle) {
     ASSERT_TRUE(second->start_stage(0));
     advance(*first, 0, 41);
     advance(*second, 0, 41);
-    EXPECT_EQ(same_bits(first->state(0).species, second->state(0).species), "");
+    EXPECT_EQ(same_bits(first->state(0).species(), second->state(0).species()), "");
 }
 
 TEST_F(RunningStage, RemarksChangeNoBits) {
@@ -96,11 +96,11 @@ TEST_F(RunningStage, RemarksChangeNoBits) {
         ASSERT_TRUE(first->advance_stage(0, last, last % 2 == 0 ? listening : control_, {}));
     }
     advance(*second, 0, 60);
-    EXPECT_EQ(same_bits(first->state(0).species, second->state(0).species), "");
+    EXPECT_EQ(same_bits(first->state(0).species(), second->state(0).species()), "");
     EXPECT_EQ(remark_on(*first, 0), remark_on(*second, 0));
 }
 
-// Sides that vary, that change, and both.
+// Values at sides that vary along the side, that change with time, or both.
 constexpr const char* held_at_sides =
     "domain { grid: 20, 16; boundary: noflux }\n"
     "system s { u: 1 + x; u' = 0.1 * lap(u)\n"
@@ -137,7 +137,7 @@ TEST_F(CopiedState, IsAdvancedAsTheOriginal) {
     advance(states, 60);
     EXPECT_EQ(copies[0].steps, 20);
     advance(copies, 60);
-    EXPECT_EQ(same_bits(states[0].species, copies[0].species), "");
+    EXPECT_EQ(same_bits(states[0].species(), copies[0].species()), "");
 }
 
 TEST_F(CopiedState, KeepsItsSides) {

@@ -1,4 +1,4 @@
-// Sizes that are asked for are the wavelengths that come out, on planes, lines, and models.
+// A stage's `size` is the wavelength of its pattern, on planes, lines and models.
 #include "core/file.h"
 #include "lang/program/scaled_lengths.h"
 #include "measure/spectrum.h"
@@ -22,7 +22,7 @@ double factor_of(const Ran& ran, std::uint32_t stage = 0) {
     return ran.simulation->domain().stage(stage).size->factor;
 }
 
-/// In units of the domain.
+/// The wavelength of the last stage's pattern, in units of the domain.
 double wavelength_of(const Ran& ran) {
     const auto stage = static_cast<std::uint32_t>(ran.script.stage_count() - 1);
     const Formula& shown = ran.simulation->domain().stage(stage).show;
@@ -89,7 +89,7 @@ double wavelength_on(const ModelCells& model, std::vector<double> values) {
         }
         wave[a] = std::sqrt((1 - std::cos(theta)) / 2 * most) * spread.unit;
     }
-    // As in measure/spectrum.cpp; moments have smoothed the peak.
+    // The peak as in measure/spectrum.cpp. A finite number of moments has smoothed it.
     const auto peak = std::max_element(power.begin(), power.end()) - power.begin();
     double whole = 0, first = 0;
     for (int a = 0; a < angles; ++a) {
@@ -112,7 +112,7 @@ std::vector<std::vector<double>> after_steps(const std::string& text, double fac
     RunControl control;
     EXPECT_TRUE((*made)->advance_stage(0, 20, control, {}));
     std::vector<std::vector<double>> values;
-    for (const Field& field : (*made)->state(0).species)
+    for (const Field& field : (*made)->state(0).species())
         values.push_back(measure::to_samples(field, (*made)->domain().grid).values);
     return values;
 }
@@ -143,7 +143,7 @@ stage s: all {{ speed: 0.001; iterations: 20; u.right: slope(-0.2) }}
     EXPECT_EQ(after_steps(fmt::format(text, 2), 1), after_steps(fmt::format(text, 0.5), 0.25));
 }
 
-// Of the domain, which all stages share, sides keep their lengths.
+// Sides belong to the domain, which all stages share, so their lengths are not multiplied.
 TEST(ScaledLengths, LeaveSidesOfTheDomainAlone) {
     const auto with = [](const char* of_domain, const char* of_stage) {
         return after_steps(fmt::format("system s {{ u: sx; u' = lap(u) }}\n"
@@ -165,7 +165,7 @@ class Sizes : public ::testing::TestWithParam<SizeCase> {};
 
 TEST_P(Sizes, AreThoseOfThePattern) {
     const auto [system, size, more] = GetParam();
-    // Many waves, so that what one seed makes is what others make.
+    // The domain is many waves wide, so that results hardly depend on the seed.
     const int side = static_cast<int>(std::min(384.0, 24 * size)) / 16 * 16;
     const Ran ran = run_text(fmt::format("domain {{ grid: {0}, {0}; seed: 7 }}\n"
                                          "stage s: {1} {{ size: {2}; {3} }}\n",

@@ -1,4 +1,4 @@
-// A script whose first stage has its starting values, for tests of what is computed of them.
+// A script whose first stage has its starting values, for tests of values computed from them.
 #pragma once
 
 #include "run/script/script.h"
@@ -13,7 +13,8 @@ namespace cascade::test {
 
 inline Script load(const std::string& text) { return load_script("test", text, "."); }
 
-/// On the interpreter. A fault fails the test that calls, and gives nothing.
+/// Starts the first stage on the interpreter. Returns null, and fails the test, if the script has a
+/// fault.
 inline std::unique_ptr<Simulation> start(Script& script) {
     EXPECT_TRUE(script.program) << script.messages(false);
     if (!script.program) return nullptr;
@@ -24,7 +25,7 @@ inline std::unique_ptr<Simulation> start(Script& script) {
     return std::move(*simulation);
 }
 
-/// The plane of an item of the first stage that varies.
+/// The plane of an item of the first stage that differs from cell to cell.
 inline const Field& result_of(const Simulation& simulation, const std::string& name) {
     const System& system = simulation.domain().program->system_of(0);
     for (const ItemId k : system.quantities.ids()) {

@@ -1,5 +1,5 @@
-// Whatever `cascade new` prints can be run: every text of the library, with its stage or with the
-// one that is added.
+// Every script that `cascade new` prints can be run: each text of the library with its own stage,
+// or with a stage that is added.
 #include "ran_text.h"
 
 #include "lang/library/library.h"
@@ -36,8 +36,8 @@ TEST(StartingScripts, EveryBlockOfCellsAndEveryShapeRuns) {
             ASSERT_TRUE(ran.simulation);
             EXPECT_EQ(ran.failure, "");
             EXPECT_THAT(ran.warnings, testing::IsEmpty());
-            ASSERT_TRUE(ran.last().tissue);
-            EXPECT_GT(ran.last().tissue->count(), 5u);
+            ASSERT_TRUE(ran.last().tissue());
+            EXPECT_GT(ran.last().tissue()->count(), 5u);
         }
     }
 }

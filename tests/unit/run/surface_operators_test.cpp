@@ -61,7 +61,7 @@ Vector2 slope(double sx, double sy) {
     return {c, 2 * c};
 }
 
-/// The divergence in X and Y of a flux that is known by place: what flows out of a small piece.
+/// The divergence in X and Y of a known flux, computed from the outflow of a small piece.
 double divergence(const FluxOfPlace& flux, double sx, double sy) {
     constexpr double h = 1e-5;
     const auto through_x = [&](double u, double v) {
@@ -113,7 +113,7 @@ struct SurfaceOperatorOrder {
 TEST(SurfaceOperators, MeasureOnTheSurface) {
     const OfPlace k = [](double sx, double) { return 2 + std::cos(2 * pi * sx); };
     const double cosine = std::cos(0.6), sine = std::sin(0.6);
-    /// A v, A being turned from the first direction.
+    /// A v, for a tensor A that is turned away from the direction along a row.
     const auto turned = [=](double a1, Vector2 v, double sx, double sy) {
         const Vector2 e = first(sx, sy), g = second(sx, sy);
         const double x = dot(v, e), y = dot(v, g);
@@ -188,7 +188,7 @@ TEST(SurfaceOperators, WithoutAMetricCellsAreSquares) {
 }
 
 TEST(SurfaceOperators, NothingIsLost) {
-    // Inside sides that mirror, too: the sum of s · div is 0 to rounding.
+    // The sum of s · div is 0 up to rounding, also between sides that mirror.
     for (const char* boundary : {"periodic", "noflux"}) {
         Script script =
             load(script_on_bent_plane("div(tensor(k, 0.5, 0.6) * grad(f) + vector(f, 1))", 48,
@@ -198,7 +198,7 @@ TEST(SurfaceOperators, NothingIsLost) {
         double sum = 0, size = 0;
         for (int j = 0; j < 48; ++j) {
             for (int i = 0; i < 48; ++i) {
-                // The mean cell has area 1.
+                // The cells have the mean area 1.
                 const double s = area((i + 0.5) / 48, (j + 0.5) / 48);
                 sum += s * static_cast<double>(flow.at(i, j));
                 size += std::abs(s * static_cast<double>(flow.at(i, j)));

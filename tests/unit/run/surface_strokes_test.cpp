@@ -1,5 +1,5 @@
-// Distances that strokes and pictures of a model read once: bounded in memory, and no more than is
-// needed.
+// Distances that strokes and pictures of a model read once: their memory is bounded, and only the
+// needed ones are computed.
 #include "run/domain/surface_values.h"
 #include "run/session/live_run.h"
 
@@ -66,7 +66,8 @@ TEST_F(SurfaceStrokes, AComparisonIsThatOfTheWholeDistance) {
         for (int k = 0; k < 8; ++k) {
             const std::string distance =
                 fmt::format("distance({}, {}, 0.4)", 0.1 * k, std::abs(0.7 - 0.1 * k));
-            // The second is no plain comparison of the distance, so that all of it is found.
+            // The next expression is no plain comparison of the distance, so the distance to all
+            // cells is computed.
             const auto quick = values(fmt::format("if({} < {}, 1, 0)", distance, reach));
             EXPECT_EQ(quick, values(fmt::format("if({} - {} < 0, 1, 0)", distance, reach)));
             EXPECT_EQ(quick, values(fmt::format("if({} > {}, 0, 1)", distance, reach)));

@@ -1,5 +1,5 @@
-// Painted pictures on a model, and cells stretched along directions. Other values that places on a
-// model give its cells are in tests/scripts/models.
+// Painted pictures on a model, and cells stretched along directions. Other values that cells get
+// from their places on a model are tested in tests/scripts/models.
 #include "picture/image.h"
 #include "run/domain/model_cells.h"
 #include "run/simulation/simulation.h"
@@ -14,7 +14,8 @@ namespace {
 
 class SurfaceValuesTest : public RunTest {
 protected:
-    /// The simulation of a script of one stage that has begun; null with a failed test.
+    /// The simulation of a script whose only stage has begun. Null if this fails, which also fails
+    /// the test.
     std::unique_ptr<Simulation> start(const std::string& domain,
                                       const std::string& statements = "") {
         script_ = load("domain { " + domain + " }\nsystem_name: turing_spots\n" + statements);
@@ -28,12 +29,12 @@ protected:
         return *std::move(made);
     }
 
-    /// An expression as a starting value of `a`, in each cell.
+    /// The values of an expression in each cell, read from the starting values of `a`.
     std::vector<double> values(const std::string& domain, const std::string& expression) {
         const auto simulation = start(domain, "a: " + expression + "\n");
         if (!simulation) return {};
         model_ = simulation->domain().shared_model();
-        return cell_values(simulation->state(0).species[0], *model_);
+        return cell_values(simulation->state(0).species()[0], *model_);
     }
 
     /// The place of a cell, 0 … 1.
@@ -62,7 +63,7 @@ constexpr const char* painted_obj =
 
 TEST_F(SurfaceValuesTest, APaintedPictureLiesWhereTheTextureSays) {
     std::ofstream(path("square.obj")) << painted_obj;
-    // Black on the left, white on the right; black below the middle.
+    // The upper half is black on the left and white on the right. The lower half is black.
     Image image(4, 4);
     for (std::int64_t j = 0; j < 4; ++j) {
         for (std::int64_t i = 0; i < 4; ++i) {
@@ -96,7 +97,7 @@ TEST_F(SurfaceValuesTest, APaintedPictureNeedsTextureCoordinates) {
     EXPECT_NE(script_.messages(false).find("cascade mesh square.off --unwrap"), std::string::npos);
 }
 
-/// A picture of 2 × 2 pixels of these colours, row by row.
+/// A picture of 2 × 2 pixels with these colours, row by row.
 Image four(Colour a, Colour b, Colour c, Colour d) {
     Image image(2, 2);
     image.at(0, 0) = a;
@@ -177,17 +178,18 @@ TEST_F(SurfaceValuesTest, APlaceSaysWhereInAnArray) {
 }
 
 TEST_F(SurfaceValuesTest, APaintedDirectionIsAnAngleOnTheSurface) {
-    // To the right and a little upwards everywhere: 30 degrees in the picture.
+    // All pixels point 30 degrees upwards from the right.
     const Colour painted{0.5F + 0.5F * std::cos(0.5236F), 0.5F + 0.5F * std::sin(0.5236F), 0};
     ASSERT_TRUE(write_png(path("flow.png"), four(painted, painted, painted, painted),
                           PngDepth::sixteen, {}));
     std::ofstream(path("square.obj")) << painted_obj;
-    // A square that faces its viewer: angles turn from the right downwards.
+    // On a square that faces its viewer angles turn from right to down, so upwards is negative.
     for (const double angle :
          values("mesh: \"square.obj\"; cells: 60", "along(image(\"flow.png\"))")) {
         EXPECT_NEAR(angle, -0.5236, 1e-3);
     }
-    // By its place it is the same; mirrored, it runs the other way; twice as wide, it is flatter.
+    // Read at the cell's own place, the picture gives the same angle. Mirrored, it points to the
+    // left, and stretched to twice the width, it is flatter.
     for (const auto& [place, expected] :
          {std::pair("sx, 1 - sy", -0.5236), std::pair("1 - sx, 1 - sy", -3.14159 + 0.5236),
           std::pair("sx / 2, 1 - sy", -std::atan2(std::sin(0.5236), 2 * std::cos(0.5236)))}) {
@@ -196,7 +198,7 @@ TEST_F(SurfaceValuesTest, APaintedDirectionIsAnAngleOnTheSurface) {
         ASSERT_EQ(angles.size(), 60u);
         for (const double angle : angles) EXPECT_NEAR(angle, expected, 1e-3) << place;
     }
-    // Middle grey says no direction.
+    // Middle grey means no direction, and gives the angle 0.
     const Colour grey{0.5F, 0.5F, 0.5F};
     ASSERT_TRUE(write_png(path("flow.png"), four(grey, grey, grey, grey), PngDepth::eight, {}));
     for (const double angle :
@@ -205,8 +207,8 @@ TEST_F(SurfaceValuesTest, APaintedDirectionIsAnAngleOnTheSurface) {
     }
 }
 
-/// The mean over all links of (across / along)² weights: how much faster heat goes along y than
-/// around, as the second moment of the weights in the two directions.
+/// How much faster heat spreads along y than across: the quotient of the second moments of all
+/// links' weights in the two directions.
 double speed_along_y(const ModelCells& model) {
     double along = 0, across = 0;
     for (std::size_t cell = 0; cell < model.count(); ++cell) {
@@ -222,7 +224,7 @@ double speed_along_y(const ModelCells& model) {
     return along / across;
 }
 
-// A tower: nearly all of it is four upright walls.
+// A tower, whose surface is nearly all in four upright walls.
 const std::string tower = "surface: box(1, 8, 1); cells: 700; ";
 
 TEST_F(SurfaceValuesTest, HeatGoesFasterAlongTheDirections) {
@@ -231,7 +233,7 @@ TEST_F(SurfaceValuesTest, HeatGoesFasterAlongTheDirections) {
         return simulation ? speed_along_y(*simulation->domain().model->cells) : 0;
     };
     const double same = speed("");
-    // Diffusion is three times as fast along and a third of it across.
+    // Diffusion is three times as fast along the direction, and a third as fast across.
     const double axis = speed("directions: axis(0, 1, 0); stretch: 3");
     EXPECT_GT(same, 0.7);
     EXPECT_LT(same, 1.3);
@@ -263,7 +265,7 @@ TEST_F(SurfaceValuesTest, CurvatureSaysADirection) {
         }
         return along / all;
     };
-    // The ring is longest around, where curvature is low.
+    // Curvature is low along the ring, around which the way is longest.
     const double low = speed("directions: curvature_low; stretch: 3");
     const double high = speed("directions: curvature_high; stretch: 3");
     EXPECT_GT(low, 0.8);

@@ -23,7 +23,7 @@ domain { grid: 32, 24 }   # a comment
 stage s: turing_spots { iterations: 300; ka: 1/20 }
 )";
 
-/// Grows, and beyond rate 1 blows up within the steps taken.
+/// A system that grows. At rates above 1 it blows up within the stage.
 constexpr const char* growth = R"(
 system growth { u: 1 + x; rate: 0.1; u' = rate * u^3 }
 domain { grid: 8, 8 }
@@ -69,7 +69,8 @@ TEST_F(SweepTest, AFilmShowsTheEndsOfItsRuns) {
     const SweepReport report = sweep_well(load(swept_spots), wanted);
     EXPECT_EQ(report.written.back(), wanted.film);
     EXPECT_EQ(frames_of(bytes("a.apng")), 3);
-    // The first frame is the picture of the first run, eight times as large, but for its caption.
+    // Apart from its caption, the first frame is the picture of the first run, eight times as
+    // large.
     Script alone = load(swept_spots);
     RunRequest run = RunTest::request();
     run.picture.range = wanted.picture.range;
@@ -119,7 +120,7 @@ TEST_F(SweepTest, EveryRunIsTheSameAsAlone) {
     const auto in_sweep = array("sweep/fields/turing_spots.ka=1_10,seed=2/s.b.npy");
     ASSERT_EQ(in_sweep.size(), 32u * 24u);
     EXPECT_EQ(in_sweep, array("alone/s.b.npy"));
-    // And so are its features.
+    // Its features are those of the single run, too.
     const auto lines = table();
     ASSERT_EQ(lines.size(), 5u);
     EXPECT_THAT(lines[0], StartsWith("turing_spots.ka,seed,wavelength,spots,"));
@@ -133,7 +134,7 @@ TEST_F(SweepTest, GoesOnWhereItStopped) {
     EXPECT_EQ(sweep_well(script, request({"ka=1/20,1/10"})).done_before, 0u);
     const std::string sheet = bytes("sweep/sheet.png");
     const auto first = table();
-    // Nothing is run again, not even where comments and blanks have changed.
+    // A second sweep runs nothing again, even if comments and blanks have changed.
     std::string text = swept_spots;
     text.replace(text.find("a comment"), 9, "another one");
     const Script commented = load("\n\n" + text);
@@ -142,7 +143,8 @@ TEST_F(SweepTest, GoesOnWhereItStopped) {
     EXPECT_EQ(again.steps, 0);
     EXPECT_EQ(table(), first);
     EXPECT_FALSE(sheet.empty());
-    // A third value runs alone; another number in the script, or --force, runs all.
+    // If a value is added, only its run is made. A changed number in the script, or --force,
+    // repeats all runs.
     EXPECT_EQ(sweep_well(script, request({"ka=1/20,1/15,1/10"})).done_before, 2u);
     text.replace(text.find("300"), 3, "301");
     EXPECT_EQ(sweep_well(load(text), request({"ka=1/20,1/10"})).done_before, 0u);
@@ -152,7 +154,7 @@ TEST_F(SweepTest, GoesOnWhereItStopped) {
     SweepRequest shown = request({"ka=1/20,1/10"});
     shown.picture.show = "a";
     EXPECT_EQ(sweep_well(script, shown).done_before, 0u);
-    // A damaged result is none.
+    // A damaged result is ignored, and its run is repeated.
     for (const auto& entry : std::filesystem::directory_iterator(path("sweep/runs"))) {
         ASSERT_TRUE(write_file(entry.path(), "{}"));
     }
@@ -169,7 +171,7 @@ TEST_F(SweepTest, ABlowUpIsARowAndAnEmptyTile) {
     EXPECT_THAT(lines[1], Not(HasSubstr("finite")));
     EXPECT_THAT(lines[2], StartsWith("3,,,,,,,,,,,"));
     EXPECT_THAT(lines[2], HasSubstr("u is not finite any more"));
-    // It is a result like others: it does not blow up anew.
+    // A blow-up is kept as a result, so its run is not repeated.
     const SweepReport again = sweep_well(script, request({"rate=0.01,3"}));
     EXPECT_EQ(again.done_before, 2u);
     EXPECT_EQ(again.failed, 1u);
@@ -305,7 +307,7 @@ stage s: dot { founders: 3; duration: 12; show: glow }
         ASSERT_TRUE(kept && kept->cells);
         ASSERT_TRUE(kept->tile.is_colour());
         EXPECT_EQ(kept->tile.fields[0].layout().width, 40);
-        EXPECT_FALSE(spread_of(kept->tile.fields[0]).is_even()) << "something is drawn";
+        EXPECT_FALSE(spread_of(kept->tile.fields[0]).is_uniform()) << "something is drawn";
         ++tiles;
     }
     EXPECT_EQ(tiles, 4u);
@@ -354,7 +356,7 @@ protected:
         EXPECT_TRUE(write_file(path("sets.csv"), text));
         return read_parameter_sets(path("sets.csv"));
     }
-    /// What is wrong, after the name of the file.
+    /// The message about a fault of a text, without the file name that it begins with.
     std::string fault_of(const std::string& text) const {
         const auto sets = read(text);
         EXPECT_FALSE(sets) << text;
@@ -373,7 +375,7 @@ TEST_F(SetsTest, ARowIsARun) {
     EXPECT_THAT(rows[0], StartsWith("rate,u,seed,wavelength"));
     EXPECT_THAT(rows[1], StartsWith("0.1,1/2,5,"));
     EXPECT_THAT(rows[4], StartsWith("2e-1,0.25,6,"));
-    // The sheet sweeps the same again.
+    // A sweep of the script that the sheet carries gives the same results.
     const auto sheet = load_script_file(path("sweep/sheet.png"));
     ASSERT_TRUE(sheet);
     ASSERT_EQ(sheet->varied.size(), 2U);

@@ -1,4 +1,4 @@
-// Maps that are finer than their cells: what the run says of them.
+// Warnings about maps that are much finer than the cells.
 #include "run_fixture.h"
 
 #include <gmock/gmock.h>
@@ -25,7 +25,8 @@ protected:
 };
 
 TEST_F(TexelDensityTest, CellsOfManyTexelsAreNoticed) {
-    // Of 512² texels more than half are on the surface: at least √(0.5 · 512² / 300) = 20.9 a cell.
+    // More than half of the 512² texels are on the surface, so a cell is at least √(0.5 · 512² /
+    // 300) = 20.9 texels wide.
     const std::string words = warnings_with(300);
     EXPECT_THAT(words, HasSubstr(" texels wide in maps of 512 texels: '--bake 128' shows as much"));
 }

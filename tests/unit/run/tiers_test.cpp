@@ -1,4 +1,4 @@
-// Runs whose kernels are interpreted at first: the same bits, whenever they become native code.
+// Runs whose kernels are interpreted at first give the same bits, whenever native code takes over.
 #include "core/hash.h"
 #include "ir/interpreter.h"
 #include "run/simulation/simulation.h"
@@ -21,7 +21,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// Changes from one kernel to another and back, at moments that nobody can foresee.
+/// A kernel that switches between two other kernels at random moments.
 class RestlessKernel final : public Kernel {
 public:
     RestlessKernel(KernelPointer first, KernelPointer second, std::uint32_t seed)
@@ -76,7 +76,7 @@ public:
 };
 
 struct TieredRun {
-    std::vector<Field> species;  ///< Of all stages.
+    std::vector<Field> species;  ///< The species of all stages.
     std::vector<std::string> warnings;
     KernelCounts counts;
 };
@@ -97,7 +97,7 @@ TieredRun run_tiered(const std::string& text, std::shared_ptr<TieredBackend> ste
         EXPECT_TRUE(simulation->start_stage(k));
         EXPECT_TRUE(
             simulation->advance_stage(k, script.program->stages[k].iterations, control, {}));
-        for (const Field& field : simulation->state(k).species)
+        for (const Field& field : simulation->state(k).species())
             ran.species.push_back(field.clone());
     }
     ran.counts = stepper->counts();
@@ -131,7 +131,7 @@ TEST(Tiers, SwapsAtAnyMomentChangeNoBit) {
 }
 
 TEST(Tiers, WhatIsRefusedLateIsSaidBehindTheStage) {
-    // So many steps that they wait for the refusal.
+    // The stage has so many steps that the refusal comes before its end.
     const std::string text = "domain { grid: 32, 32 }\nstage a: turing_spots { iterations: 8000 }";
     const TieredRun ran = run_tiered(text, tiered(std::make_unique<RefusingBackend>()));
     EXPECT_THAT(ran.warnings,
@@ -140,7 +140,8 @@ TEST(Tiers, WhatIsRefusedLateIsSaidBehindTheStage) {
 }
 
 TEST(Tiers, WhatIsRefusedWhenTheRunIsOverIsSaidToo) {
-    // The refusal comes when all steps are taken, which are too few to wait for the code.
+    // A backend that refuses a kernel only after all steps were taken. There are too few steps to
+    // wait for its code.
     class SlowBackend final : public Backend {
     public:
         std::string_view name() const override { return "slow"; }

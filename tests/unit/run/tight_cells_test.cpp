@@ -1,4 +1,4 @@
-// A few tight cells of a mesh do not decide how long the steps of all cells are.
+// A few very small cells of a mesh do not limit the steps of all cells.
 #include "run_fixture.h"
 #include "torus_triangles.h"
 
@@ -15,8 +15,8 @@ using test::Triangles;
 class TightCellsTest : public RunTest {
 protected:
     struct Found {
-        std::uint32_t parts = 0;  ///< Of each step.
-        double rate = 0;          ///< At which what u began with decays.
+        std::uint32_t parts = 0;  ///< The number of parts of each step.
+        double rate = 0;          ///< The rate at which the starting values of u decay.
     };
 
     Found heat_on(const std::string& domain) {
@@ -34,7 +34,7 @@ protected:
         Simulation& simulation = **made;
         EXPECT_TRUE(simulation.start_stage(0));
         const auto u = [&] {
-            return cell_values(simulation.state(0).species[0], *simulation.domain().model->cells);
+            return cell_values(simulation.state(0).species()[0], *simulation.domain().model->cells);
         };
         const std::vector<double> before = u();
         RunControl control;

@@ -1,6 +1,6 @@
-// Scripts whose steps go through memory in tiles of time: the bits of plain steps, on grids, in
-// space, under masks and on models, for all solvers, and what a run does when it is stopped or
-// blows up meanwhile.
+// Scripts whose steps go through memory in tiles of time. They give the bits of plain steps with
+// all solvers, on grids, in space, under masks and on models. Runs may be stopped or blow up within
+// a tile.
 #include "run/script/script.h"
 #include "run/simulation/simulation.h"
 
@@ -19,7 +19,7 @@
 namespace cascade {
 namespace {
 
-/// A script, how its steps are taken and what became of it.
+/// A script with its simulation, how its steps go through memory, and its result.
 struct TiledRun {
     Script script;
     std::unique_ptr<Simulation> simulation;
@@ -42,7 +42,7 @@ std::string name_of(const Way& way) {
            std::to_string(way.tiling.inner_bands) + " bands";
 }
 
-/// Takes the steps of the only stage; observe() is told of each `every` steps.
+/// Takes the steps of the only stage, and calls observe() after every `every` steps.
 std::unique_ptr<TiledRun> run_in_tiles(const std::string& text, const Way& way, RunControl& control,
                                        const std::function<void()>& observe = {},
                                        std::int64_t every = 0) {
@@ -84,7 +84,7 @@ std::unique_ptr<TiledRun> run_in_tiles(const std::string& text, const Way& way) 
 std::vector<std::uint64_t> words_of(const TiledRun& ran) {
     std::vector<std::uint64_t> words;
     if (!ran.simulation) return words;
-    for (const Field& field : ran.simulation->state(0).species) {
+    for (const Field& field : ran.simulation->state(0).species()) {
         field.visit([&](const auto& plane) {
             for (std::int64_t row = 0; row < plane.layout().row_count(); ++row) {
                 for (std::int64_t i = 0; i < plane.layout().width; ++i) {
@@ -98,8 +98,9 @@ std::vector<std::uint64_t> words_of(const TiledRun& ran) {
     return words;
 }
 
-/// Runs a script in tiles of several shapes and compares with its plain steps. `is_tiled`: does one
-/// thread take more than one sweep at once? The bands of several may be too narrow for that.
+/// Runs a script in tiles of several shapes, and expects the bits of plain steps. `is_tiled` says
+/// whether one thread takes more than one sweep at once. With several threads, bands may be too
+/// narrow for that.
 void expect_same_bits(const std::string& text, std::optional<bool> is_tiled = true) {
     SCOPED_TRACE(text);
     for (const std::string& backend : available_backends()) {
@@ -125,7 +126,7 @@ void expect_same_bits(const std::string& text, std::optional<bool> is_tiled = tr
     }
 }
 
-// Grids are large enough for three threads to be worth it.
+// The grids of these tests are large enough for three threads to be used.
 
 TEST(TiledRuns, EulerWithAFrozenDiscAndAParameterOfEachCell) {
     expect_same_bits(
@@ -248,7 +249,7 @@ TEST(TiledRuns, AggregatesEndTiles) {
         std::nullopt);
 }
 
-/// A front of growth that overflows somewhere in the middle of a tile.
+/// A script whose growing front overflows in the middle of a tile.
 const char* const blow_up =
     "domain { grid: 173, 149 }\n"
     "system grow { u: 1 + 0.5 * disc(0.6, 0.3, 0.1) + random(0, 0.01)\n"
@@ -268,8 +269,8 @@ TEST(TiledRuns, BlowUpsAreFoundAtTheSameStepAndCell) {
     }
 }
 
-// A cancel that comes while steps are taken leaves a complete step, whichever; what is there is
-// what so many plain steps give.
+// A run that is cancelled stops after some complete step, with the values that as many plain steps
+// give.
 TEST(TiledRuns, ACancelLeavesACompleteStep) {
     const auto text = [](std::int64_t steps) {
         return "domain { grid: 173, 149 }\nstage s: turing_spots { iterations: " +
@@ -293,7 +294,7 @@ TEST(TiledRuns, ACancelLeavesACompleteStep) {
     }
 }
 
-// Frames are taken of complete steps, where they would be without tiles.
+// Observers are called after the same complete steps as without tiles.
 TEST(TiledRuns, ObserversSeeTheSameSteps) {
     const std::string text =
         "domain { grid: 173, 149 }\nstage s: turing_spots { iterations: 50 }\n";

@@ -1,4 +1,4 @@
-// Times of a run: parts that add up, whatever is nested in whatever.
+// The times of a run's parts add up to the whole, however the parts are nested.
 #include "run/stage/time_account.h"
 #include "tests/unit/run/run_fixture.h"
 

@@ -1,4 +1,5 @@
-// One surface cut into triangles in several ways, for tests of what must not depend on them.
+// One surface cut into triangles in several ways, for tests of results that must not depend on the
+// triangles.
 #pragma once
 
 #include "core/hash.h"
@@ -18,10 +19,11 @@
 
 namespace cascade::test {
 
-/// Triangles over points, each cut up in place: whatever is done, the surface stays what it is.
+/// Triangles that can be cut into smaller ones, which does not change the surface.
 class Triangles {
 public:
-    /// A torus of 32 by 16 flat quadrilaterals, cut in two, 1 and 0.4 its radii.
+    /// A torus with the radii 1 and 0.4, made of 32 by 16 quadrilaterals, each cut into two
+    /// triangles.
     static Triangles torus() {
         constexpr std::uint32_t around = 32, across = 16;
         Triangles made;
@@ -40,7 +42,7 @@ public:
         return made;
     }
 
-    /// Each triangle in four equal ones.
+    /// Cuts each triangle into four equal ones.
     Triangles finer() const {
         Triangles made;
         made.points_ = points_;
@@ -63,8 +65,8 @@ public:
         return made;
     }
 
-    /// Most triangles in three, around a point that often lies near an edge or a corner, and again
-    /// four times: slivers beside triangles of very different sizes.
+    /// Cuts most triangles into three around a point that often lies near an edge or a corner, and
+    /// repeats this four times. The result has slivers beside triangles of very different sizes.
     Triangles worse() const {
         Triangles made = *this;
         for (std::uint32_t round = 0; round < 4; ++round) {
@@ -81,7 +83,8 @@ public:
         return made;
     }
 
-    /// One triangle in eight thousand in three, two of them slivers, around a point near a corner.
+    /// Cuts one in eight thousand triangles into three around a point near a corner. Two of them
+    /// are slivers.
     Triangles with_few_slivers() const {
         Triangles made = *this;
         for (std::size_t n = 0; n < triangles_.size(); n += 8000) made.cut(n, {1, 1e-3, 1e-3});
@@ -93,7 +96,7 @@ public:
         for (const Corners& t : triangles_) sum += area_of(t);
         return sum;
     }
-    /// The largest area of a triangle over the smallest.
+    /// The quotient of the largest and the smallest area of a triangle.
     double spread() const {
         double least = 1e300, most = 0;
         for (const Corners& t : triangles_) {

@@ -1,5 +1,5 @@
-// Models that do not stand upright or look elsewhere: one model in all positions is one to scripts
-// and in pictures, and files have the coordinates of the file that was read.
+// Models that do not stand upright or face another way: scripts and pictures treat a model in all
+// positions alike, and written files have the coordinates of the file that was read.
 #include "mesh/model_file.h"
 #include "mesh/shapes.h"
 #include "picture/grey_picture.h"
@@ -27,7 +27,7 @@ protected:
         }
     }
 
-    /// A bent ring without any symmetry, with a texture, that stands like this.
+    /// Writes a textured, bent ring without any symmetry, in this position.
     void write_lopsided(const std::string& name, const Stance& stance) const {
         const auto mesh = torus_mesh(1, 0.4, 0.25);
         ASSERT_TRUE(mesh);
@@ -74,7 +74,7 @@ protected:
 
     static std::vector<double> first_species(const std::unique_ptr<Simulation>& simulation) {
         if (!simulation) return {};
-        return cell_values(simulation->state(0).species[0], *simulation->domain().model->cells);
+        return cell_values(simulation->state(0).species()[0], *simulation->domain().model->cells);
     }
 
     static std::string up_is(Axis up) { return fmt::format("up: {}", name_of(up)); }
@@ -82,7 +82,7 @@ protected:
     Script script_;
 };
 
-/// Whatever a script can know of directions and places.
+/// A script that uses everything in the language that depends on directions and places.
 constexpr const char* all_of_space = R"(
 system s {
   place: x + 2 * y + 4 * z + 8 * sx + 16 * sy + 32 * sz
@@ -138,7 +138,7 @@ TEST_F(Upright, TheOptionIsTheStatement) {
     overrides.model = path("z.obj").string();
     overrides.model_is_asked_for = true;
     EXPECT_EQ(first_species(grown(Axis::x, "up: x", all_of_space, overrides)), expected);
-    // What a script says of the model that gives way is not said of the one that takes its place.
+    // What a script states about its own model does not hold for a model that replaces it.
     overrides.model = path("y.obj").string();
     overrides.up.reset();
     EXPECT_EQ(first_species(grown(Axis::x, "up: x", all_of_space, overrides)), expected);
@@ -199,7 +199,8 @@ TEST_F(Upright, PicturesShowItUpright) {
 TEST_F(Upright, FilesHaveTheCoordinatesOfTheModelsOwn) {
     const auto original = read_model(path("z.obj"));
     ASSERT_TRUE(original);
-    // Cells that are points do not depend on the axis, so that the two runs differ in nothing else.
+    // Cells at the points of the mesh do not depend on the axis, so the two runs differ in nothing
+    // else.
     for (const auto& [up, stands] :
          {std::pair("y", "up: y"), std::pair("z", "up: z"), std::pair("x", "up: x; facing: -z")}) {
         Script script = load(fmt::format("domain {{ mesh: \"z.obj\"; cells: vertices; {} }}\n{}",
@@ -268,7 +269,8 @@ TEST_F(Upright, BakedMapsAreThoseOfTheUprightModel) {
             const auto got = read_grey_picture(path(fmt::format("{}_{}.png", name_of(axis), map)));
             ASSERT_TRUE(expected && got);
             ASSERT_EQ(got->values.size(), expected->values.size());
-            // What is seen from where is rounded otherwise in other coordinates: that makes 0.001.
+            // Occlusion is rounded differently in other coordinates, which makes a difference of
+            // 0.001.
             double difference = 0, least = 1, most = 0;
             for (std::size_t k = 0; k < got->values.size(); ++k) {
                 const double texel{expected->values[k]};

@@ -110,7 +110,7 @@ TEST_F(UsedFilesTest, OnlyFilesBelowTheScriptsFolder) {
     EXPECT_EQ(messages_of(use("../outside.cascade"), all), "");
     EXPECT_EQ(messages_of(use("../project2/near.cascade"), folder), "");
     EXPECT_THAT(messages_of(use("../outside.cascade"), folder), HasSubstr(outside));
-    EXPECT_EQ(overrides_to_json(all), "{}");  // A right does not travel in a picture.
+    EXPECT_EQ(overrides_to_json(all), "{}");  // A picture does not carry rights.
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What --vary takes, and the runs that it makes.
+// The values that --vary accepts, and the runs that it makes.
 #include "core/csv.h"
 #include "run/commands/variation.h"
 
@@ -30,7 +30,7 @@ TEST(Variation, RangesHaveBothEnds) {
     EXPECT_THAT(values_of("gs.feed=0.02..0.06:5"),
                 ElementsAre("0.02", "0.03", "0.04", "0.05", "0.06"));
     EXPECT_EQ(parse_variation("gs.feed=0..1:2")->name, "gs.feed");
-    // Downwards, through 0 without a speck of rounding, fractions, blanks, a single value.
+    // Falling values, exactly 0 in the middle, fractions, blanks, and a single value.
     EXPECT_THAT(values_of("a = 0.3 .. -0.3 : 7"),
                 ElementsAre("0.3", "0.2", "0.1", "0", "-0.1", "-0.2", "-0.3"));
     EXPECT_THAT(values_of("ka=1/400..1/100:4"), ElementsAre("0.0025", "0.005", "0.0075", "0.01"));
@@ -58,7 +58,7 @@ TEST(Variation, NamesMayVaryTogether) {
     EXPECT_THAT(fault_of("(a,b)=(1,2),3"), HasSubstr("'3' is not 2 values in brackets"));
     EXPECT_THAT(fault_of("(a,b)=0..1:3"), HasSubstr("a range has one name"));
     EXPECT_FALSE(count_runs(std::vector<Variation>{{"(a, b)", {"(1, 2)"}}, {"b", {"3"}}}));
-    // Brackets of a value are its own.
+    // Brackets may belong to a value.
     EXPECT_THAT(values_of("a=(1 + 2),(3)"), ElementsAre("(1 + 2)", "(3)"));
 }
 
@@ -108,7 +108,7 @@ TEST(Variation, RefusesTwiceAndTooMany) {
         return runs ? "" : runs.error().message;
     };
     EXPECT_THAT(fault({{"a", {"1"}}, {"a", {"2"}}}), HasSubstr("'a' is varied twice"));
-    EXPECT_THAT(fault({{"a", {"1", "2", "1"}}}), HasSubstr("'1' stands twice"));
+    EXPECT_THAT(fault({{"a", {"1", "2", "1"}}}), HasSubstr("'1' occurs twice"));
     std::vector<Variation> many;
     for (const char* name : {"a", "b", "c", "d", "e"}) {
         many.push_back({name, {"0", "1", "2", "3", "4", "5", "6", "7", "8", "9"}});

@@ -1,4 +1,5 @@
-// Steps that are abandoned when a run is to end: what is left undone, and that the run can go on.
+// Steps that are abandoned because a run is to end: how much work is saved, and that the run can go
+// on.
 #include "solvers/advance.h"
 
 #include "tests/unit/solvers/cell_function_kernel.h"
@@ -14,9 +15,9 @@ Field random_field(const Grid& grid) {
     return make_field(grid, [](auto i, auto j) { return scatter(i, j); });
 }
 
-/// Begins two steps that set `control.cancel` on their way, then goes on to their end, which is to
-/// be that of two steps that nothing disturbed. Returns the work that the first call did, of which
-/// there is `of_one_step` in a step, in the units of `work`.
+/// Begins two steps and sets `control.cancel` during them, then goes on to their end, and expects
+/// the state after two undisturbed steps. Returns the work of the first call, in the units of
+/// `work`. One step is `of_one_step` of these units.
 int work_until_abandoned(const StepProblem& problem, int threads, std::atomic<int>& work,
                          RunControl& control, std::atomic<int>& cancels_at, int& of_one_step) {
     const Grid& grid = problem.grid;
@@ -64,8 +65,8 @@ TEST(AbandonedSteps, LeaveRowsOfALargeGridUndone) {
     }
 }
 
-/// u' = phi, where 0 = k lap(phi) - phi + u with a k that jumps from cell to cell. Each evaluation
-/// of the part with phi counts as work.
+/// u' = phi, where 0 = k lap(phi) - phi + u and k jumps from cell to cell. Each evaluation of the
+/// terms with phi counts as one unit of work.
 StepProblem problem_with_constraint(const Grid& grid, const Field& factor,
                                     const std::shared_ptr<Field>& unknown,
                                     const std::function<void(const CellView&)>& watch) {
@@ -107,7 +108,8 @@ TEST(AbandonedSteps, LeaveIterationsOfConstraintsUndone) {
         RunControl control;
         std::atomic<int> applied = 0, cancels_at = -1;
         const auto unknown = std::make_shared<Field>(PlaneLayout(grid));
-        // Three applications learn the operator; then there are two in each iteration.
+        // The operator is found by applying it three times, and each iteration then applies it
+        // twice.
         const StepProblem problem =
             problem_with_constraint(grid, factor, unknown, [&](const CellView& cell) {
                 if (cell.i != 0 || cell.j != 0) return;

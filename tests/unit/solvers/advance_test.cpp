@@ -12,8 +12,8 @@
 namespace cascade::test {
 namespace {
 
-/// Two species that excite each other, one that no one's neighbours read, a parameter that varies,
-/// a mask and the number of the step: everything that the loop has to hand over.
+/// Two species that excite each other, a species that is not read at neighbours, a parameter that
+/// varies, a mask and the number of the step: everything that the loop passes to kernels.
 struct Mixture {
     Grid grid;
     Field parameter;
@@ -60,7 +60,7 @@ std::vector<std::vector<float>> all_cells(const std::vector<Field>& species) {
     return cells;
 }
 
-/// The same update, with neighbours found by arithmetic on cell numbers and no halo anywhere.
+/// The same steps without halos: neighbours are found by arithmetic on cell numbers.
 std::vector<std::vector<float>> steps_without_halo(const Mixture& mixture, int steps) {
     const Grid& grid = mixture.grid;
     auto now = all_cells(mixture.start());
@@ -99,7 +99,7 @@ std::vector<std::vector<float>> steps_without_halo(const Mixture& mixture, int s
     return now;
 }
 
-/// Knows one tiling, of any number of threads.
+/// A memory of tilings that has one tiling, for any number of threads.
 class OneTiling : public TilingMemory {
 public:
     explicit OneTiling(const Tiling& tiling) : tiling_(tiling) {}
@@ -111,7 +111,8 @@ private:
 };
 
 TEST(ChosenTilings, ChangeNoBit) {
-    // More than a usual second-level cache holds, so that there is something to choose.
+    // The grids are larger than a usual second-level cache, so that there are tilings to choose
+    // from.
     for (const Grid& grid :
          {Grid{640, 400, Boundary::periodic}, Grid{211, 1013, Boundary::no_flux}}) {
         const Mixture mixture(grid);
@@ -180,7 +181,7 @@ TEST(Advance, NeighboursReadFrozenCells) {
     std::vector<Field> species;
     species.push_back(make_field(grid, [](auto i, auto) { return i == 0 ? 8.0 : 0.0; }));
     advance_quietly(problem, {.last_step = 2}, species);
-    // After a step 8 2 0, after two 8, 2 + (8 - 4 + 0)/4, 0 + (2 - 0)/4.
+    // The values are 8, 2, 0 after one step, and 8, 2 + (8 - 4 + 0)/4, 0 + (2 - 0)/4 after two.
     EXPECT_EQ(cells_of(species[0]), (std::vector<float>{8, 3, 0.5}));
 }
 
@@ -323,7 +324,8 @@ TEST(Advance, ReportsProgress) {
     EXPECT_NEAR(last.seconds_left * last.steps_per_second, 1e9, 1e9 * 0.01);
 }
 
-/// Grows by a factor of 4 a step where the mask is set; overflows from 1 in step 64 (2^128).
+/// A problem whose values grow by a factor of 4 in each step where the mask is set. 1 overflows in
+/// step 64 (2^128).
 StepProblem exploding(const Grid& grid, const Mask& where) {
     StepProblem problem = make_problem(grid, 2, [](const CellView& cell, float* results) {
         results[0] = cell.field(0);

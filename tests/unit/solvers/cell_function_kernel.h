@@ -1,5 +1,5 @@
-// Kernels for tests, written as C++ functions of a cell: they need no IR, so that the time loop is
-// tested apart from everything that makes kernels.
+// Kernels for tests that are C++ functions of a cell. They need no IR, so the time loop is tested
+// without the parts of the program that make kernels.
 #pragma once
 
 #include "core/plane.h"
@@ -36,8 +36,8 @@ struct CellView {
 /// Writes the results of a cell.
 using CellFunction = std::function<void(const CellView& cell, float* results)>;
 
-/// Runs a CellFunction. After each row it writes NaN up to the next multiple of row_pad, as the
-/// contract of kernels allows: nobody may rely on what is there.
+/// Runs a CellFunction. After each row it writes NaN up to the next multiple of row_pad, as kernels
+/// may, so that reading there shows.
 class CellFunctionKernel : public Kernel {
 public:
     CellFunctionKernel(CellFunction function, Stencil stencil)
@@ -69,7 +69,7 @@ private:
 /// The slot of a plane that does not change.
 inline StepProblem::PlaneRef fixed_plane(const Field& field) { return &field; }
 
-/// A step of one pass whose slot k is species k, all read at neighbours.
+/// A step of one pass whose slot k is species k. All species are read at neighbours.
 inline StepProblem make_problem(const Grid& grid, int species, KernelPointer kernel) {
     StepProblem problem;
     StepProblem::Pass& pass = problem.passes.emplace_back();
@@ -89,7 +89,8 @@ inline StepProblem make_problem(const Grid& grid, int species, CellFunction func
                         std::make_shared<CellFunctionKernel>(std::move(function), grid.stencil()));
 }
 
-/// One explicit step of heat conduction: uniform 0 is diffusion times the time step.
+/// One explicit step of heat conduction. Uniform 0 is the diffusion coefficient times the time
+/// step.
 inline StepProblem heat_problem(const Grid& grid, float diffusion) {
     StepProblem problem = make_problem(grid, 1, [](const CellView& cell, float* results) {
         results[0] = cell.field(0) + cell.uniform(0) * cell.laplacian(0);
@@ -133,7 +134,7 @@ inline StageOutcome advance_quietly(const StepProblem& problem, const Schedule& 
     return advance(problem, schedule, species, control, Progress{}, Observer{});
 }
 
-/// Reproducible numbers in [0, 1) without structure a grid could resonate with.
+/// Reproducible numbers in [0, 1) without a structure that depends on the grid.
 inline double scatter(std::int64_t i, std::int64_t j) {
     const double wave =
         43758.5453 * (static_cast<double>((i * 7919 + j * 104729) % 65537) + 0.5) / 65537.0;

@@ -1,4 +1,4 @@
-// Which fields alternate from cell to cell.
+// Measures how much of a field alternates from cell to cell.
 #include "solvers/chequerboard.h"
 
 #include "core/hash.h"
@@ -23,7 +23,7 @@ TEST(Chequerboard, OfKnownFields) {
     EXPECT_EQ(part(16, 12,
                    [](auto i, auto) { return std::sin(0.392699082 * static_cast<double>(i)); }),
               0);
-    // Equal parts of wide stripes and of a chequerboard.
+    // The sum of wide stripes and of a chequerboard.
     EXPECT_GT(part(64, 64,
                    [](auto i, auto j) { return 2 * board(i, j) + (i / 8 % 2 ? -1.0 : 1.0); }),
               0.9);
@@ -75,7 +75,7 @@ TEST(Chequerboard, InSpace) {
     EXPECT_EQ(alternating_part(waves), 0);
 }
 
-// White noise has neighbours that differ as much as they may.
+// White noise is no chequerboard, although its neighbours differ strongly.
 TEST(Chequerboard, IsNoNoise) {
     for (const std::int64_t width : {3, 4, 6, 10, 20, 64, 300}) {
         for (const std::int64_t height : {1, 2, 4, 7, 64, 200}) {
@@ -92,7 +92,7 @@ TEST(Chequerboard, IsNoNoise) {
     }
 }
 
-// Too few cells to tell chance from a rule.
+// A few cells may alternate by chance.
 TEST(Chequerboard, OfAFewCellsIsNone) {
     EXPECT_EQ(part(4, 1, board), 0);
     EXPECT_EQ(part(2, 1, board), 0);
@@ -100,7 +100,7 @@ TEST(Chequerboard, OfAFewCellsIsNone) {
     EXPECT_EQ(part(10, 1, board), 1);
 }
 
-// Dots of one cell, and spots as small as a grid can show.
+// Dots of one cell, and the smallest spots that a grid can show.
 TEST(Chequerboard, IsNoPatternOfSmallSpots) {
     EXPECT_EQ(part(60, 60, [](auto i, auto j) { return i % 3 == 0 && j % 3 == 0 ? 1.0 : 0.0; }), 0);
     EXPECT_EQ(part(60, 60, [](auto i, auto j) { return i % 4 < 2 && j % 4 < 2 ? 1.0 : 0.0; }), 0);

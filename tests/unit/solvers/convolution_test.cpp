@@ -89,7 +89,8 @@ Values scattered_values(const Grid& grid) {
 }
 
 TEST(Convolution, IsTheSumThatItsDefinitionSays) {
-    // 1.5: few lags, summed directly. 30: more than once round the periodic axes.
+    // A reach of 1.5 has few lags, which are summed directly. One of 30 goes around periodic axes
+    // more than once.
     for (const std::optional<double> reach :
          {std::optional(1.5), std::optional(4.2), std::optional(30.0), std::optional<double>()}) {
         for (const Grid& grid : grids()) {

@@ -15,7 +15,8 @@ struct Found {
     double end, error;
 };
 
-/// One step of length 1 from u = 1, where diffusion is −x u and `rest` the rest of the rate.
+/// One step of length 1 from u = 1. Diffusion gives the rate −x u, and `rest` is the rest of the
+/// rate.
 Found step(double x, const std::function<double(double u)>& rest) {
     const double along = -1, none = 0;
     double rate = 0, error = 0;
@@ -43,15 +44,15 @@ TEST(EtdStages, SolveDiffusionExactly) {
     for (double x = 1e-9; x < 1e9; x *= 1.9) {
         const double decay = std::exp(-x);
         EXPECT_NEAR(step(x, [](double) { return 0; }).end, decay, 2e-14) << x;
-        // A source that does not change, too.
+        // With a constant source the step is exact, too.
         const Found beside = step(x, [](double) { return 3; });
         EXPECT_NEAR(beside.end, decay + 3 * -std::expm1(-x) / x, 2e-14) << x;
         EXPECT_NEAR(beside.error, 0, 1e-14) << x;
     }
 }
 
-/// Where a part of the diffusion is left to the rest of the rate, as it is where a coefficient
-/// varies, the solution decays all the same, however stiff it is.
+/// Where a coefficient varies, part of the diffusion is in the rest of the rate. The solution
+/// decays in this case too, however stiff it is.
 TEST(EtdStages, DecayWhereDiffusionIsLessThanItIsTakenFor) {
     for (double x = 0.1; x < 1e6; x *= 1.3) {
         for (double part = 0; part <= 1; part += 0.05) {
@@ -61,7 +62,8 @@ TEST(EtdStages, DecayWhereDiffusionIsLessThanItIsTakenFor) {
     }
 }
 
-/// u' = −x u + (x + 1) u: the orders of the step and of its error, with a length of h = x.
+/// Measures the orders of the step and of its error for u' = −x u + (x + 1) u, with steps of length
+/// h = x.
 TEST(EtdStages, AreOfFourthOrderAndTheirErrorOfThird) {
     const auto shortened = [](double h) {
         return step(2 * h, [&](double u) { return 3 * h * u; });

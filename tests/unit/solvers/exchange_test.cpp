@@ -1,4 +1,4 @@
-// Parts of grids, and the halos that they fill from each other.
+// Parts of grids, which fill their halos from each other.
 #include "core/parallel.h"
 #include "solvers/exchange.h"
 

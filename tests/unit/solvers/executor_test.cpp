@@ -1,6 +1,6 @@
-// The time loop reaches planes through its executor alone: with one that keeps its planes to itself
-// and hands out copies, as a device would, and with parts of the grid that share only their halos,
-// every outcome is the same.
+// The time loop reaches planes only through its executor. Results are the same with an executor
+// that hands out copies of its planes, as a device would, and with parts of the grid that share
+// only their halos.
 #include "solvers/advance.h"
 #include "solvers/executor.h"
 #include "tests/unit/solvers/cell_function_kernel.h"
@@ -73,7 +73,7 @@ std::unique_ptr<Executor> make_distant_executor(const StepProblem& problem,
         make_thread_executor(problem, std::move(species), most_threads, keeps));
 }
 
-/// u' = growth · u² + lap u by Euler's method, with half a step's second difference as its error.
+/// u' = growth · u² + lap u by Euler's method, with an estimate of the error of each step.
 StepProblem growing_problem(const Grid& grid, float growth) {
     StepProblem problem = make_problem(grid, 1, [growth](const CellView& cell, float* results) {
         const float u = cell.field(0), step = cell.uniform(0);

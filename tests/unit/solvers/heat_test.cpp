@@ -43,7 +43,7 @@ TEST_P(Heat, DecaysAtTheDiscreteRate) {
         return wave(c.boundary, c.column_mode, c.width, i) *
                wave(c.boundary, c.row_mode, c.height, j);
     };
-    constexpr double diffusion = 0.125;  // Exact in binary: no rounding of the coefficient.
+    constexpr double diffusion = 0.125;  // A power of two, so the coefficient is not rounded.
     constexpr int steps = 150;
     std::vector<Field> species;
     species.push_back(make_field(grid, mode));
@@ -63,7 +63,7 @@ TEST_P(Heat, DecaysAtTheDiscreteRate) {
                                          eigenvalue(c.boundary, c.row_mode, c.height));
     const double expected = std::pow(rate, steps);
     EXPECT_NEAR(projection / norm / expected, 1, 1e-5);
-    // No other mode has come in: every cell is the mode times the amplitude.
+    // No other mode has appeared: every cell is the mode times its amplitude.
     for (std::int64_t j = 0; j < grid.height; ++j) {
         for (std::int64_t i = 0; i < grid.width; ++i) {
             ASSERT_NEAR(species[0].at(i, j), expected * mode(i, j), 1e-5);
@@ -100,7 +100,8 @@ TEST_P(Conservation, DiffusionKeepsTheSum) {
     // 400 roundings of values below 1, in both directions, in each of 1247 cells.
     EXPECT_NEAR(sum(), before, 1e-3);
     EXPECT_NE(sum(), 0);
-    // And it has become flat: the slowest mode decays by 400 · 0.2 · (pi/43)^2 at least.
+    // The slowest mode decays with an exponent of at least 400 · 0.2 · (pi/43)^2, so the field is
+    // flat.
     const double mean = before / static_cast<double>(grid.cell_count());
     for (const float value : cells_of(species[0])) EXPECT_NEAR(value, mean, 0.1);
 }

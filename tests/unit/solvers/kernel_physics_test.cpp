@@ -25,7 +25,7 @@ KernelPointer interpreted(KernelBuilder builder, const Grid& grid) {
     return *compiled;
 }
 
-/// c + diffusion · lap c, where not frozen.
+/// A step c + diffusion · lap c in cells that are not frozen.
 StepProblem heat(const Grid& grid, const Mask* frozen) {
     KernelBuilder builder;
     const FieldSlot slot = builder.field_slot("c");
@@ -71,15 +71,15 @@ TEST(KernelPhysics, HeatDecaysAtTheDiscreteRate) {
 }
 
 TEST(KernelPhysics, FrozenEndsMakeAStraightLine) {
-    // Between two frozen cells heat settles into a straight line: the neighbours read them.
+    // Neighbours read frozen cells, so between two of them heat settles into a straight line.
     const Grid grid{33, 1, Boundary::no_flux};
     Mask frozen{PlaneLayout(grid)};
     frozen.at(0, 0) = frozen.at(32, 0) = 1;
     std::vector<Field> species;
     species.push_back(make_field(grid, [](auto i, auto) { return i == 32 ? 16.0 : 0.0; }));
     advance_quietly(heat(grid, &frozen), {.last_step = 20000}, species);
-    // In single precision it stops where an eighth of the curvature is below half a unit in the
-    // last place of 16, 2^-21: the line then sags by at most 8 · 2^-21 · 32² / 8.
+    // In single precision the change stops where an eighth of the curvature is below 2^-21, half a
+    // unit in the last place of 16. The line then sags by at most 8 · 2^-21 · 32² / 8.
     for (std::int64_t i = 0; i < 33; ++i) {
         EXPECT_NEAR(species[0].at(i, 0), 0.5 * static_cast<double>(i), 5e-4);
     }
@@ -87,7 +87,8 @@ TEST(KernelPhysics, FrozenEndsMakeAStraightLine) {
     EXPECT_EQ(species[0].at(32, 0), 16.0f);
 }
 
-/// Turing's system with ka 1/80, beta 12; uniforms diff_a, diff_b. Rates, or a step of size 1.
+/// Turing's system with ka = 1/80 and beta = 12: its rates, or a step of length 1. The uniforms are
+/// diff_a and diff_b.
 StepProblem turing(const Grid& grid, float diff_a, float diff_b, bool step) {
     KernelBuilder k;
     const FieldSlot a_slot = k.field_slot("a"), b_slot = k.field_slot("b");
@@ -143,7 +144,7 @@ TEST(KernelPhysics, TuringGrowsAsTheDispersionRelationSays) {
             return std::cos(2 * pi *
                             (kx * static_cast<double>(i) / 64 + ky * static_cast<double>(j) / 48));
         };
-        const double part_a = linear.ab / (eigenvalue - linear.aa);  // b's part is 1.
+        const double part_a = linear.ab / (eigenvalue - linear.aa);  // The part of b is 1.
         std::vector<Field> species;
         species.push_back(
             make_field(grid, [&](auto i, auto j) { return 4 + 0.01 * part_a * wave(i, j); }));
@@ -163,7 +164,7 @@ TEST(KernelPhysics, TuringGrowsAsTheDispersionRelationSays) {
         const double expected = std::log1p(eigenvalue);
         EXPECT_NEAR(measured, expected, 0.01 * std::abs(expected)) << "mode " << kx << " " << ky;
     }
-    EXPECT_GE(growing, 2);  // Otherwise only decay has been looked at.
+    EXPECT_GE(growing, 2);  // At least two modes must grow, or only decay would be tested.
 }
 
 TEST(KernelPhysics, StabilityOfTuringsSystem) {

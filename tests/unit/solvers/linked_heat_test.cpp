@@ -1,4 +1,5 @@
-// Heat on a ring of cells that lie in memory in another order, linked by a list.
+// Heat on a ring of cells whose neighbours are given by a list, in another order than that of the
+// ring.
 #include "core/links.h"
 #include "ir/builder.h"
 #include "ir/interpreter.h"
@@ -14,8 +15,8 @@
 namespace cascade::test {
 namespace {
 
-/// Place p of the ring is cell 27 p modulo the number of cells, in rows of 16 cells of which the
-/// last one is filled up.
+/// Place p of the ring is cell 27 p modulo the number of cells. Cells lie in rows of 16, of which
+/// the last one is filled up.
 class Ring {
 public:
     static constexpr std::size_t cells = 70;
@@ -35,7 +36,7 @@ public:
         links_ = Links(list, PlaneLayout(grid_), precision);
     }
 
-    /// A step of f + `part` of the differences to both neighbours.
+    /// A step that adds `part` times the sum of the differences to both neighbours.
     StepProblem heat(double part) const {
         KernelBuilder builder(links_.precision());
         const FieldSlot slot = builder.field_slot("f");
@@ -50,7 +51,7 @@ public:
         return problem;
     }
 
-    /// A field with values by the place in the ring.
+    /// A field with the values of a function of the place in the ring.
     Field field(auto function) const {
         Field field(PlaneLayout(grid_), links_.precision());
         field.visit([&](auto& plane) {

@@ -1,4 +1,4 @@
-// The inverse of the Laplacian of linked cells against the Laplacian.
+// The inverse of the Laplacian of linked cells, tested by applying the Laplacian to its result.
 #include "solvers/linked_laplacian.h"
 
 #include "core/plane.h"
@@ -37,7 +37,8 @@ protected:
 
     std::int64_t at(std::int64_t cell) const { return layout.row_start(cell / 64) + cell % 64; }
 
-    /// The largest part of f that a (Δ − s) u leaves.
+    /// The largest residual of a (Δ − s) u = f in any cell. `has_mean` says whether the mean of f
+    /// is not 0.
     double rest(double s, double a, bool has_mean) {
         LinkedLaplacian laplacian(links, layout, &areas);
         EXPECT_TRUE(laplacian.factorise(s));
@@ -71,7 +72,8 @@ TEST_F(Ring, IsSolved) {
     EXPECT_LT(rest(30, -2.5, true), 1e-11);
 }
 
-/// A hundredth of the second eigenvalue is added.
+/// For s = 0, where u is determined only up to a constant, a hundredth of the second eigenvalue is
+/// added.
 TEST_F(Ring, IsNearlySolvedWhereAConstantIsFree) {
     EXPECT_LT(rest(0, 1, false), 0.1);
     EXPECT_GT(rest(0, 1, true), 1e-3);

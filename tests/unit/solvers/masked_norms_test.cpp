@@ -1,4 +1,4 @@
-// Numbers that sum up fields, of the cells inside a mask.
+// Norms of fields count only the cells inside a mask.
 #include "solvers/chequerboard.h"
 #include "solvers/field_norms.h"
 #include "solvers/step_problem.h"
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::int64_t plane_side = 12;
 
-/// The left half is inside; outside everything is 0.
+/// A mask with the left half inside. Values outside are 0.
 Mask left_half() {
     Mask mask{PlaneLayout(Grid{plane_side, plane_side})};
     for (std::int64_t j = 0; j < plane_side; ++j) {
@@ -63,7 +63,7 @@ TEST(MaskedNorms, ChangesAreThoseOfASmallField) {
     EXPECT_DOUBLE_EQ(found.deviation, expected.deviation);
 }
 
-/// The last row of linked cells is filled up with cells that are none.
+/// Copies that fill up the last row of linked cells do not count.
 TEST(MaskedNorms, OfALinkedGridCellsAloneCount) {
     StepProblem problem;
     problem.grid = Grid{32, 3};

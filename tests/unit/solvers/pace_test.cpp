@@ -1,4 +1,4 @@
-// Batches, rates and reports, with made-up times.
+// Sizes of batches, rates and reports, with made-up times.
 #include "solvers/pace.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Steps of a scheme over plain vectors in double precision: what the kernels of its forms compute,
-// written a second time, so that integrators are tested apart from kernels.
+// Takes the steps of a scheme with plain vectors in double precision. It computes the scheme's
+// forms a second time, so that integrators are tested without kernels.
 #pragma once
 
 #include "solvers/etd_stages.h"
@@ -17,11 +17,12 @@ namespace cascade::test {
 /// One entry for each species, each a vector of cells.
 using PlainState = std::vector<std::vector<double>>;
 using PlainRates = std::function<PlainState(const PlainState& state, double t)>;
-/// Of the rates of a cell by its values.
+/// The Jacobian of a cell: the derivatives of its rates by its values.
 using PlainMatrix = std::vector<std::vector<double>>;
 using PlainJacobian = std::function<PlainMatrix(const std::vector<double>& cell, double t)>;
 
-/// u' = v cos t, v' = −u cos t: a circle at the angle sin t. Stages see it at different times.
+/// u' = v cos t, v' = −u cos t, whose solution turns on a circle by the angle sin t. Stages
+/// evaluate these rates at different times.
 inline PlainState swing(const PlainState& state, double t) {
     return {{state[1][0] * std::cos(t)}, {-state[0][0] * std::cos(t)}};
 }
@@ -35,10 +36,10 @@ public:
         registers_[old_register] = std::move(start);
     }
 
-    /// For equations; otherwise their matrix is 1.
+    /// Sets the Jacobian for solvers that solve equations. Without it, their matrix is 1.
     void set_jacobian(PlainJacobian jacobian) { jacobian_ = std::move(jacobian); }
 
-    /// Takes a step and stays at the old one; accept() goes on to the new one.
+    /// Computes a step without taking it. accept() takes it.
     void attempt(double step) {
         const bool has_first_rate = scheme_.rate_registers && knows_first_rate_;
         for (std::size_t k = has_first_rate ? 1 : 0; k < scheme_.sweeps.size(); ++k) {
@@ -68,7 +69,7 @@ public:
     double time() const { return time_; }
 
 private:
-    /// Where there is no diffusion, cells stand for waves.
+    /// Filters rates as if each cell were a wave without diffusion.
     void filter(const SweepFilter& filter) {
         if (filter.kept.empty()) return;
         for (std::size_t s = 0; s < registers_[filter.in_register].size(); ++s) {

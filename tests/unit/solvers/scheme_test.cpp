@@ -1,5 +1,4 @@
-// Integrators against solutions that are known: their orders, how stable they are, and what they
-// conserve.
+// Integrators against known solutions: their orders, their stability, and what they conserve.
 #include "solvers/scheme.h"
 
 #include "solvers/step_control.h"
@@ -46,8 +45,8 @@ INSTANTIATE_TEST_SUITE_P(Solvers, Order,
                                            Solver::gauss, Solver::ros2),
                          [](const auto& test) { return std::string(name_of(test.param)); });
 
-/// What a step costs: the classical methods as many evaluations as stages, embedded ones one less
-/// than they have, since the last rate is the first of the next step.
+/// The number of evaluations of the rates in a step. It is the number of stages for classical
+/// methods, and one less for embedded ones, whose last rate is the first one of the next step.
 TEST(Scheme, EvaluatesTheRatesAsOftenAsItMust) {
     const std::pair<Solver, std::size_t> all[] = {{Solver::euler, 1}, {Solver::rk2, 2},
                                                   {Solver::rk4, 4},   {Solver::rk23, 3},
@@ -82,8 +81,9 @@ TEST(Scheme, RatesThatAreKeptAreThoseThatWouldBeEvaluated) {
     }
 }
 
-/// Planes that lie in the cache: a step writes one plane of each species in each sweep and keeps
-/// few stages. What it overwrites is read in the own cell only, and the old step stays.
+/// A step keeps few stages, so that its planes fit into the cache: each sweep writes one plane of
+/// each species. A plane that is overwritten is read only in the same cell, and the old step is
+/// kept.
 TEST(Scheme, StepsWithoutAnErrorKeepFewPlanes) {
     EXPECT_EQ(make_scheme(Solver::rk2, 1, false).registers, 3u);
     EXPECT_EQ(make_scheme(Solver::rk4, 1, false).registers, 4u);
@@ -181,7 +181,7 @@ TEST(Scheme, HeatDecaysAsTheoryHasItFarBeyondEulersLimit) {
     PlainState start(1);
     const double wave = 2 * std::numbers::pi / cells;
     for (int i = 0; i < cells; ++i) {
-        // The last term is the mode that an unstable step blows up first.
+        // The last term is the mode that grows fastest in an unstable step.
         start[0].push_back(std::sin(wave * i) + 0.01 * (i % 2 == 0 ? 1 : -1));
     }
     const double lambda = 2 * std::cos(wave) - 2;
@@ -207,7 +207,7 @@ TEST(Scheme, AStateWithoutRatesStaysToTheBit) {
     }
 }
 
-/// The largest deviation of the energy u² + v² of an oscillator, over a thousand turns and more.
+/// The largest deviation of the energy u² + v² of an oscillator, over more than a thousand turns.
 double energy_drift(Solver solver) {
     SchemeRunner runner(
         make_scheme(solver, 2, true),
@@ -230,7 +230,7 @@ TEST(Scheme, SymplecticBoundsTheEnergyWhereEulerDoesNot) {
     EXPECT_GT(energy_drift(Solver::euler), 10);
 }
 
-/// The error of a whole adaptive run of the swing, and the number of its steps.
+/// The error at the end of an adaptive run of swing(), and the number of its steps.
 std::pair<double, int> adaptive_run(Solver solver, double tolerance) {
     const double end = 10;
     SchemeRunner runner(make_scheme(solver, 2, false), swing, {{0.0}, {1.0}});

@@ -1,4 +1,4 @@
-// Estimates of stability against theory and against what really happens.
+// Estimates of stability against theory, and against steps that are really taken.
 #include "solvers/stability.h"
 
 #include "tests/unit/solvers/cell_function_kernel.h"
@@ -73,7 +73,7 @@ TEST(Stability, DecayAndGrowth) {
 }
 
 TEST(Stability, DecayBesideStrongerGrowth) {
-    // x' = 9 x and y' = -2 y: growth leads, yet steps above 1 make y explode as well.
+    // x' = 9 x and y' = -2 y: x grows fastest, but steps above 1 make y explode as well.
     const Grid grid{16, 16, Boundary::periodic};
     const StepProblem problem = make_problem(grid, 2, [](const CellView& cell, float* results) {
         results[0] = 9 * cell.field(0);
@@ -104,8 +104,8 @@ TEST(Stability, ADampedOscillation) {
 }
 
 TEST(Stability, FrozenCellsDoNotMove) {
-    // Two free cells between frozen ones: c' = lap c has eigenvalues -2 ± 1 there; and the frozen
-    // cell's own infinite rate is nobody's business.
+    // Between frozen cells there are two free ones, in which c' = lap c has the eigenvalues -2 ± 1.
+    // The infinite rate of a frozen cell must not matter.
     const Grid grid{6, 1, Boundary::no_flux};
     StepProblem problem = make_problem(grid, 1, [](const CellView& cell, float* results) {
         results[0] = cell.i == 0 ? 1 / (cell.field(0) * 0) : cell.laplacian(0);
@@ -130,7 +130,7 @@ TEST(Stability, AllFrozenOrNotFinite) {
     EXPECT_EQ(estimate_stability(problem, species, &frozen).eigenvalue, 0);
 }
 
-/// Turing's system with ka 1/80; uniforms: diff_a, diff_b.
+/// The rates of Turing's system with ka = 1/80. The uniforms are diff_a and diff_b.
 void turing_rates(const CellView& cell, float* rates) {
     const float a = cell.field(0), b = cell.field(1), ka = 1.0f / 80;
     rates[0] = ka * (16 - a * b) + cell.uniform(0) * cell.laplacian(0);
@@ -145,8 +145,8 @@ std::vector<Field> turing_start(const Grid& grid) {
 }
 
 TEST(Stability, TuringsChequerboard) {
-    // diff_a 1/4 at speed 1 is just too much: with u = -8/4 - 4/80 and v = -8/16 + 3/80 on the
-    // diagonal and -4/80, 3/80 beside it.
+    // With diff_a = 1/4 the largest stable speed is just below 1: the Jacobian of the chequerboard
+    // has -8/4 - 4/80 and -8/16 + 3/80 on the diagonal, and -4/80 and 3/80 beside it.
     const Grid grid{64, 64, Boundary::periodic};
     StepProblem rates = make_problem(grid, 2, turing_rates);
     rates.passes[0].uniforms = {0.25f, 0.0625f};
@@ -187,7 +187,7 @@ TEST(Stability, TheEstimateDividesRunsThatDampFromRunsThatExplode) {
     EXPECT_GT(largest_chequerboard(1.03 * *estimate.largest_speed), 1e-3);
 }
 
-// v is dead: differences of 1e-37 are lost among denormals.
+// v has died out: differences of values of 1e-37 are lost among denormal numbers.
 TEST(Stability, OfASpeciesThatHasDiedOut) {
     const Grid grid{32, 32, Boundary::periodic};
     StepProblem rates = make_problem(grid, 2, [](const CellView& cell, float* results) {

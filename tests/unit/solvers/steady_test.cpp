@@ -64,8 +64,8 @@ TEST(FieldNorms, OfADifferenceTellShiftFromShape) {
     EXPECT_NEAR(found.root_mean_square, 3, 1e-4);
 }
 
-/// The time at which a pattern that is told by t has settled, looked at every `interval` from
-/// t = 0; 0 where it has not by t = `last`.
+/// The time at which a pattern given as a function of time counts as settled. It is checked every
+/// `interval` from t = 0. 0 if it has not settled by t = `last`.
 double end_of(std::int64_t side, double interval, double last, double tolerance,
               const std::function<double(double t, double x, double y)>& value) {
     const auto state = [&](double t) {
@@ -79,8 +79,8 @@ double end_of(std::int64_t side, double interval, double last, double tolerance,
     return 0;
 }
 
-/// Grows from 1e-4 to 1 at the rate 0.01: half of it at t = 921, and a tenth of the speed that it
-/// has there at t = 921 + 363.
+/// Grows from 1e-4 to 1 at the rate 0.01. It is 1/2 at t = 921, and at t = 921 + 363 its speed is a
+/// tenth of that at t = 921.
 double amplitude(double t) { return 1 / (1 + 9999 * std::exp(-0.01 * t)); }
 
 TEST(Steady, EndsBehindTheGrowthWhateverTheGridAndTheLooks) {
@@ -95,8 +95,8 @@ TEST(Steady, EndsBehindTheGrowthWhateverTheGridAndTheLooks) {
 }
 
 TEST(Steady, DoesNotWaitForWhatGoesOnMoving) {
-    // After its growth the pattern drifts, at a hundredth of the speed of its formation: enough to
-    // change altogether in as long again as it has run.
+    // After its growth the pattern drifts at a hundredth of the speed of its formation. After twice
+    // the time, it has changed altogether.
     const auto value = [](double t, double x, double y) {
         return 4 + amplitude(t) * wave(x + 1e-5 * t, y);
     };
@@ -106,7 +106,7 @@ TEST(Steady, DoesNotWaitForWhatGoesOnMoving) {
 }
 
 TEST(Steady, GrowthHiddenBelowFadingNoiseIsWaitedFor) {
-    // A chequered noise of 0.1 fades as 1/t; below it a pattern of 1e-4 grows.
+    // A chequered noise of amplitude 0.1 fades as 1/t, while a pattern grows from 1e-4.
     const auto value = [](double t, double x, double y) {
         const double noise = std::sin(1e4 * (x + 3 * y * y));
         return 4 + 0.1 * noise / (1 + t / 10) + amplitude(t) * wave(x, y);
@@ -126,7 +126,7 @@ TEST(Steady, GrowthHiddenBelowASwingOfTheMeanIsWaitedFor) {
 }
 
 TEST(Steady, AFrontIsWaitedForWhileItSpreads) {
-    // It crosses the plane until t = 4000.
+    // A front that crosses the plane until t = 4000.
     const auto value = [](double t, double x, double) {
         return 0.5 * (1 - std::tanh(20 * (x - 0.05 - t / 4000)));
     };

@@ -7,8 +7,8 @@
 namespace cascade {
 namespace {
 
-/// Runs batches of about 20 ms for so many seconds; returns the share of time that was spent with
-/// `wanted` threads.
+/// Runs batches of about 20 ms for `seconds` seconds. Returns the fraction of the time that was
+/// spent with `wanted` threads.
 double share_of(ThreadTuner& tuner, int wanted, double seconds,
                 const std::function<double(int)>& seconds_per_step) {
     double total = 0, with_wanted = 0;

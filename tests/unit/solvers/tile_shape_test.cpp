@@ -1,4 +1,4 @@
-// Tiles in time: every layer of every level once, and nothing before what it needs.
+// Tiles in time do every layer of every level once, and after the layers that it needs.
 #include "solvers/tile_shape.h"
 
 #include <algorithm>
@@ -9,15 +9,16 @@
 namespace cascade::test {
 namespace {
 
-/// When a layer of a level is done: parts of a phase are done at once, those of a part in order.
+/// When a layer of a level is done. Parts of a phase are done at the same time, and the layers of a
+/// part in order.
 struct Turn {
     int phase = -1, part = 0;
     std::int64_t order = 0;
 };
 
-using Turns = std::vector<std::vector<Turn>>;  ///< By level and layer.
+using Turns = std::vector<std::vector<Turn>>;  ///< Indexed by level and layer.
 
-/// Notes the turns of all; the number of layers that were done twice.
+/// Notes the turns of all layers. Returns the number of layers that were done twice.
 int walk(const TileAxis& axis, int levels, Turns& turns) {
     int twice = 0;
     turns.assign(static_cast<std::size_t>(levels),
@@ -32,7 +33,7 @@ int walk(const TileAxis& axis, int levels, Turns& turns) {
                     Turn& turn = turns[static_cast<std::size_t>(level)]
                                       [static_cast<std::size_t>(axis.wrapped(layer))];
                     twice += turn.phase >= 0 ? 1 : 0;
-                    // Moment layer + level; within a moment by level.
+                    // Ordered by layer + level, and for equal sums by level.
                     turn = {phase, part, (layer + level) * levels + level};
                 }
             }
@@ -46,8 +47,8 @@ bool is_before(const Turn& a, const Turn& b) {
     return a.part == b.part && a.order < b.order;
 }
 
-/// What is at most a layer away and belongs to a lower level must be done before: a level reads
-/// what those before it wrote, and writes where they read.
+/// Expects that each layer is done after the layers of lower levels that are at most one layer
+/// away. A level reads what lower levels wrote, and overwrites what they read.
 void expect_in_order(const TileAxis& axis, bool wraps, int levels) {
     Turns turns;
     ASSERT_EQ(walk(axis, levels, turns), 0);
@@ -87,7 +88,7 @@ TEST(TileShape, DoesAllInOrder) {
 }
 
 TEST(TileShape, ChecksSeeTooManyLevels) {
-    // Parts around borders that touch would do layers twice.
+    // If parts around borders touched, they would do layers twice.
     const TileAxis axis(12, 3, true);
     Turns turns;
     EXPECT_EQ(axis.most_levels(), 3);

@@ -1,4 +1,4 @@
-// The choice of a tiling, on made-up machines: no clock is looked at.
+// The choice of a tiling, on made-up machines instead of a clock.
 #include "solvers/tile_tuner.h"
 
 #include "tests/unit/solvers/tiling_levels.h"
@@ -14,10 +14,10 @@ using test::levels;
 
 const std::vector<Tiling> usual = {levels(16), levels(8), levels(1)};
 
-/// Seconds of a sweep; `batch` is how many batches were before.
+/// The seconds that a sweep takes. `batch` is the number of earlier batches.
 using Machine = std::function<double(const Tiling&, int batch)>;
 
-/// What a run of so many seconds, were it by the first candidate, took in all.
+/// The total time of a run that would take a given number of seconds with the first candidate.
 struct Spent {
     double seconds = 0;
     int batches = 0;
@@ -73,7 +73,8 @@ TEST(TileTuner, ALittleFasterIsNotEnough) {
 }
 
 TEST(TileTuner, ADisturbedMomentDecidesNothing) {
-    // Whichever batch takes ten times as long, or of whatever three which: no slower way is taken.
+    // If any one batch, or every third one, takes ten times as long, the fastest tiling is still
+    // chosen.
     for (const double sweep : {1e-4, 1e-5}) {
         const Machine quiet = fixed(sweep, 1.2 * sweep, 1.3 * sweep);
         for (int disturbed = 0; disturbed < 120; ++disturbed) {
@@ -98,8 +99,8 @@ TEST(TileTuner, ShortRunsTryNothing) {
 }
 
 TEST(TileTuner, TrialsCostLittle) {
-    // One way is many times as slow; steps are short, or so long that a tile takes most of a
-    // second.
+    // One tiling is many times as slow as the others. Steps are short, or so long that a tile takes
+    // most of a second.
     for (const double sweep : {1e-6, 1e-4, 1e-2}) {
         for (const double seconds : {0.2, 1.0, 5.0, 25.0, 125.0}) {
             TileTuner tuner(usual);
@@ -132,7 +133,7 @@ TEST(TileTuner, OfOneWayNothingIsTried) {
     EXPECT_EQ(tuner.how_found(), "");
 }
 
-/// Remembers one tiling, on two threads.
+/// A memory of tilings that remembers one, for two threads.
 class Memory : public TilingMemory {
 public:
     std::optional<Tiling> known;
@@ -159,7 +160,7 @@ TEST(TileTuner, RemembersWhatItFound) {
 TEST(TileTuner, WhatAnEarlierRunFoundIsTriedAgainSoon) {
     Memory memory;
     memory.known = usual[1];
-    // Ways that are as fast as each other are told apart by size.
+    // Of equally fast tilings the first one is chosen.
     for (const double eight : {3e-5, 2e-5}) {
         TileTuner tuner(usual, &memory, 2);
         run(tuner, 0.5, fixed(2e-5, eight, 4e-5));
@@ -188,7 +189,7 @@ TEST(TileTuner, WhatABusyMachineTaughtIsForgottenOnAQuietOne) {
     EXPECT_EQ(tuner.tiling(), usual[0]);
     EXPECT_EQ(memory.known, usual[0]);
     EXPECT_LT(taken.seconds, 14);
-    // Nor does what was found in this run hold for ever.
+    // A tiling that was found in this run is tested again later, too.
     run(tuner, 60, fixed(2e-4, 1.5e-4, 1e-4));
     EXPECT_EQ(tuner.tiling(), usual[2]);
 }

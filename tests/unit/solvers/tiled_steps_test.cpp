@@ -1,5 +1,5 @@
-// Several steps for each pass through memory: the bits of one step after the other, for random
-// systems of passes, registers and temporaries, on all kinds of grids and on linked cells.
+// Taking several steps in one pass through memory gives the bits of single steps. The tests use
+// random systems of passes, registers and temporaries, on all kinds of grids and on linked cells.
 #include "solvers/stepper.h"
 
 #include "core/floating_point.h"
@@ -15,7 +15,7 @@
 namespace cascade::test {
 namespace {
 
-/// Numbers that a seed and the calls before decide.
+/// Random numbers that are determined by a seed.
 class Dice {
 public:
     explicit Dice(std::uint64_t seed) : state_(seed * 0x9e3779b97f4a7c15u + 1) {}
@@ -29,8 +29,9 @@ private:
     std::uint64_t state_;
 };
 
-/// Result r is a sum over all fields of their own cells and, of most, of all cells around; a mask
-/// keeps field 0. After each row it writes NaN, as the contract of kernels allows.
+/// A kernel whose result r is a sum over all fields of the cell itself and, for most fields, of all
+/// cells around. In frozen cells of a mask field 0 is kept. After each row it writes NaN, as
+/// kernels may.
 template <typename Number>
 class SumKernel : public Kernel {
 public:
@@ -249,7 +250,7 @@ private:
     std::vector<PlaneRef> written_;
 };
 
-/// Steps in batches, with looks, keeping and going back between them.
+/// Takes steps in batches. Between them it reads, keeps and restores the species.
 template <typename Number>
 std::string steps_of(const RandomSystem<Number>& system, const Tiling& tiling, int threads) {
     const FlushDenormals environment;
@@ -335,8 +336,8 @@ TEST(TiledSteps, OnSmallGrids) {
     }
 }
 
-// Layers are columns of all rows; the last ones are left over, and some vectors of cells are not
-// full.
+// Layers are columns that contain all rows. The number of columns is no multiple of a layer's
+// width, and some vectors of cells are not full.
 TEST(TiledSteps, OnFewLongRows) {
     const std::vector<GridSize> sizes{{1009, 1, 1}, {768, 1, 1}, {611, 2, 1},
                                       {523, 7, 1},  {64, 1, 1},  {409, 2, 3}};

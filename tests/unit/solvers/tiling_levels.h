@@ -1,4 +1,4 @@
-// A tiling of so many levels.
+// A tiling with a given number of levels.
 #pragma once
 
 #include "solvers/tiling.h"

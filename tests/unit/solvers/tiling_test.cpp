@@ -1,4 +1,4 @@
-// How many levels are chosen.
+// The choice of the number of levels of a tiling.
 #include "solvers/tiling.h"
 
 #include "tests/unit/solvers/cell_function_kernel.h"
@@ -35,7 +35,7 @@ TEST(Tiling, CountsEveryPlaneOnce) {
 }
 
 TEST(Tiling, WideLayersTakeFewerSteps) {
-    // A row of both copies has 4 MiB: one has room.
+    // A row of both copies takes 4 MiB, so the cache has room for one level only.
     const StepProblem problem = heat_problem(Grid{1 << 19, 640}, 0.1f);
     EXPECT_EQ(choose_tiling(problem, 1, caches).levels, 1);
 }
@@ -48,7 +48,7 @@ TEST(Tiling, StepsThatNeedAllCellsAreTakenOneByOne) {
 }
 
 TEST(Tiling, LayersOfThinGridsHaveWhatACallIsWorth) {
-    // A row of one cell takes up as much as one of 48.
+    // Because of padding, a row of one cell takes as much memory as a row of 48 cells.
     const StepProblem thin = heat_problem(Grid{1, 100000}, 0.1f);
     const Tiling tiling = choose_tiling(thin, 1, caches);
     EXPECT_EQ(tiling.levels, 16);
@@ -76,7 +76,7 @@ TEST(Tiling, LayersOfManyResultsHaveFewerRows) {
 }
 
 TEST(Tiling, TriesLevelsThatFitIntoTheSecondCache) {
-    // A row of both copies has 65 KiB: 6 levels and what lies around them are 0.6 MiB.
+    // A row of both copies takes 65 KiB: 6 levels and the rows around them take 0.6 MiB.
     const StepProblem problem = heat_problem(Grid{8192, 512}, 0.1f);
     const std::vector<Tiling> tilings = tilings_to_try(problem, 1, caches, 1);
     EXPECT_TRUE(std::any_of(tilings.begin(), tilings.end(),
@@ -104,7 +104,7 @@ TEST(Tiling, LayersOfFewRowsAreColumns) {
 TEST(Tiling, LayersOfLongRowsAreColumns) {
     EXPECT_EQ(choose_tiling(heat_problem(Grid{1 << 19, 64}, 0.1f), 1, caches).along,
               Tiling::Along::columns);
-    // Not if the columns are too long as well.
+    // If columns are too long as well, layers are whole rows.
     EXPECT_EQ(choose_tiling(heat_problem(Grid{1 << 19, 640}, 0.1f), 1, caches).along,
               Tiling::Along::slices);
 }
@@ -135,7 +135,8 @@ TEST(Tiling, CandidatesBeginWithWhatFits) {
     const std::vector<Tiling> beyond = tilings_to_try(large, 1, caches, 1);
     EXPECT_EQ(beyond[0], choose_tiling(large, 1, caches));
     EXPECT_GT(beyond.size(), 2u);
-    // In the third-level cache tiles are tried, in the second nothing is.
+    // For a grid that fits into the third-level cache tiles are tried, and for one that fits into
+    // the second-level cache none are.
     const StepProblem medium = heat_problem(Grid{640, 640}, 0.1f);
     const std::vector<Tiling> in_third = tilings_to_try(medium, 1, caches, 1);
     EXPECT_EQ(in_third[0], Tiling());

@@ -1,5 +1,5 @@
-// Filtered planes against the operators that they undo, whose neighbours come from the halo:
-// nothing here knows of waves.
+// Filters against the operators that they undo. The operators are computed from neighbours and
+// halos, without waves.
 #include "solvers/wave_filter.h"
 
 #include "core/plane.h"
@@ -37,7 +37,8 @@ void for_cells(const Grid& grid, const Visit& visit) {
     }
 }
 
-/// A change is beyond a side what it is inside, or its negative where the species is held.
+/// The value of a change beyond a side: the value inside, or its negative at a side with a fixed
+/// value.
 double neighbour(const Domain& domain, const Values& u, std::int64_t at[3], int axis, int by) {
     const std::int64_t cells[3] = {domain.grid.width, domain.grid.height, domain.grid.depth};
     std::int64_t place[3] = {at[0], at[1], at[2]};
@@ -70,7 +71,7 @@ Values second_difference(const Domain& domain, const Values& u, int axis) {
     return result;
 }
 
-/// The central difference, whose neighbours are all in the domain or beyond periodic sides.
+/// The central difference along a periodic axis.
 Values first_difference(const Domain& domain, const Values& u, int axis) {
     Values result(u.size(), 0);
     for_cells(domain.grid, [&](std::int64_t i, std::int64_t j, std::int64_t k) {
@@ -92,7 +93,7 @@ Values laplacian(const Domain& domain, const Values& u) {
     return sum;
 }
 
-/// M u by its definition, of factors that damp all waves.
+/// M u by the definition of M. The factors damp all waves.
 Values diffused(const Domain& domain, const DiffusionSymbol& f, const Values& u) {
     Values sum(u.size(), 0), power = u;
     for (std::size_t n = 0; n < laplacian_powers; ++n) {
@@ -196,7 +197,7 @@ TEST(WaveFilter, UndoesImplicitDiffusionAtAllSides) {
     }
 }
 
-/// a11 dxx + 2 a12 dxy + a22 dyy, oblique, between periodic sides.
+/// Diffusion in an oblique direction, a11 dxx + 2 a12 dxy + a22 dyy, between periodic sides.
 TEST(WaveFilter, UndoesDiffusionInADirection) {
     for (const double mixed : {0.5, -0.5}) {
         const DiffusionSymbol oblique{0.1, 0, 0, 0, 0.6, 0.2, 0.3, mixed, 0.2};

@@ -9,7 +9,7 @@ namespace {
 
 using test::never;
 
-/// The square 0..1² as n² squares.
+/// The square from 0 to 1 along both axes, made of n² squares.
 SurfaceMesh plane(std::uint32_t n) {
     PolygonSoup soup;
     for (std::uint32_t j = 0; j <= n; ++j) {
@@ -40,7 +40,7 @@ SurfaceCells stretched_cells(const SurfaceMesh& mesh, std::uint64_t count,
     return *make_cells(mesh, options, team, never);
 }
 
-/// Sums of squares along a direction and across it.
+/// Weighted sums of squared distances, along a direction and across it.
 struct SquaresAlongAndAcross {
     double along = 0, across = 0;
     void add(Vector3d offset, Vector3d direction, double weight) {
@@ -61,7 +61,7 @@ TEST(Stretch, ContractsAlongAndKeepsAreas) {
     const Vector2d back = stretch.inverse()(stretch({0.3, -0.7}));
     EXPECT_NEAR(back.x, 0.3, 1e-12);
     EXPECT_NEAR(back.y, -0.7, 1e-12);
-    // In a frame whose x axis is the direction the matrix is diagonal.
+    // The matrix is diagonal in a frame whose x axis is the direction of the stretch.
     const Stretch turned = stretch.in_frame({0.6, 0.8});
     EXPECT_NEAR(turned.xx, 0.5, 1e-12);
     EXPECT_NEAR(turned.xy, 0, 1e-12);
@@ -96,7 +96,8 @@ TEST(Anisotropy, DiffusionSpreadsFartherAlongTheDirection) {
     const Vector3d direction = unit(Vector3d{1, -1, 0});
     const double ratio = 3;
     const SurfaceCells cells = stretched_cells(mesh, 6000, constant(mesh, direction, ratio));
-    // From a spot in the middle, until it is a tenth of the square wide.
+    // Diffusion begins with a spot in the middle and ends when the spot is a tenth as wide as the
+    // square.
     std::vector<double> c(6000);
     const Vector3d middle = {0.5, 0.5, 0};
     const auto spread_of = [&] {
@@ -129,7 +130,7 @@ TEST(Anisotropy, WorksOnASphereOnAnyNumberOfThreads) {
     const SurfaceMesh mesh = test::sphere(12);
     Anisotropy anisotropy = constant(mesh, {0, 0, 1}, 3);
     for (std::size_t t = 0; t < anisotropy.ratio.size(); t += 2) anisotropy.ratio[t] = 2;
-    anisotropy.direction[5] = {};  // No direction at all.
+    anisotropy.direction[5] = {};  // This element has no direction.
     const SurfaceCells one = stretched_cells(mesh, 900, anisotropy, 1),
                        three = stretched_cells(mesh, 900, anisotropy, 3);
     EXPECT_EQ(one.areas, three.areas);

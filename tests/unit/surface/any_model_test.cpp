@@ -1,4 +1,4 @@
-// What is computed on surfaces is finite on whatever a model's file may hold.
+// Computations on surfaces give finite results for any mesh that a file may contain.
 #include "core/hash.h"
 #include "surface/cell_gradient.h"
 #include "surface/curvature.h"
@@ -14,7 +14,7 @@
 namespace cascade::test {
 namespace {
 
-/// Triangles between few points, some of them in one place or on one line, of any size.
+/// Triangles of any size between few points, of which some coincide or are on one line.
 PolygonSoup random_soup(std::uint32_t seed) {
     const auto word = [&](std::uint32_t k, std::uint32_t what) {
         return pcg4d({k, what, seed, 17})[0];
@@ -26,7 +26,7 @@ PolygonSoup random_soup(std::uint32_t seed) {
     for (std::uint32_t k = 0; k < points; ++k) {
         const auto at = [&](std::uint32_t axis) {
             const std::uint32_t step = word(k, 1 + axis) % grid;
-            // Now and then a little off its place on the grid.
+            // Some points are moved a little away from the grid.
             const double off = word(k, 7) % 5 == 0 ? std::pow(10.0, -1.0 - word(k, 8) % 16) : 0;
             return scale * (step + off);
         };
@@ -74,7 +74,8 @@ void expect_finite_cells(const SurfaceMesh& mesh) {
         EXPECT_GE(value, 1);
         EXPECT_LE(value, 2);
     }
-    // Every way is at least the straight line, but for rounding, and for fronts that mix.
+    // Distances are at least those along straight lines, except for rounding and the merging of
+    // fronts.
     const SurfacePlace source = cells.places[0];
     const SurfaceDistance distance(mesh, std::span(&source, 1), never, {2'000});
     EXPECT_LT(distance.at(source).distance, 1e-9 * size);

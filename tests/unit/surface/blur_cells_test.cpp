@@ -1,4 +1,4 @@
-// Diffusion as a blur, against what a Gaussian does.
+// Blurs by diffusion, compared with blurs by a Gaussian.
 #include "surface/blur_cells.h"
 
 #include "core/hash.h"
@@ -28,7 +28,7 @@ std::vector<float> blurred(const SurfaceCells& cells, double sigma, std::vector<
     return values;
 }
 
-/// 0 or 1 by chance.
+/// Random values, each 0 or 1.
 std::vector<float> coins(std::size_t count) {
     std::vector<float> values;
     for (std::uint32_t k = 0; k < count; ++k) {
@@ -58,7 +58,7 @@ TEST(BlurCells, SumsStayAndValuesStayInTheirRange) {
 TEST(BlurCells, AWaveLosesWhatAGaussianTakes) {
     const SurfaceMesh mesh = square();
     const SurfaceCells cells = cells_of(mesh, 4000);
-    // No flow crosses the sides, and none is wanted of a cosine.
+    // Nothing flows through the sides, and this cosine has no slope there.
     const double wave = 4 * std::numbers::pi;
     std::vector<float> values;
     for (const SurfacePlace& place : cells.places) {

@@ -1,4 +1,4 @@
-// Surfaces for tests of cells, and what must hold of all cells.
+// Surfaces for tests of cells, and checks for all cells.
 #pragma once
 
 #include "surface/surface_cells.h"
@@ -12,7 +12,8 @@
 
 namespace cascade::test {
 
-/// Standard deviation over mean of the distance to the nearest other place.
+/// The standard deviation divided by the mean of the distance from a place to the nearest other
+/// one.
 inline double unevenness(const SurfaceMesh& mesh, const std::vector<SurfacePlace>& places) {
     double sum = 0, squares = 0;
     for (std::size_t a = 0; a < places.size(); ++a) {
@@ -29,7 +30,7 @@ inline double unevenness(const SurfaceMesh& mesh, const std::vector<SurfacePlace
     return std::sqrt(squares / count - sum / count * (sum / count)) / (sum / count);
 }
 
-/// (Σ (c_j − c_i) length / distance) / area.
+/// The discrete Laplacian of c in each cell i: (Σ (c_j − c_i) length / distance) / area.
 inline std::vector<double> laplacian(const SurfaceCells& cells, const std::vector<double>& c) {
     std::vector<double> result;
     for (std::size_t i = 0; i < c.size(); ++i) {
@@ -42,7 +43,7 @@ inline std::vector<double> laplacian(const SurfaceCells& cells, const std::vecto
     return result;
 }
 
-/// What ⟨f, L f⟩ / ⟨f, f⟩ is, with areas as weights: minus the rate at which f decays.
+/// The rate at which f decays by diffusion: −⟨f, L f⟩ / ⟨f, f⟩, with areas as weights.
 inline double decay_rate(const SurfaceCells& cells, const std::vector<double>& f) {
     const std::vector<double> lap = laplacian(cells, f);
     double above = 0, below = 0;
@@ -53,8 +54,8 @@ inline double decay_rate(const SurfaceCells& cells, const std::vector<double>& f
     return above / below;
 }
 
-/// The largest relative error of the rates at which the harmonics of degree 1, 2 and 3 decay, l (l
-/// + 1).
+/// The largest relative error of the rates l (l + 1) at which the harmonics of degree l = 1, 2 and
+/// 3 decay.
 inline double harmonics_error(const SurfaceMesh& unit_sphere, const SurfaceCells& cells) {
     double worst = 0;
     for (int l = 1; l <= 3; ++l) {
@@ -108,7 +109,8 @@ inline double relative_deviation(const std::vector<double>& values) {
     return std::sqrt(squares / count - sum / count * (sum / count)) / (sum / count);
 }
 
-/// Are all cells of a piece reached from each other over edges? Counts the parts that are not.
+/// The number of connected parts of the graph whose nodes are cells and whose edges are Voronoi
+/// edges.
 inline std::size_t parts_of(const SurfaceCells& cells) {
     std::vector<bool> seen(cells.places.size());
     std::size_t parts = 0;

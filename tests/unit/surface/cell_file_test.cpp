@@ -1,4 +1,4 @@
-// Cells that are kept: the same ones come back, or a reason why not.
+// Cells that are kept in files: reading gives the same cells, or a reason why this is impossible.
 #include "core/file.h"
 #include "core/hash.h"
 #include "surface/cell_file.h"
@@ -36,7 +36,7 @@ protected:
         const auto read = read_cells(path, mesh, key);
         return read ? "" : read.error().message;
     }
-    /// Writes what was written before after a change; with a checksum that fits if `is_clever`.
+    /// Writes a changed copy of the file, with a matching checksum if `is_clever`.
     void change(bool is_clever, const std::function<void(std::string&)>& how) const {
         std::string changed = bytes;
         how(changed);
@@ -110,7 +110,7 @@ TEST_F(CellFile, KeyTellsApartAllThatMatters) {
     for (std::size_t a = 0; a < keys.size(); ++a) {
         for (std::size_t b = 0; b < a; ++b) EXPECT_NE(keys[a], keys[b]) << a << " " << b;
     }
-    // What does not change cells does not change the key.
+    // Properties of a mesh that do not affect its cells do not change the key.
     SurfaceMesh named = mesh;
     named.attributes.push_back({"red", std::vector<float>(mesh.points.size(), 1)});
     EXPECT_EQ(key_of(named, options), key);
@@ -163,7 +163,7 @@ TEST_F(CellFile, RefusesHostileNumbersWithARightChecksum) {
         change(true, [&](std::string& b) { std::memcpy(b.data() + at, &value, sizeof value); });
         EXPECT_NE(reason(), "") << "at " << at;
     };
-    // How many cells and edges: neither is believed, however large.
+    // Numbers of cells and edges that are too large are refused.
     for (const std::uint64_t count :
          {std::uint64_t{0}, std::uint64_t{61}, ~std::uint64_t{0}, std::uint64_t{1} << 62,
           std::uint64_t{1} << 40, (~std::uint64_t{0} - 71) / 44 + 1}) {

@@ -1,4 +1,4 @@
-// What is seen of cells between their places.
+// Values that are shown between the places of cells.
 #include "core/hash.h"
 #include "surface/cell_filter.h"
 #include "unit/surface/even_cells.h"
@@ -34,7 +34,7 @@ std::vector<float> values_of(const SurfaceMesh& mesh, const SurfaceCells& cells,
     return values;
 }
 
-/// −1 or 1 by chance: the roughest values there are.
+/// Random values, each −1 or 1, which are as rough as values can be.
 std::vector<float> random_signs(std::size_t count) {
     std::vector<float> values;
     for (std::uint32_t k = 0; k < count; ++k)
@@ -114,7 +114,7 @@ TEST(CellFilter, LinearFunctionsStay) {
     EXPECT_LT(std::sqrt(squares / count), 5 * 0.04 * spacing);
 }
 
-/// The largest difference between the two sides of an edge.
+/// The largest difference between the values that the two triangles at an edge show there.
 double largest_jump(const SurfaceMesh& mesh, std::size_t count, const std::vector<float>& values) {
     const SurfaceCells cells = cells_of(mesh, count);
     const CellFilter filter = filter_of(mesh, cells);
@@ -147,7 +147,8 @@ TEST(CellFilter, NothingJumpsAtEdges) {
     EXPECT_LT(largest_jump(box(), 300, values), 0.05);
     EXPECT_LT(largest_jump(box(), 40'000, values), 0.05);
     EXPECT_LT(largest_jump(leaf(0.3, 8), 400, values), 0.05);
-    // A ball so crumpled that a strip of its triangles laid flat winds back to where it began.
+    // A ball that is so crumpled that a strip of its triangles, unfolded into the plane, overlaps
+    // itself.
     SurfaceMesh crumpled = sphere(12);
     for (std::uint32_t k = 0; k < crumpled.points.size(); ++k) {
         crumpled.points[k] = crumpled.points[k] * (1 + 2e-11 * pcg4d({k, 0, 0, 1})[0]);
@@ -203,7 +204,7 @@ TEST(CellFilter, WhereNoCellIsNearTheNextOneIsSeen) {
     const SurfaceMesh mesh = make_mesh(std::move(soup))->mesh;
     const std::vector<std::uint32_t> components = connected_components(mesh);
     SurfaceCells cells = cells_of(mesh, 400);
-    // All cells of the second cube are taken away, and most of the first.
+    // All cells of the second cube and most cells of the first are removed.
     std::vector<SurfacePlace> left;
     for (const SurfacePlace& place : cells.places) {
         const Vector3d p = position_of(mesh, place);

@@ -1,4 +1,4 @@
-// The axes of angles on a surface, and how far diffusion in a direction may go in each cell.
+// The axes for angles on a surface, and bounds of diffusion with a direction in each cell.
 #include "surface/cell_frames.h"
 #include "surface/cell_gradient.h"
 #include "surface/make_cells.h"
@@ -21,7 +21,7 @@ std::vector<double> evenness(const SurfaceMesh& mesh, const SurfaceCells& cells,
 }
 
 TEST(CellFrames, PointRightAndDownAsInAPicture) {
-    // A sheet that is seen from the front, and one that is seen from above and rises to the back.
+    // An upright sheet that faces the viewer, and a sheet that rises towards the back.
     const SurfaceMesh wall = sheet(5, 5, [](double u, double v) { return Vector3d{u, v, 0}; });
     const SurfaceMesh slope = sheet(5, 5, [](double u, double v) { return Vector3d{u, v, -v}; });
     for (const SurfaceMesh* mesh : {&wall, &slope}) {
@@ -62,7 +62,7 @@ TEST(CellFrames, CellsAreEvenWhereTheirNeighboursAre) {
 }
 
 TEST(CellFrames, SliversHaveNoDirection) {
-    // Columns a hundred times as narrow as high between wide ones.
+    // Among wide columns of cells are some that are a hundred times as high as wide.
     const SurfaceMesh mesh = sheet(12, 6, [](double u, double v) {
         const double column = std::round(u * 12);
         return Vector3d{std::floor(column / 2) + (std::fmod(column, 2) > 0.5 ? 0.99 : 0), 6 * v, 0};

@@ -22,7 +22,7 @@ std::vector<double> values(const SurfaceMesh& mesh, const SurfaceCells& cells,
 }
 
 TEST(CellGradient, IsExactForLinearFunctionsOnAPlane) {
-    // A plane askew in space, of triangles of all sizes.
+    // An oblique plane of triangles of all sizes.
     const Vector3d e = unit(Vector3d{1, 2, -1}), f = unit(cross(e, Vector3d{0.3, 1, 1}));
     const SurfaceMesh mesh = sheet(7, 5, [&](double u, double v) {
         return e * (u * u + 0.1 * u) + f * (v + 0.2 * u * v);
@@ -36,7 +36,7 @@ TEST(CellGradient, IsExactForLinearFunctionsOnAPlane) {
 }
 
 TEST(CellGradient, CrossesFoldsWithoutError) {
-    // Half a cube's edges: a function that is linear when the fold is opened.
+    // A sheet folded by a right angle, and a function that is linear when the sheet is unfolded.
     const SurfaceMesh mesh = sheet(2, 1, [](double u, double v) {
         return u <= 0.5 ? Vector3d{u, v, 0} : Vector3d{0.5, v, u - 0.5};
     });
@@ -79,7 +79,7 @@ TEST(CellGradient, FirstHarmonicsOfASphereAreOfFirstOrder) {
     EXPECT_LT(errors[2], errors[1] / 1.6);
 }
 
-/// Cells in a row: what they say about a slope is only its part along the row.
+/// Cells in a row determine only the component of the gradient along the row. The other one is 0.
 TEST(CellGradient, WhatCannotBeKnownIsZero) {
     const SurfaceMesh mesh = square();
     SurfaceCells cells;
@@ -116,7 +116,7 @@ TEST(CellGradient, SizeOfTheModelAndThreadsDoNotMatter) {
     const SurfaceCells cells = cells_of(mesh, 500);
     const std::vector<Vector3d> one = weights_of(mesh, cells, 1);
     EXPECT_EQ(one, weights_of(mesh, cells, 3));
-    // By a power of two, so that rounding is the same.
+    // Scaling by a power of two keeps the rounding.
     const double scale = std::ldexp(1.0, -200);
     SurfaceMesh tiny = mesh;
     for (Vector3d& p : tiny.points) p = p * scale;

@@ -1,4 +1,4 @@
-// Gradients of values of cells by the weights of surface/cell_gradient.h.
+// Gradients of values in cells, computed with the weights of surface/cell_gradient.h.
 #pragma once
 
 #include "surface/cell_gradient.h"

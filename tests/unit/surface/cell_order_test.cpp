@@ -1,4 +1,4 @@
-// Orders of cells: each cell once, neighbours near each other, links as they were.
+// Orders of cells contain each cell once, put neighbours near each other, and keep the links.
 #include "surface/cell_order.h"
 
 #include "tests/support/random_links.h"
@@ -27,7 +27,7 @@ std::size_t link_count(const LinkList& links, std::uint32_t cell) {
     return links.ends[cell] - (cell == 0 ? 0 : links.ends[cell - 1]);
 }
 
-/// A square of side² cells in random order, linked to those beside, above and below.
+/// A square of side² cells in random order, each linked to the cells beside, above and below it.
 struct Square {
     explicit Square(std::size_t side) : numbers(side * side) {
         std::iota(numbers.begin(), numbers.end(), 0U);
@@ -61,7 +61,7 @@ struct Square {
 
 double distance(std::uint32_t a, std::uint32_t b) { return a > b ? a - b : b - a; }
 
-/// The largest and the mean difference of numbers over links.
+/// The largest and the mean difference between the numbers of linked cells.
 struct LinkDistances {
     double largest = 0, mean = 0;
     explicit LinkDistances(const LinkList& links) {
@@ -80,13 +80,14 @@ TEST(CellOrder, LevelsPutNeighboursIntoBands) {
     const Square square(side);
     const Order order = order_by_levels(square.links);
     ASSERT_TRUE(has_each_once(order, side * side));
-    // From a corner the levels are diagonals of at most `side` cells.
+    // Levels begin at a corner, so they are diagonals of at most `side` cells.
     const LinkDistances spread(renumbered(square.links, order));
     EXPECT_LE(spread.largest, side + 1);
     EXPECT_GT(LinkDistances(square.links).mean, 900) << "before";
 }
 
-/// What steps go through: slices as long as their longest list of links, near each other.
+/// For steps, slices of cells are as long as their longest list of links, and linked cells are near
+/// each other.
 TEST(CellOrder, StepsHaveBandsAndLittleToFillUp) {
     constexpr std::size_t side = 60;
     const Square square(side);
@@ -123,7 +124,7 @@ TEST(CellOrder, GroupsAreSortedByLinksWithinWindows) {
     }
 }
 
-// Links of random cells go one way, and some cells have none.
+// These random links have one direction, and some cells have no link.
 TEST(CellOrder, LevelsReachEveryCell) {
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
         const std::size_t cells = 1 + 17 * (seed - 1);
@@ -133,7 +134,7 @@ TEST(CellOrder, LevelsReachEveryCell) {
         const LinkList renamed = renumbered(links, order);
         ASSERT_EQ(renamed.ends.size(), cells);
         for (std::uint32_t cell = 0; cell < cells; ++cell) {
-            // The same links of the same weights, by other names.
+            // The same links with the same weights, between renumbered cells.
             std::multiset<std::pair<std::uint32_t, double>> before, after;
             for (std::size_t k = link_count(links, order[cell]); k > 0; --k) {
                 const std::size_t link = links.ends[order[cell]] - k;

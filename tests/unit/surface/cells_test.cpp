@@ -1,4 +1,4 @@
-// Places spread over surfaces, and the cells around them, against what is known of both.
+// Places spread over surfaces, and the cells around them, compared with known results.
 #include "core/hash.h"
 #include "surface/convex_region.h"
 #include "surface/relax.h"
@@ -26,7 +26,7 @@ TEST(Walk, GoesAroundACubeAndComesBack) {
     const SurfaceMesh mesh = test::box();
     for (std::uint32_t t = 0; t < 12; ++t) {
         const SurfacePlace start = {t, {0.3, 0.45, 0.25}};
-        // Along the direction of an edge of the cube the way is closed after four sides.
+        // A walk parallel to an edge of the cube returns to its start after four sides.
         const FlatTriangle flat = own_frame(mesh, t);
         for (std::uint32_t k = 0; k < 3; ++k) {
             const Vector2d edge = flat[(k + 1) % 3] - flat[k];
@@ -73,8 +73,9 @@ TEST(Scatter, PlacesAreAsDenseEverywhere) {
     for (const auto& [triangle, count] : on_triangle) EXPECT_NEAR(count, 1000, 1) << triangle;
 }
 
-/// The same of points on a periodic square of side 1 that S. Lloyd's method ("Least squares
-/// quantization in PCM", 1982) has moved to the centroids of their Voronoi regions.
+/// The unevenness (see unevenness()) of points on a periodic square of side 1 which S. Lloyd's
+/// method ("Least squares quantization in PCM", 1982) has moved to the centroids of their Voronoi
+/// regions.
 double unevenness_by_lloyd(std::size_t count, int rounds) {
     std::vector<Vector2d> points;
     for (std::uint32_t k = 0; k < count; ++k) {
@@ -118,10 +119,10 @@ TEST(Relax, PlacesBecomeAsEvenAsByLloydsMethod) {
     const double lloyd = unevenness_by_lloyd(400, relaxing_rounds);
     RecordProperty("lloyd", std::to_string(lloyd));
     RecordProperty("relaxed", std::to_string(relaxed));
-    EXPECT_GT(random, 0.35);  // Of independent places it would be 0.52.
+    EXPECT_GT(random, 0.35);  // Independent random places would give 0.52.
     EXPECT_LT(relaxed, random / 5);
     EXPECT_LT(relaxed, lloyd);
-    // The number of rounds is chosen so that more make no difference.
+    // The usual number of rounds is so large that more rounds make no difference.
     const double longer = test::unevenness(mesh, even_places(mesh, 800, 2, 3 * relaxing_rounds));
     EXPECT_NEAR(longer, relaxed, 0.02);
 }

@@ -112,7 +112,8 @@ TEST(Curvature, TurksRadiiAreSmoothedAndBounded) {
     }
     const SurfaceMesh flat = sheet(5, 5, [](double u, double v) { return Vector3d{u, v, 0}; });
     for (const double radius : turk_radii(flat)) EXPECT_DOUBLE_EQ(radius, std::sqrt(2.0));
-    // A dent in a plane is found where it is, and wider after each round.
+    // A dent in a plane has curvature at its place, and each round of smoothing widens the curved
+    // region.
     SurfaceMesh dented = sheet(20, 20, [](double u, double v) { return Vector3d{u, v, 0}; });
     const auto p = static_cast<std::size_t>(
         std::min_element(dented.points.begin(), dented.points.end(),

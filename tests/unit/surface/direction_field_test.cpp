@@ -1,4 +1,4 @@
-// Directions along surfaces: from axes, gradients, curvature and keys.
+// Directions along surfaces that follow axes, gradients, curvature or given directions (keys).
 #include "mesh/shapes.h"
 #include "surface/key_directions.h"
 #include "unit/surface/even_cells.h"
@@ -22,7 +22,8 @@ void expect_tangents(const TangentPlanes& planes, const std::vector<Vector3d>& f
 
 Vector3d around_z(Vector3d p) { return unit(Vector3d{-p.y, p.x, 0}); }
 
-/// The largest angle between neighbours, in degrees, where they are carried over.
+/// The largest angle between directions of neighbours, in degrees, after carrying one to the
+/// other's plane.
 double worst_jump(const TangentPlanes& planes, const std::vector<Vector3d>& field,
                   DirectionKind kind) {
     double worst = 0;
@@ -84,7 +85,7 @@ TEST(Directions, OfAnAxisOnASphereAreMeridians) {
 }
 
 TEST(Directions, AreFilledWhereTheAxisStandsUpright) {
-    // On the top and bottom of a cube the z axis says nothing; the walls around do.
+    // On the top and bottom of a cube the z axis gives no direction, so the walls around decide.
     SurfaceMesh mesh = box_mesh({1, 1, 1}, 0.05).value();
     for (Vector3d& p : mesh.points) p = p + Vector3d{0.5, 0.5, 0.5};
     for (const DirectionKind kind : {DirectionKind::arrows, DirectionKind::lines}) {
@@ -96,11 +97,11 @@ TEST(Directions, AreFilledWhereTheAxisStandsUpright) {
             if (std::abs(planes.frames[k].normal.z) < 0.5) {
                 EXPECT_NEAR(std::abs(field[k].z), 1, 1e-12);
             } else if (p.x < 0.1 && p.y > 0.3 && p.y < 0.7) {
-                EXPECT_GT(std::abs(field[k].x), 0.9);  // As on the wall beside it.
+                EXPECT_GT(std::abs(field[k].x), 0.9);  // The direction of the wall beside it.
             }
         }
     }
-    // A plate that is upright to the axis everywhere still has one direction.
+    // A plate at a right angle to the axis still gets a single direction everywhere.
     const SurfaceMesh plate = sheet(9, 7, [](double u, double v) { return Vector3d{u, v, 0}; });
     const TangentPlanes planes = planes_of_triangles(plate);
     const std::vector<Vector3d> field = axis_directions(planes, {0, 0, 1}, DirectionKind::arrows);
@@ -140,7 +141,8 @@ TEST(Directions, OfCurvatureOnACylinderAndATorus) {
             EXPECT_GT(std::abs(dot(bent, around_z(p))), 0.99);
         }
     }
-    // A sphere has no such lines: what there is comes from the frame of one plane.
+    // A sphere has no lines of curvature, so its directions come from the frame of one tangent
+    // plane.
     const SurfaceMesh ball = sphere(12);
     const TangentPlanes planes = planes_of_triangles(ball);
     const auto lines = curvature_lines(ball, planes, principal_curvatures(ball), Principal::high);
@@ -151,7 +153,7 @@ TEST(Directions, OfCurvatureOnACylinderAndATorus) {
 TEST(KeyDirections, AreCarriedAroundACylinder) {
     const SurfaceMesh mesh = cylinder(48, 24, 0.5, 2);
     const KeyDirection key = {{0.6, 0, 1},
-                              {5, 1, 1}};  // At 45 degrees on the surface, once projected.
+                              {5, 1, 1}};  // Projected to the surface, this is at 45 degrees.
     const TangentPlanes planes = planes_of_triangles(mesh);
     const std::vector<Vector3d> field =
         key_directions(mesh, planes, std::span(&key, 1), DirectionKind::arrows, never);
@@ -193,7 +195,7 @@ TEST(KeyDirections, SmoothingTurnsFromOneKeyToTheNext) {
     for (std::size_t k = 0; k < planes.size(); ++k) EXPECT_LT(length(same[k] - sharp[k]), 1e-9);
 }
 
-/// Opposite arrows cancel out or swing round; as lines they are the same.
+/// Opposite directions cancel or turn into each other if they are arrows. As lines they are equal.
 TEST(KeyDirections, LinesDoNotKnowTheirSign) {
     const SurfaceMesh mesh = sheet(20, 20, [](double u, double v) { return Vector3d{u, v, 0}; });
     const TangentPlanes planes = planes_of_triangles(mesh);
@@ -216,9 +218,9 @@ TEST(KeyDirections, WhatSaysNothingIsLeftOut) {
     const SurfaceMesh mesh = make_mesh(std::move(soup))->mesh;
     const TangentPlanes planes = planes_of_triangles(mesh);
     const std::vector<KeyDirection> keys = {
-        {{0.5, 0.5, 2}, {0, 0, 1}},  // Upright.
+        {{0.5, 0.5, 2}, {0, 0, 1}},  // At a right angle to the surface.
         {{0.5, 0.5, 2}, {0, 0, 0}},      {{0.5, 0.5, 2}, {NAN, 0, 0}}, {{NAN, 0.5, 2}, {1, 0, 0}},
-        {{0.5, 0.5, 2}, {0, 1e-300, 0}}, {{0.5, 0.5, 2}, {1, 0, 0}}};  // Comes too late.
+        {{0.5, 0.5, 2}, {0, 1e-300, 0}}, {{0.5, 0.5, 2}, {1, 0, 0}}};  // The key before wins.
     const auto field = key_directions(mesh, planes, keys, DirectionKind::arrows, never);
     expect_tangents(planes, field);
     for (std::size_t k = 0; k < planes.size(); ++k) {

@@ -109,7 +109,7 @@ TEST(Distance, IsExactOnAPlane) {
         return e * (u + 0.1 * std::sin(9 * v)) + f * (v + 0.1 * std::sin(7 * u));
     });
     for (const std::size_t triangles : {1u, 5'000u}) {
-        // One source, so that every straight way that stays inside is the shortest one.
+        // With one source, a straight line that stays inside the plane is the shortest way.
         const SurfacePlace source = nearest(mesh, e * 0.52 + f * 0.5);
         const SurfaceDistance distance(mesh, std::span(&source, 1), never, {triangles});
         const Vector3d from = position_of(mesh, source);
@@ -124,7 +124,7 @@ TEST(Distance, IsExactOnAPlane) {
     }
 }
 
-/// The shortest of the ways that unfolding the cube opens from the middle of its lower side.
+/// The distance along a cube from the middle of its lower side to p, by unfolding the cube.
 double from_below_the_cube(Vector3d p) {
     double best = 1e9;
     for (int side = 0; side < 8; ++side) {
@@ -135,7 +135,7 @@ double from_below_the_cube(Vector3d p) {
             best = std::min({best, std::hypot(2.5 - x, y - 0.5), std::hypot(1.5 - x, 2.5 - y)});
         }
         if (x > 1 - 1e-9) {
-            // Straight up, or around the corner over the wall beside it.
+            // The way goes straight up, or over the wall beside it and around the corner.
             best = std::min({best, std::hypot(0.5 + p.z, y - 0.5), std::hypot(1.5 - y, 0.5 + p.z)});
         }
     }
@@ -214,9 +214,9 @@ TEST(Distance, OtherPiecesAreInfinitelyFar) {
     EXPECT_TRUE(std::isinf(none.at_point(0).distance));
 }
 
-/// Turning a corner of a saddle costs a way along its point.
+/// The shortest way around a hole goes through the hole's corners.
 TEST(Distance, GoesAroundAHole) {
-    // A ring 1..3 wide around a square hole: straight ways are barred.
+    // A ring around a square hole, 1 to 3 wide. The hole interrupts straight lines.
     const SurfaceMesh mesh =
         make_mesh(soup_of({{0, 0, 0},
                            {6, 0, 0},
@@ -235,7 +235,7 @@ TEST(Distance, GoesAroundAHole) {
 }
 
 TEST(Distance, BadTrianglesOnlyTakeLonger) {
-    // Columns from very thin to wide, sheared: angles of nearly 0 and nearly 180 degrees.
+    // Sheared columns from very thin to wide, with angles of nearly 0 and nearly 180 degrees.
     const SurfaceMesh mesh = sheet(40, 6, [](double u, double v) {
         return Vector3d{std::pow(u, 6.0) + 3 * v, v, 0};
     });

@@ -1,5 +1,5 @@
-// Cells of surfaces with many more triangles than cells: they are made on a coarse copy, and must
-// be as good as those made on the surface itself.
+// Cells of surfaces with many more triangles than cells. They are made on a coarse copy of the
+// surface, and must be as good as cells made on the surface itself.
 #include "core/hash.h"
 #include "mesh/coarse_copy.h"
 #include "mesh/shapes.h"
@@ -46,7 +46,7 @@ void expect_fine(const SurfaceMesh& mesh, const SurfaceCells& cells, std::size_t
     }
 }
 
-/// A sphere whose points are off it by some part of the triangles' edges, as those of a scan are.
+/// A sphere whose points are moved off by a fraction of the triangles' edges, as in a scan.
 SurfaceMesh rough_sphere(int n, double off) {
     SurfaceMesh mesh = test::sphere(n);
     for (std::uint32_t k = 0; k < mesh.points.size(); ++k) {
@@ -86,7 +86,8 @@ TEST(FineCells, RoughnessOfAScanDoesNotMatter) {
 }
 
 TEST(FineCells, SheetsThatAreNearInSpaceAloneStayApart) {
-    // A plate a hundred times as wide as thick, and cells five times as wide. Its rim is left out.
+    // A plate a hundred times as wide as thick, with cells five times as wide as its thickness.
+    // Cells at the rim are left out.
     const SurfaceMesh mesh = *box_mesh({1, 0.01, 1}, 0.01);
     const std::size_t count = 800;
     const SurfaceCells cells = cells_by_copy_of(mesh, count);
@@ -151,7 +152,7 @@ TEST(FineCells, DirectionsStretchThem) {
 }
 
 TEST(CoarseCopy, KeepsHandlesComponentsAndBoundaries) {
-    // The tube of the torus is thinner than the edges wanted.
+    // The tube of the torus is thinner than the edges of a coarse copy would be.
     for (const SurfaceMesh& mesh :
          {*torus_mesh(1, 0.05, 0.01), test::sphere(40), test::cylinder(100, 60, 0.3, 1)}) {
         const Result<CoarseCopy> copy = coarse_copy(mesh, 0.2);

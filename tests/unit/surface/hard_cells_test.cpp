@@ -1,5 +1,4 @@
-// Cells of surfaces that are unlike an animal: fins, slivers, wires, parts, and very large or
-// small.
+// Cells of unusual surfaces: fins, slivers, wires, several parts, and very large or small meshes.
 #include "mesh/shapes.h"
 #include "surface/make_cells.h"
 #include "unit/surface/cell_checks.h"
@@ -56,7 +55,8 @@ TEST(HardCells, Slivers) {
 }
 
 TEST(HardCells, AWireLongerThanCellsReach) {
-    // A strip 1000 times as long as wide: its cells lie farther apart than they push each other.
+    // A strip 1000 times as long as wide. Its cells are so far apart that they do not push each
+    // other.
     PolygonSoup soup;
     for (int k = 0; k <= 200; ++k) {
         soup.points.push_back({5.0 * k, 0, 0});
@@ -71,8 +71,8 @@ TEST(HardCells, AWireLongerThanCellsReach) {
     for (const std::uint64_t count : {1, 4, 30, 2000}) expect_fine(mesh, count);
 }
 
-/// The largest sum of the weights of a cell's edges over its share of the mean area: 3.46 of
-/// regular hexagons. A step of diffusion has to be so much shorter.
+/// The largest quotient of a cell's sum of edge weights and its area in mean areas. It is 3.46 for
+/// regular hexagons, and steps of diffusion must be shorter by the same factor.
 double largest_weight(const SurfaceCells& cells) {
     double total = 0, largest = 0;
     for (const double area : cells.areas) total += area;
@@ -86,7 +86,7 @@ double largest_weight(const SurfaceCells& cells) {
 }
 
 TEST(HardCells, ThinPartsHaveNoWeightyCells) {
-    // Bars three to twelve cells around: unfolded, their sides overlap.
+    // Bars with three to twelve cells around them, whose sides overlap when they are unfolded.
     for (const double width : {0.02, 0.04, 0.08}) {
         const SurfaceMesh mesh = *box_mesh({1, width, width}, width / 4);
         for (const std::uint64_t count : {100, 400}) {
@@ -119,7 +119,7 @@ TEST(HardCells, VeryLargeAndVerySmallModels) {
 }
 
 TEST(HardCells, EveryPieceHasACell) {
-    // A large box and forty small ones, whose whole area is less than that of a cell.
+    // A large box and forty small boxes, which have a smaller area than a cell.
     PolygonSoup soup = test::cube();
     for (int k = 0; k < 40; ++k)
         test::append(soup, scaled(test::cube(), 0.001 * (k + 1)), {2.0 + k, 0, 0});

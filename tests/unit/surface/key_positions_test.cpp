@@ -1,4 +1,4 @@
-// Values at key positions, and cells near points.
+// Values that are given at key positions, and the cells nearest to points.
 #include "surface/cell_finder.h"
 #include "surface/graph_diffusion.h"
 #include "surface/key_positions.h"
@@ -37,7 +37,7 @@ SurfaceMesh two_cubes() {
 TEST(KeyPositions, EachCellHasTheValueOfTheNearestKey) {
     const SurfaceMesh mesh = sphere(20);
     const SurfaceCells cells = cells_of(mesh, 1500);
-    // The keys lie off the surface: what counts is the place below them.
+    // The keys are not on the surface, so the nearest place on it counts.
     const std::vector<KeyValue> keys = {{{0, 0, 3}, 1}, {{0, 0, -0.2}, 2}, {{1.5, 0, 0}, 7}};
     const std::vector<double> values = nearest_key_values(mesh, cells, keys, never);
     std::size_t sure = 0;
@@ -72,7 +72,7 @@ TEST(KeyPositions, PiecesWithoutAKeyTakeTheNearestInSpace) {
     EXPECT_EQ(nearest_key_values(mesh, cells, {}, never), std::vector<double>(300));
 }
 
-/// A step on a long flat strip becomes the error function.
+/// Smoothing turns a step on a long flat strip into the error function.
 TEST(Smoothing, SpreadsLikeAGaussian) {
     const SurfaceMesh mesh = sheet(40, 4, [](double u, double v) {
         return Vector3d{10 * u, v, 0};
@@ -134,7 +134,7 @@ TEST(Smoothing, StaysBetweenAndDoesNotDependOnThreads) {
     EXPECT_EQ(smooth(cells, std::vector<double>(5000, 0.1), 0.5), std::vector<double>(5000, 0.1));
 }
 
-/// Waves on a ring die away as four implicit steps say, whatever the number of threads.
+/// Waves on a ring decay as in four implicit steps, with any number of threads.
 TEST(GraphDiffusion, WavesOnARing) {
     constexpr std::uint32_t count = 210'000;
     DiffusionGraph<double> graph;
@@ -207,7 +207,7 @@ TEST(CellFinder, WhatCannotBeFound) {
     SurfaceCells cells;
     const std::vector<Vector3d> points = {{5, 0, 0}};
     EXPECT_EQ(cells_at(mesh, cells, points)[0], CellFinder::nothing);
-    cells.places = {{0, {1, 0, 0}}};  // On the first cube, the point is on the second.
+    cells.places = {{0, {1, 0, 0}}};  // The cell is on the first cube, and the point on the second.
     cells.areas = {1};
     cells.ends = {0};
     EXPECT_EQ(cells_at(mesh, cells, points)[0], 0);

@@ -1,4 +1,4 @@
-// The faces and the points of models as cells, against what is known of both.
+// The faces or the points of models as cells, compared with known results.
 #include "mesh/intrinsic_delaunay.h"
 #include "surface/make_cells.h"
 #include "unit/surface/cell_checks.h"
@@ -10,7 +10,8 @@
 namespace cascade {
 namespace {
 
-/// A torus of n × m squares cut in two, of which every point was moved by a shift of its own.
+/// A torus of n × m squares, each cut into two triangles. Every point was moved by its own random
+/// shift.
 SurfaceMesh rough_torus(int n, int m, double shift) {
     PolygonSoup soup;
     std::uint32_t word = 1;
@@ -69,7 +70,7 @@ TEST(FaceCells, OfTrianglesHaveThreeEdges) {
     const SurfaceCells cells = face_cells(mesh);
     expect_cells(mesh, cells, 1200);
     for (std::size_t k = 0; k < 1200; ++k) EXPECT_EQ(cells.edges_of(k).size(), 3u);
-    // A mesh of which no faces are known has its triangles.
+    // Without known faces, the triangles of a mesh are its cells.
     mesh.faces.clear();
     EXPECT_EQ(face_cells(mesh).areas, cells.areas);
 }
@@ -125,13 +126,13 @@ TEST(VertexCells, WeightsAreTheCotangentsOnAFlatLattice) {
     ASSERT_EQ(cells.edges_of(middle).size(), 6u);
     for (const VoronoiEdge& edge : cells.edges_of(middle))
         EXPECT_NEAR(edge.weight(), 1 / std::sqrt(3), 1e-12);
-    // Linear functions are harmonic, however the points lie.
+    // Linear functions are harmonic, wherever the points are.
     std::vector<double> f;
     for (const Vector3d& p : mesh.points) f.push_back(3 * p.x - 2 * p.y);
     EXPECT_NEAR(test::laplacian(cells, f)[middle], 0, 1e-12);
 }
 
-/// Squares of a plane with points moved about, so that many triangles are obtuse.
+/// Squares of a plane with moved points, so that many triangles are obtuse.
 SurfaceMesh rough_plane() {
     PolygonSoup soup;
     std::uint32_t word = 7;

@@ -1,4 +1,4 @@
-// Farthest-first order against all distances, found in another way.
+// Farthest-first order, tested with all distances, which another algorithm computes.
 #include "surface/nested_order.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double far_away = std::numeric_limits<double>::infinity();
 
-/// A grid of cells with edges of varied lengths between neighbours, in two parts without an edge.
+/// A grid of cells whose edges have varied lengths. No edge connects its two parts.
 SurfaceCells cells_in_two_parts() {
     constexpr std::uint32_t columns = 12, rows = 9, gap = 7;
     SurfaceCells cells;
@@ -36,7 +36,7 @@ SurfaceCells cells_in_two_parts() {
     return cells;
 }
 
-/// The shortest ways between all pairs (R. W. Floyd, 1962).
+/// The lengths of the shortest ways between all pairs of cells (R. W. Floyd, 1962).
 std::vector<std::vector<double>> all_distances(const SurfaceCells& cells) {
     const std::size_t count = cells.places.size();
     std::vector<std::vector<double>> ways(count, std::vector<double>(count, far_away));

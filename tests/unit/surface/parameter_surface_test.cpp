@@ -81,7 +81,7 @@ TEST(ParameterSurface, PlacesWithoutAreaAreNamed) {
     ASSERT_FALSE(flat);
     EXPECT_EQ(flat.error().message,
               "the surface has no area at sx = 0.0625, sy = 0.125 (column 0, row 0)");
-    // A fold along sx = 1/2, where the centre of column 2 lies.
+    // A fold along sx = 1/2, which is the centre of column 2.
     const auto fold = [](double sx, double sy) {
         return Position{(sx - 0.5) * (sx - 0.5) * (sx - 0.5), sy, 0};
     };

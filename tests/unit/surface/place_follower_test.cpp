@@ -1,4 +1,5 @@
-// Places found from triangle to triangle against those found among all triangles.
+// Nearest places, found by going from triangle to triangle, compared with a search of all
+// triangles.
 #include "surface/place_follower.h"
 
 #include "mesh/edge_pairs.h"
@@ -14,7 +15,8 @@ Vector3d random_step(RandomStream& random, double length) {
     return Vector3d{random.symmetric(), random.symmetric(), random.symmetric()} * length;
 }
 
-/// Walks at random and compares. `rise`: how far points leave the surface.
+/// Follows a random walk and compares at each step. `rise` is how far points may be from the
+/// surface.
 void expect_nearest_places(const SurfaceMesh& mesh, double step, double rise) {
     const PlaceFollower follower(mesh);
     const NearestPlace all(mesh);
@@ -52,7 +54,7 @@ TEST(PlaceFollower, FindsTheNearestPlacesAtSharpEdges) {
     expect_nearest_places(*box_mesh({1, 2, 1}, 0.2), 0.1, 0);
 }
 
-/// Slivers share corners and lie at every angle, and points are far from the surface.
+/// The surface has slivers at all angles which share corners, and points are far away from it.
 TEST(PlaceFollower, FindsTheNearestPlacesOfARoughSurface) {
     SurfaceMesh mesh = *sphere_mesh(1, 0.3);
     RandomStream random(11);
@@ -60,7 +62,7 @@ TEST(PlaceFollower, FindsTheNearestPlacesOfARoughSurface) {
     expect_nearest_places(mesh, 0.05, 0.02);
 }
 
-/// The same place to the last bit, from wherever the way begins.
+/// Finds the same place to the last bit, whatever place the search begins at.
 TEST(PlaceFollower, FindsPlacesThatDoNotDependOnTheWay) {
     const SurfaceMesh mesh = *torus_mesh(1, 0.42, 0.1);
     const PlaceFollower follower(mesh);
@@ -106,7 +108,7 @@ TEST(PlaceFollower, TakesAnyTriangleToBeginWith) {
     EXPECT_FALSE(follower.find({NAN, 0, 0}, 0));
 }
 
-/// Where cells move little, most of them stay in the inside of their triangles.
+/// If cells move little, most of them stay inside their triangles.
 TEST(PlaceFollower, MostlyStaysWherePlacesMoveLittle) {
     const SurfaceMesh mesh = *sphere_mesh(1, 0.05);
     const PlaceFollower follower(mesh);
@@ -124,7 +126,7 @@ TEST(PlaceFollower, MostlyStaysWherePlacesMoveLittle) {
     EXPECT_FALSE(follower.stay({NAN, 0, 0}, 0));
 }
 
-/// A cell that is on one sheet stays there when another one is near.
+/// A cell stays on its sheet when another sheet is near.
 TEST(PlaceFollower, StaysOnItsSheet) {
     SurfaceMesh mesh = mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}},
                                {{{0, 1, 2}}, {{3, 4, 5}}});

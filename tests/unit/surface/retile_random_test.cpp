@@ -1,4 +1,4 @@
-// Surfaces tiled anew over any places.
+// Random surfaces that are tiled anew with random places as their points.
 #include "core/hash.h"
 #include "unit/surface/retiling.h"
 
@@ -11,7 +11,7 @@ namespace {
 
 using test::never;
 
-/// Numbers from a hash, one after the other.
+/// A sequence of random numbers, computed by hashing.
 class Numbers {
 public:
     explicit Numbers(std::uint32_t seed) : seed_(seed) {}
@@ -32,8 +32,8 @@ PolygonSoup soup_from(const SurfaceMesh& mesh) {
     return soup;
 }
 
-/// Triangles between any points, or a crumpled sphere or ring, with or without holes. A file may
-/// hold any of them.
+/// Triangles between random points, or a crumpled sphere or ring, with or without holes. Files may
+/// contain all of these.
 Result<MadeMesh> random_mesh(Numbers& numbers) {
     PolygonSoup soup;
     const std::uint32_t kind = numbers.below(4);

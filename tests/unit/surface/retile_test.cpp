@@ -1,4 +1,4 @@
-// Surfaces over new points, against what theory knows of them.
+// Surfaces that are tiled anew, compared with theory.
 #include "surface/triangle_quality.h"
 #include "unit/surface/retiling.h"
 
@@ -20,7 +20,7 @@ SurfaceMesh torus_mesh(std::uint32_t n, std::uint32_t m) {
     return make_mesh(torus_soup(n, m))->mesh;
 }
 
-/// A square 0..1² of n² squares.
+/// The square from 0 to 1 along both axes, made of n² squares.
 SurfaceMesh fine_square(std::uint32_t n) {
     PolygonSoup soup;
     for (std::uint32_t j = 0; j <= n; ++j) {
@@ -64,7 +64,7 @@ double distance_to_triangle(Vector3d p, Vector3d a, Vector3d b, Vector3d c) {
     return std::min({to_segment(a, b), to_segment(b, c), to_segment(c, a)});
 }
 
-/// The largest distance of the corners and middles of one surface's triangles from the other.
+/// The largest distance of the corners and centres of the triangles of `from` to the surface `to`.
 double distance_from(const SurfaceMesh& from, const SurfaceMesh& to) {
     double farthest = 0;
     const auto look = [&](Vector3d p) {
@@ -82,8 +82,8 @@ double distance_from(const SurfaceMesh& from, const SurfaceMesh& to) {
     return farthest;
 }
 
-/// How many triangles of places turn away from the mean normal of the old triangles in which these
-/// lie.
+/// The number of new triangles whose normal points against the mean normal of the old triangles in
+/// which their corners are.
 std::size_t upside_down(const SurfaceMesh& mesh, const std::vector<SurfacePlace>& places,
                         const Retiled& retiled) {
     std::size_t count = 0;
@@ -140,7 +140,8 @@ TEST(Retile, AreaOfASphereComesAtTheSecondOrder) {
         }
         missing.push_back(4 * std::numbers::pi - retiled->mesh.total_area());
     }
-    // A fourth of the area a triangle misses a fourth; the old mesh itself misses some.
+    // Triangles of a fourth of the area leave a fourth of the missing area. The old mesh itself
+    // misses some, too.
     const double old = 4 * std::numbers::pi - mesh.total_area();
     EXPECT_NEAR((missing[0] - old) / (missing[1] - old), 4, 0.3);
     EXPECT_NEAR((missing[1] - old) / (missing[2] - old), 4, 0.3);
@@ -291,7 +292,7 @@ TEST(Retile, RefusesPlacesBesideTheSurface) {
         const std::vector<SurfacePlace> places = {SurfacePlace{}, bad};
         const Result<Retiled> retiled = retile(mesh, places, never);
         ASSERT_FALSE(retiled);
-        EXPECT_EQ(retiled.error().message, "place 1, counted from 0, is not on the surface");
+        EXPECT_EQ(retiled.error().message, "position 1, counted from 0, is not on the surface");
     }
 }
 

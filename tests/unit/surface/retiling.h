@@ -1,4 +1,4 @@
-// What holds of any surface that was tiled anew.
+// Checks for all surfaces that were tiled anew.
 #pragma once
 
 #include "surface/retile.h"
@@ -10,7 +10,7 @@
 
 namespace cascade::test {
 
-/// A tube bent to a ring, n × m quadrilaterals.
+/// A torus of n × m quadrilaterals.
 inline PolygonSoup torus_soup(std::uint32_t n, std::uint32_t m) {
     PolygonSoup soup;
     for (std::uint32_t i = 0; i < n; ++i) {
@@ -29,7 +29,7 @@ inline PolygonSoup torus_soup(std::uint32_t n, std::uint32_t m) {
     return soup;
 }
 
-/// All triangles at a point are connected around it.
+/// Expects that the triangles at each point form a single fan.
 inline void expect_one_fan_each(const SurfaceMesh& mesh) {
     std::vector<std::uint32_t> triangles(mesh.points.size()), any(mesh.points.size());
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -61,7 +61,7 @@ inline void expect_one_fan_each(const SurfaceMesh& mesh) {
     }
 }
 
-/// What holds for any surface and any places.
+/// Expects that the new surface has the topology of the old one.
 inline void expect_same_topology(const SurfaceMesh& old, const Retiled& retiled,
                                  std::size_t places) {
     expect_manifold(retiled.mesh);
@@ -77,7 +77,7 @@ inline void expect_same_topology(const SurfaceMesh& old, const Retiled& retiled,
     for (const auto& [a, b, c] : retiled.mesh.triangles) EXPECT_TRUE(a != b && b != c && c != a);
 }
 
-/// The most that a point is away from its place.
+/// The largest distance of a new point from its place.
 inline double farthest_moved(const SurfaceMesh& old, const std::vector<SurfacePlace>& places,
                              const Retiled& retiled) {
     double farthest = 0;

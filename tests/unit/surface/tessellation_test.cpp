@@ -1,4 +1,4 @@
-// Places put among the points of a surface, and holes cut into triangles, against what is known.
+// Places that are added to the points of a surface, and holes that are cut into triangles.
 #include "core/hash.h"
 #include "surface/fill_hole.h"
 #include "surface/mutual_tessellation.h"
@@ -57,7 +57,7 @@ TEST(PlaceLattice, NoTwoPlacesCoincide) {
     EXPECT_EQ(positions.size(), places.size());
 }
 
-/// Above 0 where d lies within the circle around the triangle a, b, c of the plane z = 0.
+/// Positive if d is within the circle through a, b and c. All points have z = 0.
 double in_circle(Vector3d a, Vector3d b, Vector3d c, Vector3d d) {
     const auto lifted = [&](Vector3d p) {
         return Vector3d{p.x - d.x, p.y - d.y, dot(p - d, p - d)};
@@ -74,7 +74,7 @@ TEST(MutualTessellation, IsDelaunayWithinEachTriangle) {
     test::expect_manifold(fine);
     EXPECT_EQ(fine.triangles.size(), 2u + 2 * 2000);
     EXPECT_NEAR(fine.total_area(), 1, 1e-12);
-    const auto side = [](Vector3d p) { return p.x - p.y; };  // Of the diagonal between the two.
+    const auto side = [](Vector3d p) { return p.x - p.y; };  // 0 on the diagonal.
     std::size_t tested = 0;
     for (std::size_t t = 0; t < fine.triangles.size(); ++t) {
         EXPECT_GT(fine.double_area_normal(t).z, 0);
@@ -99,7 +99,7 @@ TEST(MutualTessellation, LiesInTheOldSurface) {
     ASSERT_TRUE(edited && tessellate(*edited, mesh, places, never));
     const SurfaceMesh fine = surface_mesh(*edited);
     test::expect_manifold(fine);
-    EXPECT_EQ(fine.points.size(), 8 + places.size());  // On the diagonals places coincide.
+    EXPECT_EQ(fine.points.size(), 8 + places.size());  // Also where places coincide.
     EXPECT_NEAR(fine.total_area(), 6, 1e-12);
     for (std::size_t t = 0; t < fine.triangles.size(); ++t) {
         const Vector3d n = unit(fine.double_area_normal(t));
@@ -126,7 +126,7 @@ TEST(FillHole, AFlatFanUnrollsToItself) {
     EXPECT_NEAR(open[1].x, std::cos(std::numbers::pi / 4), 1e-12);
 }
 
-/// Points in order around the origin, farther and nearer.
+/// Points in order around the origin, at different distances.
 std::vector<Vector2d> star(std::uint32_t count, std::uint32_t seed, double unevenness) {
     std::vector<Vector2d> ring;
     for (std::uint32_t k = 0; k < count; ++k) {
@@ -142,7 +142,7 @@ double area(const std::vector<Vector2d>& ring, const RingTriangle& t) {
     return cross(ring[t[1]] - ring[t[0]], ring[t[2]] - ring[t[0]]) / 2;
 }
 
-/// The smallest sine of an angle, below 0 upside down.
+/// The smallest sine of the triangle's angles, which is negative if the triangle is upside down.
 double least_sine(const std::vector<Vector2d>& ring, const RingTriangle& t) {
     std::array<double, 3> sides;
     for (std::size_t k = 0; k < 3; ++k) sides[k] = length(ring[t[(k + 1) % 3]] - ring[t[k]]);
@@ -150,7 +150,7 @@ double least_sine(const std::vector<Vector2d>& ring, const RingTriangle& t) {
     return 2 * area(ring, t) / (sides[1] * sides[2]);
 }
 
-/// The triangles turn the right way and make up the whole ring.
+/// Expects that the triangles have the right orientation and fill the ring.
 void expect_filled(const std::vector<Vector2d>& ring, const std::vector<RingTriangle>& triangles) {
     ASSERT_EQ(triangles.size() + 2, ring.size());
     double sum = 0, whole = 0;
@@ -203,7 +203,7 @@ TEST(FillHole, WhatMayNotBeMadeIsNotMade) {
     const auto not_from_first = [](const RingTriangle& t) {
         return t[0] != 0 && t[1] != 0 && t[2] != 0;
     };
-    EXPECT_TRUE(cut_ears(ring, true, not_from_first).empty());  // Some triangle is at every point.
+    EXPECT_TRUE(cut_ears(ring, true, not_from_first).empty());  // Point 0 has no triangle.
     EXPECT_TRUE(best_triangles(6, [&](const RingTriangle& t) {
                     return not_from_first(t) ? 1.0 : 0;
                 }).empty());

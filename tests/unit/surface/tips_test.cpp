@@ -1,4 +1,4 @@
-// The tips of a ball with horns, and of one without.
+// The tips of a ball with horns, and of a ball without.
 #include "core/run_control.h"
 #include "mesh/shapes.h"
 #include "surface/tips.h"

@@ -1,4 +1,5 @@
-// Divisions and deaths: their moments against theory, and their independence of everything else.
+// Divisions and deaths: their moments against theory, and that these do not depend on anything
+// else.
 #include "mesh/shapes.h"
 #include "tests/unit/tissue/function_rules.h"
 #include "tissue/random_direction.h"
@@ -11,7 +12,8 @@
 namespace cascade::test {
 namespace {
 
-/// Species 4 is ripe. Cells divide at 1 and begin again at 0.
+/// Species 4, called ripe, grows at this rate. Cells divide when it reaches 1, and it starts again
+/// at 0.
 FunctionRules ripening(CellRates rate) {
     FunctionRules rules;
     rules.species = 5;
@@ -112,7 +114,7 @@ TissueRecord mostly_unripe() {
     return record;
 }
 
-/// ripe' = 2 − ripe; species 5 counts the time.
+/// Rules with ripe' = 2 − ripe. Species 5 is the time.
 FunctionRules ripening_on_curves() {
     FunctionRules rules = ripening([](const CellState& cell, double* rates) {
         rates[4] = 2 - cell.own(4);
@@ -129,7 +131,8 @@ FunctionRules ripening_on_curves() {
     return rules;
 }
 
-/// Every cell divides at its own moment, and what starts again then is carried to the step's end.
+/// Cells divide at moments within a step, and species that start again then are integrated to its
+/// end.
 TEST(Events, OfAStepHappenAtTheirMoments) {
     double error_before = 0;
     for (const double step : {0.4, 0.2, 0.1}) {
@@ -151,7 +154,7 @@ TEST(Events, OfAStepHappenAtTheirMoments) {
             EXPECT_NEAR(record.species[5][cell], moment / 2 + left, 1e-3 * step);
             EXPECT_NEAR(record.species[5][child], moment / 2 + left, 1e-3 * step);
         }
-        EXPECT_LT(error, 0.35 * std::pow(step, 3));  // Heun's is left³ / 3.
+        EXPECT_LT(error, 0.35 * std::pow(step, 3));  // The error of Heun's method is left³ / 3.
         if (error_before > 0) {
             EXPECT_LT(error, error_before / 3);
         }
@@ -159,7 +162,7 @@ TEST(Events, OfAStepHappenAtTheirMoments) {
     }
 }
 
-/// Where conditions read other cells, or events must be exact, steps end at each event.
+/// If conditions read other cells, or events must be exact, steps end at each event.
 TEST(Events, EndStepsWhereTheyMust) {
     for (const bool is_exact : {false, true}) {
         FunctionRules rules = ripening_on_curves();
@@ -175,7 +178,7 @@ TEST(Events, EndStepsWhereTheyMust) {
     }
 }
 
-/// Of many cells that divide in one step, no more than a twentieth do so before it ends.
+/// If many cells would divide in one step, it ends after a twentieth of the cells have divided.
 TEST(Events, OfManyCellsTakeSeveralSteps) {
     TissueRecord start = mostly_unripe();
     for (std::size_t cell = 0; cell < 60; ++cell) {
@@ -250,7 +253,7 @@ TEST(Events, LetCellsDie) {
         if (counts.empty() || counts.back() != tissue.count()) counts.push_back(tissue.count());
         return true;
     });
-    // One is dead at the start, and the last one's death ends the stage.
+    // One cell is dead at the start, and the death of the last cell ends the stage.
     EXPECT_EQ(counts, (std::vector<std::size_t>{3, 2, 1, 0}));
     EXPECT_TRUE(outcome.ended);
     EXPECT_NEAR(outcome.t, 9, 1e-5);
@@ -270,7 +273,7 @@ TEST(Events, ThatMakeNothingSmallerAreRefused) {
     EXPECT_NEAR(outcome.failure->t, 1, 1e-6);
 }
 
-/// Large founders may divide several times at once.
+/// Large founders may divide several times at the same moment.
 TEST(Events, MayFollowEachOtherAtOneMoment) {
     FunctionRules rules;
     rules.condition_planes = 1;
@@ -300,7 +303,7 @@ TEST(Events, StopAtTheLargestNumberOfCells) {
     EXPECT_EQ(run.tissue().count(), 64U);
 }
 
-/// The first cell divides again and again, and its children die.
+/// The first cell divides again and again without end, and its daughters die.
 TEST(Events, ThatGoOnForEverAreRemarked) {
     FunctionRules rules = ripening([](const CellState&, double* rates) { rates[4] = 1; });
     rules.condition_planes = 2;
@@ -329,7 +332,8 @@ TEST(Events, ThatGoOnForEverAreRemarked) {
     EXPECT_GT(outcome.turnover->to, outcome.turnover->from);
 }
 
-/// A torus that is covered by cells which push, stick to the surface and divide when there is room.
+/// A torus that is being covered by cells. They push each other, stick to the surface, and divide
+/// where there is room.
 class Cover {
 public:
     Cover() : mesh_(*torus_mesh(0.35, 0.15, 0.04)) {
@@ -363,7 +367,7 @@ public:
     TissueRecord founders() const {
         return cells_at({{0.5, 0, 0}, {0, 0, 0.5}, {-0.5, 0, 0}, {0, 0.15, -0.35}}, 0.03, 5);
     }
-    /// `steps_at_once`: the run is stopped and resumed after so many.
+    /// The run is stopped and resumed after every `steps_at_once` steps.
     TissueRecord grown(Precision precision, std::int64_t steps_at_once = 1'000'000) {
         TissueRecord record = founders();
         for (;;) {

@@ -1,4 +1,4 @@
-// The first cells: evenly spread, where they may be, and facing outwards.
+// The first cells are spread evenly where they are allowed, and face outwards.
 #include "tissue/founders.h"
 
 #include "mesh/shapes.h"
@@ -61,7 +61,7 @@ TEST(Founders, AreWhereTheirChanceIs) {
         EXPECT_GE(founder.position.x, 0.2);
         sum += founder.position.x;
     }
-    // The mean of a density that is x from 0.2 to 1.
+    // The mean of x, weighted by a density that equals x from 0.2 to 1.
     EXPECT_NEAR(sum / count, (1 - 0.008) / 3 / ((1 - 0.04) / 2), 0.005);
 }
 
@@ -70,7 +70,8 @@ TEST(Founders, AreRefusedWhereTheyHaveNoChance) {
         return std::vector<double>(places.size(), 0);
     });
     ASSERT_FALSE(none);
-    EXPECT_EQ(none.error().message, "of 20480 random places only 0 are accepted as founders of 2");
+    EXPECT_EQ(none.error().message,
+              "of 20480 random positions only 0 are accepted as founders of 2");
 }
 
 TEST(Founders, GivenByPlacesAreOnTheSurface) {

@@ -1,5 +1,5 @@
-// Rules of a tissue for tests, written as C++ functions of a cell: they need no language, so that
-// the time loop is tested apart from everything that makes kernels.
+// Rules of a tissue for tests that are C++ functions of a cell. They need no script, so the time
+// loop is tested without the parts of the program that make kernels.
 #pragma once
 
 #include "solvers/error_estimate.h"
@@ -21,7 +21,8 @@ namespace cascade::test {
 /// What a function of a cell may read.
 class CellState {
 public:
-    /// `value(species, element)`, and `target(link)`, an element.
+    /// `value(species, element)` is the value of a species in a cell, and `target(link)` the
+    /// element of the cell at the end of a link.
     std::function<double(std::size_t species, std::int64_t element)> value;
     std::function<void(const std::function<void(std::int64_t element)>&)> each_link;
     std::array<double, 3> period{};
@@ -33,7 +34,8 @@ public:
     double own(std::size_t species) const { return value(species, element); }
     Vector3d place(std::int64_t at) const { return {value(0, at), value(1, at), value(2, at)}; }
     double radius(std::int64_t at) const { return value(3, at); }
-    /// `use(element, direction to it, distance)` for each link.
+    /// Calls `use(element, direction, distance)` for each link, with the direction to the other
+    /// cell.
     void each_neighbour(const auto& use) const {
         each_link([&](std::int64_t other) {
             Vector3d way = place(other) - place(element);
@@ -47,7 +49,8 @@ public:
 /// Writes one number for each result.
 using CellRates = std::function<void(const CellState& cell, double* results)>;
 
-/// Evaluates functions of cells in double precision and combines them as a form says.
+/// Evaluates functions of cells in double precision and combines their results by the form of a
+/// scheme.
 class FunctionKernel : public Kernel {
 public:
     FunctionKernel(CellRates rates, std::size_t species, SweepForm form, bool senses,
@@ -134,16 +137,17 @@ private:
     std::array<double, 3> period_;
 };
 
-/// Rules whose parts are set by tests. Species 0 to 2 are the place, 3 is the radius.
+/// Rules whose functions are set by tests. Species 0 to 2 are the place, and species 3 is the
+/// radius.
 class FunctionRules : public TissueRules {
 public:
     std::size_t species = 4;
     Solver solver = Solver::rkl2;
     bool is_judged = true;
-    CellRates rate = [](const CellState&, double*) {};  ///< Of all species, which begin as 0.
+    CellRates rate = [](const CellState&, double*) {};  ///< The rates of all species.
     std::size_t condition_planes = 0;
-    CellRates condition = {};      ///< Divide, then die.
-    bool is_of_cell_alone = true;  ///< The conditions.
+    CellRates condition = {};      ///< The conditions for dividing and for dying.
+    bool is_of_cell_alone = true;  ///< Whether the conditions read only the cell itself.
     std::size_t restarted_from = 0;
     CellRates restart = {};  ///< New values of the species from `restarted_from` on.
     CellRates direction = {};
@@ -261,7 +265,7 @@ private:
         return problems_.emplace_back(std::move(problem));
     }
 
-    /// The results of a function as planes of register 1.
+    /// A problem that writes the results of a function to register 1.
     const StepProblem* values(const StepProblem*& known, const CellRates& function,
                               std::size_t count) {
         if (known != nullptr) return known;
@@ -293,7 +297,7 @@ private:
                       *along_ = nullptr;
 };
 
-/// Cells at these places, with equal radii and all other species 0.
+/// Cells at these places with equal radii. All other species are 0.
 inline TissueRecord cells_at(const std::vector<Vector3d>& places, double radius,
                              std::size_t species) {
     TissueRecord record;
@@ -309,7 +313,7 @@ inline TissueRecord cells_at(const std::vector<Vector3d>& places, double radius,
     return record;
 }
 
-/// Collision: −k Σ overlap · direction.
+/// Adds the rates of a cell's place by collisions: −k Σ overlap · direction.
 inline void push(const CellState& cell, double k, double* rates) {
     cell.each_neighbour([&](std::int64_t other, Vector3d direction, double distance) {
         const double overlap =
@@ -320,7 +324,7 @@ inline void push(const CellState& cell, double k, double* rates) {
     });
 }
 
-/// A tissue with its loop.
+/// A tissue with its time loop.
 class Growth {
 public:
     Growth(FunctionRules& rules, const TissueRecord& record, TissueSchedule schedule,

@@ -1,4 +1,4 @@
-// Lists of which some cells are found anew, against all pairs of marks.
+// Lists of neighbours that are updated for some cells, compared with all pairs of marks.
 #include "tissue/kept_lists.h"
 
 #include "tests/support/random_stream.h"
@@ -16,7 +16,8 @@ namespace {
 constexpr double usual_radius = 0.02, many = 1e9;
 constexpr float usual_skin = 0.3F;
 
-/// Cells on a square, and the marks with which their neighbours were last looked for.
+/// Cells on a square, and the marks (places at the last search) with which their neighbours were
+/// found.
 class MovingCells {
 public:
     explicit MovingCells(const NeighbourRule& rule, std::size_t count = 400) : rule_(rule) {
@@ -37,7 +38,7 @@ public:
         radii_.push_back(size);
     }
     void move(std::uint32_t cell) { places_[cell] = random_place(); }
-    /// The last cell takes the place of one that dies.
+    /// The last cell takes the element of the cell that dies.
     void kill(std::uint32_t cell) {
         const std::uint32_t rank = ranks_[cell];
         places_[cell] = places_.back();
@@ -130,7 +131,7 @@ TEST(KeptLists, HoldAllPairsWhereCellsDie) {
     MovingCells cells({});
     for (int round = 0; round < 8; ++round) {
         std::vector<std::uint32_t> renewed;
-        // More die than are born, and a place that was given up is used again two rounds later.
+        // More cells die than are born, and a freed element is used again two rounds later.
         for (int k = 0; k < 3; ++k) {
             const std::uint32_t cell = cells.any_cell();
             cells.kill(cell);

@@ -1,4 +1,4 @@
-// Lists of neighbours against all pairs.
+// Lists of neighbours, compared with a search of all pairs.
 #include "tissue/neighbours.h"
 
 #include "tests/support/random_stream.h"
@@ -20,7 +20,7 @@ struct Cells {
 
 double uniform(RandomStream& random) { return (random.symmetric() + 1.0) / 2; }
 
-/// Cells in a box, with numbers in no order of memory.
+/// Cells in a box, whose numbers have another order than their memory.
 Cells random_cells(std::size_t count, Vector3d size, double least, double most,
                    RandomStream& random) {
     Cells cells;
@@ -47,7 +47,7 @@ double distance(Vector3d a, Vector3d b, const std::array<double, 3>& period) {
     return std::sqrt(square);
 }
 
-/// All pairs, by number.
+/// The lists of neighbours found among all pairs, in the order of the cells' numbers.
 NeighbourLists all_pairs(const Cells& cells, const NeighbourRule& rule, double skin) {
     NeighbourLists lists;
     for (std::size_t i = 0; i < cells.places.size(); ++i) {
@@ -102,7 +102,7 @@ TEST(Neighbours, ThroughPeriodicSides) {
         Cells cells = random_cells(300, {1, 0.7, 0}, radius / 3, radius, random);
         expect_all_pairs(cells, {1.2, 0, {1, 0.7, 0}}, 0.1);
         expect_all_pairs(cells, {1.2, 0, {0, 0.7, 0}}, 0.1);
-        // Cells may have left the box and not have been put back.
+        // Cells may have left the box without having been put back.
         for (Vector3d& place : cells.places) place.x += static_cast<double>(random.below(5)) - 2;
         expect_all_pairs(cells, {1.2, 0, {1, 0, 0}}, 0.1);
     }
@@ -140,7 +140,8 @@ TEST(Neighbours, AreRefusedIfThereWouldBeTooMany) {
     EXPECT_TRUE(find_neighbours(cells.view(), {1.2, 0, {}}, 0.1, 1e7, team));
 }
 
-/// The estimate looks at some cells only, which here are all alone.
+/// The estimate of the memory looks at some cells only. In this test, these cells have no
+/// neighbours.
 TEST(Neighbours, AreRefusedIfTheEstimateMissesThem) {
     RandomStream random(6);
     Cells cells = random_cells(6400, {1, 1, 1}, 1e-6, 1e-6, random);

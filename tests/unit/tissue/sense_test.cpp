@@ -26,7 +26,8 @@ TEST(Surroundings, OfASphere) {
         for (const double radius : {0.4, 0.5001, 0.7}) {
             const NearPlace near = found(*around, direction * radius);
             EXPECT_NEAR(near.off, radius - 0.5, 2e-4);
-            // From far away a flat triangle gathers directions.
+            // The error of the normal grows with the distance from the surface, whose triangles are
+            // flat.
             EXPECT_LT(length(near.normal - direction), 2e-3 + 0.03 * std::abs(near.off));
             EXPECT_NEAR(length(near.normal), 1, 1e-12);
             EXPECT_FALSE(near.is_beyond);
@@ -35,7 +36,7 @@ TEST(Surroundings, OfASphere) {
     EXPECT_TRUE(std::isnan(found(*around, {NAN, 0, 0}).off));
 }
 
-/// Neither `off` nor the normal jumps from triangle to triangle.
+/// `off` and the normal are continuous across edges of triangles.
 TEST(Surroundings, AreSmoothAlongASurface) {
     const SurfaceMesh mesh = *torus_mesh(0.35, 0.15, 0.03);
     const auto around = around_surface(mesh);
@@ -81,7 +82,7 @@ TEST(Surroundings, OfAPlane) {
     EXPECT_EQ(found(*in_box({1, 1, 1}, {}), {2, 3, 4}).off, 0);
 }
 
-/// Planes of cells at these places, and what they sense.
+/// Cells at given places, and the values that they sense.
 struct Sensed {
     Sensed(const std::vector<Vector3d>& places, std::shared_ptr<const Surroundings> around,
            std::vector<Sense> senses, int threads) {
@@ -118,7 +119,7 @@ struct Sensed {
         }
         nearest = triangles->now;
     }
-    std::vector<std::vector<double>> values;  ///< By sense and cell.
+    std::vector<std::vector<double>> values;  ///< Indexed by sense and cell.
     std::vector<std::uint32_t> nearest;
 };
 
@@ -150,7 +151,7 @@ TEST(SenseKernel, WritesWhatIsAskedForOnAnyNumberOfThreads) {
     }
 }
 
-/// Between the centres of cells a linear field is sensed as it is.
+/// A linear field is interpolated exactly between the centres of cells.
 TEST(SenseKernel, ReadsGridsBetweenTheirCells) {
     Grid grid;
     grid.width = 8;
@@ -173,7 +174,7 @@ TEST(SenseKernel, ReadsGridsBetweenTheirCells) {
     EXPECT_TRUE(std::isfinite(at(NAN, 1, Boundary::periodic)));
 }
 
-/// Cells of a model that hold a linear function of place.
+/// The cells of the model have the values of a linear function of the place.
 TEST(SenseKernel, ReadsTheCellsOfAModel) {
     const SurfaceMesh mesh = *sphere_mesh(0.5, 0.02);
     SurfaceCells cells;

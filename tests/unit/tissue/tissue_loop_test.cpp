@@ -104,7 +104,7 @@ TEST(TissueLoop, TheEnergyOfCollisionsNeverRises) {
     EXPECT_LT(before, 0.01 * first);
 }
 
-/// A force that is smooth in the distance, between all cells.
+/// A force between all cells that is a smooth function of the distance.
 void attract(const CellState& cell, double* rates) {
     cell.each_neighbour([&](std::int64_t, Vector3d direction, double distance) {
         const double force = distance * std::exp(-distance * distance) * (1 + 0.5 * cell.t);
@@ -160,7 +160,7 @@ TEST(TissueLoop, StepsFollowTheTolerance) {
     }
 }
 
-/// With k = 500 explicit steps would be below 0.002.
+/// With k = 500, explicit steps would have to be shorter than 0.002.
 TEST(TissueLoop, StiffForcesTakeStagesInsteadOfSteps) {
     FunctionRules rules;
     rules.rate = [](const CellState& cell, double* rates) {
@@ -168,7 +168,7 @@ TEST(TissueLoop, StiffForcesTakeStagesInsteadOfSteps) {
         rates[0] += 0.01;
     };
     Growth run(rules, cells_at({{1, 1, 1}, {1.0399, 1, 1}, {1.07989, 1, 1}}, 0.02, 4), until(20));
-    // The largest eigenvalue of three cells in a row is 3 k; a tenth is added.
+    // The largest eigenvalue of three cells in a row is 3 k. The estimate adds a tenth.
     run.go(1);
     EXPECT_NEAR(run.tissue().time.stiffness, 1650, 50);
     const TissueOutcome outcome = run.go();
@@ -276,6 +276,41 @@ TEST(TissueLoop, IsCancelledBetweenSteps) {
     });
     EXPECT_TRUE(cancelled.cancelled);
     EXPECT_EQ(cancelled.steps, 5);
+}
+
+/// The record of a run of cells that wake up suddenly, so that several attempts at a step fail. It
+/// is cancelled in evaluation `number` of a rate, if that is above 0, and then goes on.
+TissueRecord cancelled_at(std::int64_t number, std::int64_t& evaluations, std::int64_t& left_at) {
+    FunctionRules rules;
+    evaluations = 0;
+    RunControl* control = nullptr;
+    rules.solver = Solver::rk45;
+    rules.rate = [&](const CellState& cell, double* rates) {
+        push(cell, 0.5, rates);
+        if (cell.t > 1) rates[0] += 0.02 * std::sin(2000 * (cell.t - 1));
+        if (++evaluations == number) control->cancel = true;
+    };
+    Growth run(rules, cells_at({{1, 1, 1}, {1.03, 1, 1}}, 0.02, 4), until(1.1));
+    control = &run.control;
+    const TissueOutcome outcome = run.go();
+    EXPECT_EQ(outcome.cancelled, number > 0);
+    left_at = outcome.steps;
+    run.control.cancel = false;
+    if (outcome.cancelled) {
+        EXPECT_TRUE(run.go().ended);
+    }
+    return run.tissue().record();
+}
+
+TEST(TissueLoop, IsCancelledWithinAStepAndGoesOnWithTheSameBits) {
+    std::int64_t all = 0, evaluations = 0, steps = 0, left_at = 0;
+    const TissueRecord whole = cancelled_at(0, all, steps);
+    ASSERT_GT(all, 400);
+
+    for (std::int64_t number = 10; number < all - 40; number += all / 40) {
+        expect_equal_records(cancelled_at(number, evaluations, left_at), whole);
+        EXPECT_LT(left_at, steps);
+    }
 }
 
 }  // namespace

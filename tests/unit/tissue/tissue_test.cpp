@@ -1,4 +1,4 @@
-// Cells keep their values wherever they lie in memory.
+// Cells keep their values when they move in memory.
 #include "tissue/tissue.h"
 
 #include <bit>
@@ -8,7 +8,7 @@
 namespace cascade::test {
 namespace {
 
-/// Cells whose two species tell their numbers.
+/// Cells with two species that contain the cell's number.
 TissueRecord numbered(std::size_t count) {
     TissueRecord record;
     record.species.resize(2);

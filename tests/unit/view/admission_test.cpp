@@ -1,4 +1,4 @@
-// The rules of admission, one by one.
+// Each of the rules by which the server admits requests.
 #include "view/admission.h"
 
 #include "core/temporary_file.h"
@@ -29,7 +29,7 @@ RequestHead session_request() {
     return head;
 }
 
-/// 0 if admitted.
+/// The HTTP status of the refusal, or 0 if the request is admitted.
 unsigned status_of(const RequestHead& head) {
     const auto refusal = Admission(4000, std::string(session_token)).refuse(head);
     return refusal ? refusal->status : 0;

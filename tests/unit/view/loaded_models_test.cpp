@@ -1,4 +1,5 @@
-// Models in parts: whole, repeated, missing, hostile ones, and their names.
+// Models that are sent in parts: complete, repeated, missing and hostile parts, and names of
+// models.
 #include "view/loaded_models.h"
 
 #include "core/file.h"
@@ -22,7 +23,7 @@ protected:
         models_.emplace(base_ / "loaded", base_ / "scripts");
     }
 
-    /// All of a file in parts of `length` bytes, each sent twice, as after a lost connection.
+    /// Sends a file in parts of `length` bytes, each of them twice, as after a lost connection.
     Result<std::string> load(const std::string& name, const std::string& bytes,
                              std::size_t length = 10) {
         Result<std::string> last;
@@ -52,7 +53,7 @@ TEST_F(LoadedModelsTest, AreKeptUnderTheirNames) {
     EXPECT_EQ(read_file(base_ / "loaded/ball.off", 1000), tetrahedron);
     EXPECT_EQ(load("ball.off", tetrahedron), "ball.off") << "the same bytes";
     EXPECT_EQ(load("ball.off", tetrahedron + "# another\n"), "ball-2.off");
-    // What lies beside the script comes first, so it keeps its name.
+    // A file beside the script keeps its name, so the loaded model gets another one.
     ASSERT_TRUE(write_file(base_ / "scripts/horse.off", "mine"));
     EXPECT_EQ(load("horse.off", tetrahedron), "horse-2.off");
     ASSERT_TRUE(write_file(base_ / "scripts/same.off", tetrahedron));
@@ -69,8 +70,8 @@ TEST_F(LoadedModelsTest, HaveNamesWithoutPathsAndSigns) {
 }
 
 TEST_F(LoadedModelsTest, AreRefusedInOneMessage) {
-    EXPECT_THAT(refusal("notes.txt", "text"), testing::HasSubstr("is no model"));
-    EXPECT_THAT(refusal("..", "text"), testing::HasSubstr("is no model"));
+    EXPECT_THAT(refusal("notes.txt", "text"), testing::HasSubstr("is not a model"));
+    EXPECT_THAT(refusal("..", "text"), testing::HasSubstr("is not a model"));
     EXPECT_THAT(refusal("a.off", "OFF 9 9 9\n1"), testing::HasSubstr("'a.off'"));
     EXPECT_THAT(refusal("a.glb", "glTF"), testing::HasSubstr("'a.glb'"));
     EXPECT_THAT(refusal("a.ply", tetrahedron), testing::HasSubstr("'a.ply'"));
@@ -92,7 +93,7 @@ TEST_F(LoadedModelsTest, AreBounded) {
     EXPECT_THAT(refused({"b.ply", 3, 10, "ply"}), testing::HasSubstr("missing"));
     EXPECT_THAT(refused({"a.ply", 4, 10, "ply"}), testing::HasSubstr("missing"));
     EXPECT_THAT(refused({"a.ply", 3, 10, "12345678"}), testing::HasSubstr("longer"));
-    // Models of a session together.
+    // The total size of a session's models is limited.
     ASSERT_TRUE(load("a.off", tetrahedron + std::string(190 - tetrahedron.size(), '\n')));
     EXPECT_THAT(refused({"b.off", 0, 150, "OFF"}), testing::HasSubstr("at most 300 bytes"));
     LoadedModels none("", base_);

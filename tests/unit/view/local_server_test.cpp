@@ -1,5 +1,5 @@
-// The local server from outside: raw sockets that send what browsers, other sites and strangers
-// may.
+// The local server from outside: raw sockets send bytes that browsers, other sites and strangers
+// may send.
 #include "view/local_server.h"
 
 #include "unit/view/raw_client.h"
@@ -19,7 +19,7 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-/// What handlers were told, as text.
+/// The calls of handlers, as text.
 class Events {
 public:
     void add(std::string event) {
@@ -27,7 +27,7 @@ public:
         all_.push_back(std::move(event));
         came_.notify_all();
     }
-    /// Waits until there are this many.
+    /// Waits until there are `count` events.
     std::vector<std::string> wait_for(std::size_t count) {
         std::unique_lock lock(mutex_);
         came_.wait_for(lock, 20s, [&] { return all_.size() >= count; });
@@ -78,12 +78,12 @@ protected:
         return socket_request(own_, token, origin);
     }
 
-    /// Makes the client a page.
+    /// Opens the WebSocket of a page with this client.
     void open_page(RawClient& client) {
         ASSERT_TRUE(client.send(handshake(server_->token(), "http://" + own_)));
         const std::string answer = client.read_until("\r\n\r\n");
         ASSERT_THAT(answer, StartsWith("HTTP/1.1 101 "));
-        // The key and what becomes of it are those of RFC 6455.
+        // The key and the answer to it are the example of RFC 6455.
         ASSERT_THAT(answer, HasSubstr("Sec-WebSocket-Accept: s3pPLMBiTxaQ9kYGzzhZRbK+xOo=\r\n"));
     }
 
@@ -220,7 +220,7 @@ TEST_F(LocalServerTest, APageThatHasSaidGoodbyeIsGoneWhenItKeepsItsConnection) {
     events_.wait_for(1);
     ASSERT_TRUE(page.send_frame(RawClient::goodbye, ""));
     EXPECT_EQ(page.read_frame().opcode, RawClient::goodbye);
-    // Much sooner than a page that is silent.
+    // The page is closed at once, long before a silent page would be.
     EXPECT_THAT(events_.wait_for(2), ElementsAre("opened 1", "closed 1"));
 }
 
@@ -235,7 +235,7 @@ TEST_F(LocalServerTest, ClosesPagesThatBreakTheRules) {
         {
             RawClient client(server_->port());
             open_page(client);
-            events_.wait_for(count - 1);  // The server knows the page now.
+            events_.wait_for(count - 1);  // The server has opened the page now.
             act(client);
         }
         EXPECT_THAT(events_.wait_for(count).back(), StartsWith("closed"));
@@ -267,7 +267,7 @@ TEST_F(LocalServerTest, SlowReaderGetsTheNewestFrame) {
     RawClient page(server_->port());
     open_page(page);
     events_.wait_for(1);
-    // More than the buffers of the two sockets hold, so what comes after it waits.
+    // The frame is larger than the buffers of the two sockets, so later frames have to wait.
     server_->send_frame(1, 0, std::make_shared<const std::string>(std::size_t{64} << 20, 'x'));
     for (int k = 1; k <= 1000; ++k) {
         server_->send_frame(1, 1, std::make_shared<const std::string>(fmt::format("frame {}", k)));
@@ -278,7 +278,7 @@ TEST_F(LocalServerTest, SlowReaderGetsTheNewestFrame) {
         const RawClient::Frame frame = page.read_frame();
         payloads.push_back(frame.payload.size() > 100 ? "large" : frame.payload);
     }
-    // The text goes first unless the large frame is on its way already.
+    // The text is sent first, unless the large frame is being sent already.
     EXPECT_THAT(payloads, testing::UnorderedElementsAre("large", "done", "frame 1000"));
     EXPECT_EQ(payloads.back(), "frame 1000");
 }
@@ -313,8 +313,8 @@ TEST_F(LocalServerTest, BoundsConnectionsAndPages) {
         client->send(get);
         EXPECT_THAT(client->read_until("let x;"), StartsWith("HTTP/1.1 200 OK\r\n"));
     }
-    // Who has waited longest without being a page makes room, so that idle strangers lock out
-    // nobody.
+    // The oldest connection that is no page is closed to make room, so that idle strangers lock
+    // nobody out.
     RawClient fifth(server_->port());
     fifth.send(get);
     EXPECT_THAT(fifth.read_until("let x;"), StartsWith("HTTP/1.1 200 OK\r\n"));
@@ -327,7 +327,7 @@ TEST_F(LocalServerTest, BoundsConnectionsAndPages) {
 TEST_F(LocalServerTest, ListensToNobodyElse) {
     start();
     const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    // 127.0.0.2 is this machine, too, but a socket bound to 127.0.0.1 does not hear it.
+    // 127.0.0.2 is this machine, too, but a socket bound to 127.0.0.1 gets no connections to it.
     const sockaddr_in place = {AF_INET, htons(server_->port()), {htonl(0x7f000002)}, {}};
     EXPECT_NE(::connect(socket, reinterpret_cast<const sockaddr*>(&place), sizeof place), 0);
     ::close(socket);

@@ -1,4 +1,5 @@
-// What waits for a page: order of texts, replacement of frames, and when the sender is woken.
+// Messages that wait for a page: texts keep their order, frames replace each other, and the sender
+// is woken when it has something to do.
 #include "view/outbox.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +11,7 @@ using Added = Outbox::Added;
 
 SharedBytes bytes(std::string text) { return std::make_shared<const std::string>(std::move(text)); }
 
-/// "text:…" or "frame:…", "" if nothing waits.
+/// The next message as "text:…" or "frame:…", or "" if none waits.
 std::string next_of(Outbox& outbox) {
     const auto message = outbox.next();
     if (!message) return "";

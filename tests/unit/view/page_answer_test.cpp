@@ -1,4 +1,4 @@
-// What pages are told: places of messages, sliders, and the layout of snapshots.
+// Answers to pages: positions of diagnostics, sliders, and the layout of snapshots.
 #include "view/page_answer.h"
 
 #include "run/session/session.h"
@@ -50,7 +50,7 @@ TEST(PageAnswer, ScriptWithItsSliders) {
     EXPECT_EQ(script["name"], "waves.cascade");
     EXPECT_EQ(script["text"], waves);
     EXPECT_EQ(script["species"].size(), 2U);
-    // Neither a parameter that varies nor a stage that has not begun has one.
+    // A parameter that varies has no slider, and neither has a stage that has not begun.
     ASSERT_EQ(script["controls"].size(), 1U);
     const Json& slider = script["controls"][0];
     EXPECT_EQ(slider["name"], "one.k");
@@ -80,7 +80,7 @@ TEST(PageAnswer, MessagesCarryTheirPlaceInTheText) {
     EXPECT_EQ(message["from"], Json({3, 11}));
     EXPECT_EQ(message["to"], Json({3, 16}));
 
-    // Columns count UTF-16 units, of which the leopard is two.
+    // Columns are counted in UTF-16 units. The leopard takes two of them.
     const std::string text = "stage one: wave { } # \xf0\x9f\x90\x86\nstage \xf0\x9f\x90\x86 x";
     const Json other = Json::parse(print_answer(8, run->apply(SetText{text}, control), text));
     ASSERT_GE(other["messages"].size(), 1U);
@@ -248,7 +248,7 @@ TEST(PageAnswer, SnapshotsOfCellsAreMeshesAndWhereTheirCopiesStand) {
     EXPECT_EQ(triangle_ends.back(), triangles);
     EXPECT_EQ(ends.back(), placements);
     for (std::size_t k = 0; k < placements; ++k) {
-        // What is shown is x, and everything lies flat.
+        // The cells show their x, and the second coordinate of all is 0.
         EXPECT_FLOAT_EQ(numbers[10 * k], values[shown[k]]);
         EXPECT_FLOAT_EQ(numbers[10 * k + 1], 0);
         EXPECT_GE(numbers[10 * k + 2], 0.05F) << "cells without a width are not drawn";

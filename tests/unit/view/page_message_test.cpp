@@ -1,4 +1,4 @@
-// Messages of pages: each request, and one sentence for everything that is none.
+// Messages from pages: each request is parsed, and anything else is refused with a sentence.
 #include "view/page_message.h"
 
 #include <fmt/format.h>
@@ -73,6 +73,9 @@ TEST(PageMessage, Questions) {
     const auto values = parse_page_message(R"({"do": "values", "cell": 7})");
     ASSERT_TRUE(values.has_value());
     EXPECT_EQ(std::get<AskForValues>(std::get<PageQuestion>(values->request)).cell, 7);
+    const auto features = parse_page_message(R"({"do": "features", "show": "2 * u"})");
+    ASSERT_TRUE(features);
+    EXPECT_EQ(std::get<AskForFeatures>(std::get<PageQuestion>(features->request)).show, "2 * u");
     const auto measures = parse_page_message(R"({"do": "measure", "x": "u", "y": "v"})");
     ASSERT_TRUE(measures.has_value());
     EXPECT_EQ(std::get<AskForMeasures>(std::get<PageQuestion>(measures->request)).y, "v");
@@ -101,12 +104,35 @@ TEST(PageMessage, Questions) {
         parse_page_message(R"({"do": "picture", "show": "", "palette": "grey", "scale": 65})"));
 }
 
+TEST(PageMessage, NamesInTexts) {
+    const auto uses = parse_page_message(R"({"do": "uses", "text": "u: v", "byte": 3})");
+    ASSERT_TRUE(uses.has_value());
+    EXPECT_EQ(std::get<AskForUses>(std::get<PageQuestion>(uses->request)).byte, 3U);
+    const auto rename =
+        parse_page_message(R"({"do": "rename", "text": "u: v", "byte": 0, "name": "w"})");
+    ASSERT_TRUE(rename.has_value());
+    EXPECT_EQ(std::get<AskToRename>(std::get<PageQuestion>(rename->request)).name, "w");
+    EXPECT_FALSE(parse_page_message(R"({"do": "uses", "text": "u: v", "byte": -1})"));
+}
+
+TEST(PageMessage, ModelsAndMaps) {
+    for (const auto& [name, form] :
+         {std::pair{"model", ModelForm::model}, {"maps", ModelForm::maps}}) {
+        const auto message = parse_page_message(fmt::format(
+            R"({{"do": "{}", "show": "u", "palette": "grey", "scale": 1, "flat": true}})", name));
+        ASSERT_TRUE(message.has_value());
+        EXPECT_EQ(std::get<SaveModel>(message->request).form, form);
+        EXPECT_EQ(std::get<SaveModel>(message->request).request.show, "u");
+    }
+    EXPECT_FALSE(parse_page_message(R"({"do": "model", "show": "u"})"));
+}
+
 TEST(PageMessage, SaysWhatIsWrong) {
     const auto fault = [](std::string_view text) {
         const auto message = parse_page_message(text);
         return message ? "nothing" : message.error().message;
     };
-    const std::string no_object = "the message is no JSON object";
+    const std::string no_object = "the message is not a JSON object";
     for (const std::string_view text :
          {"", "run", "[]", "3", "{", "{\"do\": \"run\"", "{\"do\": \"run\"} {}", "{'do': 'run'}",
           "{\"do\": \"\xff\"}", "\xef\xbb\xbfnull"}) {

@@ -1,4 +1,4 @@
-// Replies to what pages ask: the log, names to type next, and what a name means now.
+// Replies to requests of pages: the log, completions, and the present meaning of a name.
 #include "view/page_reply.h"
 
 #include <gmock/gmock.h>
@@ -101,6 +101,15 @@ TEST_F(PageReply, Measures) {
     EXPECT_FALSE(this->reply(AskForMeasures{"u", "k"}).contains("histogram"));
 }
 
+TEST_F(PageReply, FeaturesOfWhatIsShown) {
+    const Json reply = this->reply(AskForFeatures{""});
+    EXPECT_EQ(reply["kind"], "features");
+    EXPECT_FLOAT_EQ(reply["features"]["mean"].get<float>(), 1.25F);
+    EXPECT_FLOAT_EQ(reply["features"]["smallest"].get<float>(), 1 + 0.5F / 6);
+    EXPECT_FLOAT_EQ(this->reply(AskForFeatures{"2 * u"})["features"]["mean"].get<float>(), 2.5F);
+    EXPECT_EQ(this->reply(AskForFeatures{"2 * nobody"})["is_done"], false);
+}
+
 TEST_F(PageReply, FixesMendWhatTheirHintsTell) {
     const auto fixes = [&](const std::string& text) { return reply(AskForFixes{text})["fixes"]; };
     const auto script = [](const std::string& rate) {
@@ -112,6 +121,35 @@ TEST_F(PageReply, FixesMendWhatTheirHintsTell) {
     EXPECT_EQ(fixes(script("k (u - 1)")), Json({nullptr})) << "it leaves something open";
     EXPECT_EQ(fixes(script("u")), Json::array());
     EXPECT_EQ(fixes(script("kk") + std::string(65536, '#')), Json::array()) << "too long";
+}
+
+TEST_F(PageReply, UsesAndDeclarationOfAName) {
+    const std::string text =
+        "# \u00b5\nsystem s { k: 2\n \u03b1: k; \u03b1' = k }\nstage a: s { k: 3 }\n";
+    const Json k = reply(AskForUses{text, text.find("k }")});
+    EXPECT_EQ(k["kind"], "uses");
+    EXPECT_EQ(k["name"], "k");
+    EXPECT_EQ(k["declaration"], Json({{"from", {2, 11}}, {"to", {2, 12}}}));
+    ASSERT_EQ(k["uses"].size(), 4U);
+    EXPECT_EQ(k["uses"][1], Json({{"from", {3, 4}}, {"to", {3, 5}}}));
+    EXPECT_EQ(reply(AskForUses{text, 0})["uses"], Json::array());
+    EXPECT_EQ(reply(AskForUses{text, 0})["declaration"], nullptr);
+    EXPECT_EQ(reply(AskForUses{text, text.size() + 99})["uses"], Json::array());
+    const std::string library = "stage a: gray_scott { feed: 0.03 }\n";
+    EXPECT_TRUE(reply(AskForUses{library, library.find("feed")})["declaration"].contains("source"));
+}
+
+TEST_F(PageReply, RenamesANameOrSaysWhyNot) {
+    const std::string text = "system s { k: 2; u: k; u' = k }\nstage a: s { k: 3 }\n";
+    const auto renamed = [&](const std::string& name) {
+        return reply(AskToRename{text, text.find('k'), name});
+    };
+    EXPECT_EQ(renamed("rate")["text"],
+              "system s { rate: 2; u: rate; u' = rate }\nstage a: s { rate: 3 }\n");
+    const Json refused = renamed("u");
+    EXPECT_EQ(refused["is_done"], false);
+    EXPECT_EQ(refused["id"], 3);
+    EXPECT_NE(refused["messages"][0]["message"].get<std::string>().find("'u'"), std::string::npos);
 }
 
 TEST_F(PageReply, Picture) {
@@ -156,7 +194,8 @@ TEST_F(PageReply, SpectrumWithItsWavelength) {
     EXPECT_NEAR(reply["spectrum"][4].get<double>(), 0.5, 1e-6);
 }
 
-/// More cells than a row of memory has, whose places after the last one are no cells.
+/// There are more cells than a row of memory has, and places after the last cell must not count as
+/// cells.
 TEST_F(PageReply, CellsThatCrawl) {
     begin(
         "cells dot { c: 2 + x; c' = 0; d: 1; d' = 0 }\ndomain { grid: 8, 8 }\n"

@@ -14,7 +14,7 @@ TEST(PageRequests, AreObeyedOnceOverAllConnections) {
     const auto second = requests.begin(1, 6);
     EXPECT_EQ(requests.finish(*first.page, 5, "done"), 1U);
 
-    // The answers were lost, and the second request is still being obeyed.
+    // The answer to the first request was lost, and the second request is still being carried out.
     requests.close(1);
     requests.name(2, "page");
     const auto again = requests.begin(2, 5);

@@ -1,4 +1,4 @@
-// A session that is steered through the sockets of its pages.
+// A session that pages control through their sockets.
 #include "view/page_server.h"
 
 #include "unit/view/raw_client.h"
@@ -43,7 +43,7 @@ protected:
         EXPECT_TRUE(client.send_frame(RawClient::text, text));
     }
 
-    /// The next text of a kind.
+    /// Returns the next text message of a kind.
     Json hear(RawClient& client, const std::string& kind) {
         while (true) {
             const RawClient::Frame frame = client.read_frame();
@@ -54,13 +54,13 @@ protected:
         }
     }
 
-    /// The header of the next snapshot, for which it asks.
+    /// Requests the next snapshot and returns its header.
     Json look(RawClient& client) {
         say(client, R"({"do": "next_snapshot"})");
         return header(client);
     }
 
-    /// That of the next binary frame.
+    /// The header of the next binary frame.
     Json header(RawClient& client) {
         RawClient::Frame frame;
         do {
@@ -105,10 +105,10 @@ TEST_F(PageServerTest, PagesSeeAndSteerOneSession) {
     EXPECT_EQ(hear(first, "answer")["id"], 3);
     while (seen["is_going_on"] == true) seen = look(first);
 
-    // A number makes a new script message for everybody.
+    // A changed number sends the new script to all pages.
     say(first, R"({"id": 4, "do": "set", "name": "ka", "expression": "0.01"})");
     EXPECT_EQ(hear(first, "answer")["is_done"], true);
-    // The next snapshot may still be of the moment before.
+    // The next snapshot may have been made before the change.
     const Json script = seen["script"];
     while (seen["script"] == script) seen = look(first);
     EXPECT_EQ(hear(second, "script")["name"], "spots.cascade");
@@ -145,7 +145,7 @@ TEST_F(PageServerTest, AnswersWhatIsWrong) {
         EXPECT_EQ(heard["is_done"], false) << text;
         return heard["messages"].empty() ? "" : heard["messages"][0]["message"].get<std::string>();
     };
-    EXPECT_EQ(answer("what?"), "the message is no JSON object");
+    EXPECT_EQ(answer("what?"), "the message is not a JSON object");
     EXPECT_THAT(answer(R"({"id": 1, "do": "set", "name": "kk", "expression": "1"})"),
                 HasSubstr("kk"));
     EXPECT_NE(answer(R"({"id": 2, "do": "paint", "item": "a", "expression": "1 +"})"), "");

@@ -1,5 +1,5 @@
-// A client of the local server that sends whatever bytes a test wants, and the few frames of
-// WebSockets (RFC 6455) that tests need.
+// A client of the local server that sends any bytes, and the WebSocket frames (RFC 6455) that tests
+// need.
 #pragma once
 
 #include <arpa/inet.h>
@@ -44,7 +44,8 @@ public:
             size = sizeof six;
         }
         socket_ = ::socket(place.ss_family, SOCK_STREAM | SOCK_CLOEXEC, 0);
-        // A small buffer, so that a server meets a slow reader soon; and no test waits for ever.
+        // The buffer is small, so that the server soon has to wait for its reader. Waiting is
+        // limited, so that no test hangs.
         const int buffer = 4096;
         ::setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &buffer, sizeof buffer);
         const timeval limit = {20, 0};
@@ -67,7 +68,7 @@ public:
         return true;
     }
 
-    /// What comes until the other side closes.
+    /// Returns all bytes until the other side closes.
     std::string read_all() {
         std::string all;
         while (read_some(all)) {
@@ -75,7 +76,7 @@ public:
         return all;
     }
 
-    /// Exactly this number of bytes; fewer if the other side closes first.
+    /// Returns `count` bytes, or fewer if the other side closes first.
     std::string read(std::size_t count) {
         while (rest_.size() < count && read_some(rest_)) {
         }
@@ -84,7 +85,7 @@ public:
         return wanted;
     }
 
-    /// What comes up to and including `end`.
+    /// Returns the bytes up to and including `end`.
     std::string read_until(std::string_view end) {
         while (rest_.find(end) == std::string::npos) {
             if (!read_some(rest_)) return read(rest_.size());
@@ -92,7 +93,7 @@ public:
         return read(rest_.find(end) + end.size());
     }
 
-    /// A masked frame, as clients send them. The mask is 0, which changes nothing.
+    /// Sends a masked frame, as clients must. The mask is 0, so the payload does not change.
     bool send_frame(int opcode, std::string_view payload) {
         std::string frame(1, static_cast<char>(0x80 | opcode));
         const std::size_t size = payload.size();

@@ -1,5 +1,5 @@
-// Modules as bytes: numbers of the binary format, a module's frame, and refused kernels. What
-// modules compute is compared by tests/wasm_agreement_test.sh.
+// WebAssembly modules as bytes: encoded numbers, the frame of a module, and kernels that are
+// refused. The results of modules are compared in tests/wasm_agreement_test.sh.
 #include "wasm/kernel_module.h"
 
 #include "ir/builder.h"
@@ -25,7 +25,7 @@ Bytes signed_bytes(std::int64_t number) {
     return bytes;
 }
 
-// The examples of the DWARF standard, 7.6, which defines LEB128.
+// The examples in section 7.6 of the DWARF standard, which defines LEB128.
 TEST(WasmBytes, NumbersTakeSevenBitsAByte) {
     EXPECT_THAT(unsigned_bytes(2), ElementsAre(2));
     EXPECT_THAT(unsigned_bytes(127), ElementsAre(127));

@@ -1,0 +1,25 @@
+// What can follow an option or stand for an argument, for shell completions.
+#pragma once
+
+#include "app/manual.h"
+
+#include <string>
+#include <vector>
+
+namespace cascade {
+
+/// The possible values of an option or argument. Values that are neither files nor words, such as
+/// numbers and formulas, cannot be completed.
+struct Completed {
+    enum class Kind { nothing, words, files, folders };
+    Kind kind = Kind::nothing;
+    std::vector<std::string> words;
+    std::vector<std::string> endings;  ///< Of files, ".cascade". Empty if any file is possible.
+};
+
+/// The values of an option, known from the name of its value: "FILE.csv", "sun|studio".
+Completed values_of(const ManualOption& option);
+/// The values of a command's arguments.
+Completed arguments_of(const ManualCommand& command);
+
+}  // namespace cascade

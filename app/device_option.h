@@ -1,0 +1,23 @@
+// `cascade run --device`: steps on graphics processors and other devices (docs/devices.md).
+#pragma once
+
+#include "app/console.h"
+#include "core/result.h"
+#include "core/run_control.h"
+#include "run/commands/run.h"
+#include "run/script/script.h"
+
+#include <string>
+
+namespace cascade {
+
+/// Prints the devices that --device can name. Returns the exit status.
+int print_devices(Console& console);
+
+/// Lets a device take the steps of a run. `choice` is "gpu", "cpu" or a number. A device whose
+/// results may have other bits is used only with --fast, and said. Stages that the device cannot
+/// run are noted once each kind. Fails if there is no such device. `control` must outlive the run.
+Result<void> use_device(const std::string& choice, const Script& script, RunRequest& request,
+                        RunControl& control);
+
+}  // namespace cascade

@@ -1,0 +1,30 @@
+// Commands on several ranks: processes that mpiexec starts, and that share the work.
+#pragma once
+
+#include "app/console.h"
+#include "app/options.h"
+
+namespace cascade {
+
+class Ranks;
+
+/// A command that runs on ranks, or in this process alone if `ranks` is null.
+using CommandOnRanks = int(const Options& options, Console& console, Ranks* ranks);
+
+/// Runs a command as one of the ranks that a launcher has started. Only rank 0 writes files and
+/// messages. If a rank fails, all ranks end: rank 0 reports its failure, and any other rank waits a
+/// moment for that before it reports its own.
+int run_as_rank(const Options& options, Console& console, CommandOnRanks& command);
+
+/// Makes this process take its share of the steps. On all ranks but rank 0, the request then writes
+/// no files. Fails if the ranks cannot share the steps of this script. All arguments must outlive
+/// the run.
+Result<void> share_steps(const Script& script, Ranks& ranks, RunRequest& request,
+                         RunControl& control);
+
+/// Starts the ranks of `--ranks N` by mpiexec, which runs this program again with the same
+/// arguments, and waits for them. Passes Ctrl-C on to rank 0. Prints one message if a rank fails or
+/// is killed.
+int start_ranks(const Options& options, Console& console);
+
+}  // namespace cascade

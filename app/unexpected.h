@@ -1,0 +1,12 @@
+// Reports exceptions that end a command.
+#pragma once
+
+#include "app/console.h"
+
+namespace cascade {
+
+/// Must be called while an exception is handled. Prints what has happened, and returns the exit
+/// status.
+int tell_of_exception(const Console& console);
+
+}  // namespace cascade

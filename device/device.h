@@ -1,0 +1,39 @@
+// A device that was opened, with what its probes found and the programs compiled for it.
+#pragma once
+
+#include "device/devices.h"
+#include "device/opencl_device.h"
+#include "device/prelude.h"
+#include "device/probe.h"
+#include "solvers/executor_failure.h"
+
+#include <map>
+#include <string>
+#include <utility>
+
+namespace cascade {
+
+/// An opened device. Remembers what its probes found. Throws OpenclError and ProgramRefused.
+class Device {
+public:
+    Device(const OpenclApi& api, FoundDevice found) : open_(api, std::move(found)) {}
+
+    OpenDevice& open() { return open_; }
+    const DeviceFacts& facts() const { return open_.facts(); }
+    /// How programs of a precision are printed for this device, and whether results have
+    /// Cascade's bits. The first call runs a small program.
+    const ProbeResult& probe(Precision precision);
+    /// A compiled program. Equal programs are compiled once.
+    const DeviceProgram& program(const std::string& source, const TextTarget& target);
+
+private:
+    OpenDevice open_;
+    std::map<Precision, ProbeResult> probes_;
+    std::map<std::string, DeviceProgram> programs_;
+};
+
+/// The messages for a device that fails, and for a driver that cannot compile a program.
+ExecutorFailure failure_of(const DeviceFacts& facts, const OpenclError& error);
+ExecutorFailure failure_of(const DeviceFacts& facts, const ProgramRefused& refusal);
+
+}  // namespace cascade

@@ -1,0 +1,14 @@
+// Takes steps on a device.
+#pragma once
+
+#include "device/opencl_device.h"
+#include "solvers/step_problem.h"
+
+#include <string>
+
+namespace cascade {
+
+/// Why a device cannot run the steps of a problem, as the end of "…, because …". Empty if it can.
+std::string reason_against(const StepProblem& problem, const DeviceFacts& facts);
+
+}  // namespace cascade

@@ -1,0 +1,31 @@
+// Prints cell kernels as OpenCL C.
+#pragma once
+
+#include "core/grid.h"
+#include "device/prelude.h"
+#include "ir/cell_kernel.h"
+
+#include <string>
+#include <vector>
+
+namespace cascade {
+
+/// Where a printed kernel finds its planes and uniforms, as C expressions. Planes are pointers to
+/// cell (0, 0, 0), uniforms are words.
+struct KernelNames {
+    std::vector<std::string> fields, masks, uniforms, results;
+};
+
+/// The statements that compute one cell, c_at, in column c_i, row c_j and slice c_k, and store its
+/// results. On linked cells, they also use c_slice, c_lane and the parameters of link_parameters().
+/// The kernel has a parameter c_pad, which is 0.
+std::string cell_text(const CellKernel& kernel, const KernelNames& names, const TextTarget& target,
+                      Stencil stencil, const PlaneLayout& layout);
+
+/// The loops over `rows` rows from c_first_row on around the text of a cell: the beginning of a
+/// kernel whose work-items are columns, and bands of `rows_of_item` rows.
+std::string cells_begin(const TextTarget& target, Stencil stencil, const PlaneLayout& layout,
+                        std::int64_t rows_of_item);
+inline constexpr std::string_view cells_end = "    }\n";
+
+}  // namespace cascade

@@ -1,0 +1,84 @@
+// The table of texts. An operation without a text does not compile.
+#include "device/operation_texts.h"
+
+#include <array>
+#include <cstddef>
+
+namespace cascade {
+namespace {
+
+namespace texts {
+
+// Sources.
+constexpr std::string_view constant = "$w";
+constexpr std::string_view uniform = "$w";
+constexpr std::string_view field = "$f[c_at]";
+constexpr std::string_view neighbour = "$f[c_at + ($d)]";
+constexpr std::string_view laplacian = "c_laplacian($f, c_at C_LINKS)";
+constexpr std::string_view link_flow = "c_link_flow($f, $s, c_at C_LINKS)";
+constexpr std::string_view link_squares = "c_link_squares($f, c_at C_LINKS)";
+constexpr std::string_view gradient_x = "c_gradient($f, c_at, c_links_x C_LINKS)";
+constexpr std::string_view gradient_y = "c_gradient($f, c_at, c_links_y C_LINKS)";
+constexpr std::string_view gradient_z = "c_gradient($f, c_at, c_links_z C_LINKS)";
+constexpr std::string_view theirs = "$f[c_there]";
+constexpr std::string_view mask = "$m[c_at] ? C_ONE : 0";
+constexpr std::string_view cell_column = "(cw)c_i";
+constexpr std::string_view cell_row = "(cw)c_j";
+constexpr std::string_view cell_slice = "(cw)c_k";
+
+// Reductions over links: the next value a of the reduction b. a is flushed.
+constexpr std::string_view link_sum = "c_flush_sum(c_word(c_number(b) + c_number(a)))";
+constexpr std::string_view link_least = "c_is_nan(b) || c_number(b) < c_number(a) ? b : a";
+constexpr std::string_view link_greatest = "c_is_nan(b) || c_number(b) > c_number(a) ? b : a";
+
+// Arithmetic. Operands are flushed.
+constexpr std::string_view add = "c_flush_sum(c_word(c_number(a) + c_number(b)))";
+constexpr std::string_view subtract = "c_flush_sum(c_word(c_number(a) - c_number(b)))";
+constexpr std::string_view multiply =
+    "c_flush_product(c_number(a) * c_number(b),"
+    " (c_number(a) * C_HALF_LARGER) * (c_number(b) * C_HALF_LARGER))";
+constexpr std::string_view divide =
+    "c_flush_product(c_number(a) / c_number(b), (c_number(a) * C_LARGER) / c_number(b))";
+constexpr std::string_view negate = "a ^ C_SIGN";
+constexpr std::string_view absolute = "a & ~C_SIGN";
+constexpr std::string_view square_root = "c_word(sqrt(c_number(a)))";
+constexpr std::string_view round_to_even = "c_word(rint(c_number(a)))";
+constexpr std::string_view scale_by_power = "c_scale(a, b)";
+constexpr std::string_view multiply_add =
+    "c_flush_product(fma(c_number(a), c_number(b), c_number(c)), fma(c_number(a) * C_HALF_LARGER,"
+    " c_number(b) * C_HALF_LARGER, c_number(c) * C_LARGER))";
+
+// Comparisons and logic. Operands of comparisons are flushed.
+constexpr std::string_view less = "c_number(a) < c_number(b) ? C_ONE : 0";
+constexpr std::string_view less_equal = "c_number(a) <= c_number(b) ? C_ONE : 0";
+constexpr std::string_view equal = "c_number(a) == c_number(b) ? C_ONE : 0";
+constexpr std::string_view not_equal = "c_number(a) != c_number(b) ? C_ONE : 0";
+constexpr std::string_view logical_and = "c_true(a) & c_true(b) ? C_ONE : 0";
+constexpr std::string_view logical_or = "c_true(a) | c_true(b) ? C_ONE : 0";
+constexpr std::string_view logical_not = "c_true(a) ? 0 : C_ONE";
+constexpr std::string_view select = "c_true(a) ? b : c";
+
+// Words.
+constexpr std::string_view bits_add = "a + b";
+constexpr std::string_view bits_subtract = "a - b";
+constexpr std::string_view bits_multiply = "a * b";
+constexpr std::string_view bits_and = "a & b";
+constexpr std::string_view bits_or = "a | b";
+constexpr std::string_view bits_xor = "a ^ b";
+constexpr std::string_view bits_shift_left = "a << (b & (8 * sizeof(cw) - 1))";
+constexpr std::string_view bits_shift_right = "a >> (b & (8 * sizeof(cw) - 1))";
+constexpr std::string_view bits_to_number = "c_word((cn)(ci)a)";
+
+}  // namespace texts
+
+constexpr std::array<std::string_view, op_count> table{
+#define CASCADE_OPERATION(name, arity, payload, meaning) texts::name,
+#include "ir/operations.def"
+#undef CASCADE_OPERATION
+};
+
+}  // namespace
+
+std::string_view opencl_text(Op op) { return table[static_cast<std::size_t>(op)]; }
+
+}  // namespace cascade

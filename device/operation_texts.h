@@ -1,0 +1,25 @@
+// The meaning of every operation of ir/operations.def in OpenCL C.
+//
+// Internal to device/. Values are words: `cw` is the integer and `cn` the number of the kernel's
+// precision. All names begin with c_, because OpenCL has built-in functions such as step() and
+// mix(), and a kernel with such a name silently does not exist.
+//
+// The text of an operation on operands is the body of a function of the words a, b and c
+// (prelude.h). The text of a source is an expression in a kernel. It may contain:
+//   $f  the field that it reads, a pointer to cell (0, 0, 0)
+//   $s  the field `factor` of a flow
+//   $d  the distance to a neighbour, in elements
+//   $m  the mask, a pointer to cell (0, 0, 0)
+//   $w  the word of the payload, or the uniform
+// and the names of prelude.h: c_at, c_there, c_i, c_j, c_k, C_LINKS.
+#pragma once
+
+#include "ir/cell_kernel.h"
+
+#include <string_view>
+
+namespace cascade {
+
+std::string_view opencl_text(Op op);
+
+}  // namespace cascade

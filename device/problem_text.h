@@ -1,0 +1,40 @@
+// Prints the passes of a step as one OpenCL program.
+#pragma once
+
+#include "device/prelude.h"
+#include "solvers/step_problem.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace cascade {
+
+/// The planes of a problem that no pass writes, in the order in which they lie in a device's
+/// memory.
+struct ConstantPlanes {
+    std::vector<const Field*> fields;
+    std::vector<const Mask*> masks;
+
+    explicit ConstantPlanes(const StepProblem& problem);
+};
+
+/// A uniform that is passed at each call: every changing uniform but an aggregate.
+std::vector<StepProblem::ChangingUniform> passed_uniforms(const StepProblem::Pass& pass);
+
+/// The name of a pass's kernel. Its parameters are, in this order:
+///   - a buffer for each register, with one plane for each species
+///   - temporaries, constant fields, masks, the uniforms of all passes, aggregates
+///   - the links, if cells are linked (link_parameters())
+///   - c_pad = 0, the first row, the row after the last one
+///   - a word for each of passed_uniforms()
+std::string kernel_name(std::size_t pass);
+
+/// The whole program. A work-item computes `rows_of_item` rows of a column.
+std::string problem_text(const StepProblem& problem, const TextTarget& target,
+                         std::int64_t rows_of_item);
+
+/// The number of uniforms of all passes before this one.
+std::size_t first_uniform(const StepProblem& problem, std::size_t pass);
+
+}  // namespace cascade

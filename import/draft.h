@@ -1,0 +1,58 @@
+// A script that an importer makes, in parts, and its text.
+#pragma once
+
+#include "import/formula.h"
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace cascade::importing {
+
+/// A file that is written beside the script.
+struct FileBeside {
+    std::string name;
+    std::string bytes;
+};
+
+/// The parts of a script with one system and one stage. Statements have no line ends.
+struct Draft {
+    std::vector<std::string> about;  ///< The comment at the top: source and description.
+    std::vector<std::string> functions;
+    std::vector<std::string> parameters, starts, definitions, rates, sides;
+    std::vector<std::string> domain;
+    std::vector<std::string> stage;  ///< Its statements except `speed`.
+    double speed = 1;
+    /// Whether a shorter step means the same: false if a formula computes values of the next step.
+    bool may_shorten = true;
+    /// Whether the file has no pattern at the start and its program waits for a click.
+    bool waits_for_click = false;
+    /// What differs from the source. Written as comments, and shown to the user.
+    std::vector<std::string> remarks;
+    std::vector<FileBeside> files;
+};
+
+/// The text of the script in the standard form.
+std::string write_script(const Draft& draft);
+
+/// Whether a statement reads or declares the name.
+bool has_word(std::string_view statement, std::string_view name);
+
+/// A line of text without control characters and repeated blanks, for comments.
+std::string plain_line(std::string_view text);
+
+/// Chooses names that a script may declare. A name that the language uses gets an underscore.
+class FreeNames {
+public:
+    /// The name under which the script declares `foreign`. Different names stay different.
+    std::string declare(std::string_view foreign);
+    /// A name like `wanted` that nothing else has.
+    std::string fresh(std::string_view wanted);
+
+private:
+    std::set<std::string> used_;
+};
+
+}  // namespace cascade::importing

@@ -1,0 +1,93 @@
+// Formulas of other programs as trees, and trees as text of the language.
+//
+// Every program writes formulas in its own dialect. A reader parses a formula, replaces the names
+// and functions by Cascade's, and writes the tree with as few brackets as possible.
+#pragma once
+
+#include "core/diagnostics.h"
+#include "core/source.h"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cascade::importing {
+
+/// A part of a formula.
+struct Expression {
+    enum class Kind : std::uint8_t {
+        number,  ///< `text` is the number as written in Cascade.
+        name,    ///< `text` is the name.
+        call,    ///< `text` is the name of the function, `of` are its arguments.
+        unary,   ///< `text` is "-" or "not".
+        binary,  ///< `text` is an operator of Cascade, such as "+", "^" or "and".
+    };
+    Kind kind = Kind::number;
+    std::string text = "0";
+    std::vector<Expression> of = {};
+    Span span = {};         ///< The place in the source.
+    bool is_whole = false;  ///< Whether C computes it with whole numbers, as `1/2` is 0 there.
+    std::uint32_t depth = 1;
+
+    bool is_number(std::string_view value) const { return kind == Kind::number && text == value; }
+    bool is_name(std::string_view value) const { return kind == Kind::name && text == value; }
+};
+
+/// The deepest tree. Deeper formulas are refused, because trees are traversed recursively.
+inline constexpr std::uint32_t deepest_formula = 1000;
+
+/// How a program writes formulas.
+struct Dialect {
+    bool is_c = false;              ///< Suffixes of numbers, casts, and divisions of whole numbers.
+    bool caret_is_power = false;    ///< `^` and `**` are powers.
+    bool implies_products = false;  ///< `2u` and `k(1 - u)` are products.
+    bool ignores_case = false;      ///< Names are read as small letters.
+};
+
+Expression number(double value);
+Expression name(std::string text);
+Expression call(std::string function, std::vector<Expression> arguments);
+Expression negated(Expression operand);
+/// Simplifies sums with 0, and products and quotients with 1.
+Expression operation(Expression left, std::string_view sign, Expression right);
+
+/// A number as Cascade writes it, with up to nine digits.
+std::string number_text(double value);
+
+/// Reads the formula at `span` of a source. Reports an error and returns nothing if it is not a
+/// formula. In XML texts `&lt;`, `&gt;` and `&amp;` are read as the signs that they mean.
+std::optional<Expression> read_formula(Span span, const Sources& sources, Diagnostics& diagnostics,
+                                       const Dialect& dialect);
+
+/// The tree as text. Brackets surround it if it binds less than `least`, a precedence of the
+/// language's operators from 1 (`or`) to 9 (operands).
+std::string write_formula(const Expression& formula, int least = 0);
+
+/// Replaces each name and each call by what `replace` returns for it. The arguments of a call are
+/// replaced before the call. Where `replace` returns nothing, nothing changes.
+using Replace = std::function<std::optional<Expression>(const Expression&)>;
+Expression replaced(const Expression& formula, const Replace& replace);
+
+/// A function of another program. In `meaning`, a formula of Cascade, A, B, C and D are the
+/// arguments.
+struct ForeignFunction {
+    std::string_view name;
+    std::size_t arguments;
+    std::string_view meaning;
+};
+/// The meaning of a call by a table. Nothing if the table has no such function.
+std::optional<Expression> meaning_of(const Expression& function,
+                                     std::span<const ForeignFunction> table);
+
+/// The value of a formula of numbers and functions of numbers. Nothing if it contains a name or
+/// another function.
+std::optional<double> value_of(const Expression& formula);
+
+/// Whether `formula` contains the name.
+bool mentions(const Expression& formula, std::string_view name);
+
+}  // namespace cascade::importing

@@ -1,0 +1,42 @@
+// The table of formats that can be imported.
+#include "import/importer.h"
+
+#include <algorithm>
+#include <array>
+
+namespace cascade::importing {
+
+namespace {
+
+/// Also .vtu, so that the reader can refuse meshes by name.
+bool is_ready(std::string_view file, std::string_view bytes) {
+    return file.ends_with(".vti") || file.ends_with(".vtu") ||
+           bytes.substr(0, 4096).find("<VTKFile") != std::string_view::npos;
+}
+
+bool is_visual_pde(std::string_view file, std::string_view) {
+    return file.starts_with("http") || file.ends_with(".json");
+}
+
+bool is_xpp(std::string_view file, std::string_view) { return file.ends_with(".ode"); }
+
+}  // namespace
+
+std::span<const ImportFormat> import_formats() {
+    static constexpr std::array<ImportFormat, 3> all = {{
+        {"pattern of Ready", ".vti", false, is_ready, read_ready},
+        {"simulation of VisualPDE", "a link, or .json", false, is_visual_pde, read_visual_pde},
+        {"model of XPPAUT", ".ode", true, is_xpp, read_xpp},
+    }};
+    return all;
+}
+
+const ImportFormat* format_of(std::string_view file, std::string_view bytes) {
+    const auto all = import_formats();
+    const auto found = std::find_if(all.begin(), all.end(), [&](const ImportFormat& each) {
+        return each.recognises(file, bytes);
+    });
+    return found == all.end() ? nullptr : &*found;
+}
+
+}  // namespace cascade::importing

@@ -1,0 +1,53 @@
+// Reads models of other programs, and makes scripts of them.
+#pragma once
+
+#include "core/diagnostics.h"
+#include "core/source.h"
+#include "import/draft.h"
+
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace cascade::importing {
+
+/// The largest file that is imported, in bytes.
+inline constexpr std::uint64_t largest_import = std::uint64_t{1} << 28;
+/// The most cells of an imported domain.
+inline constexpr std::int64_t most_imported_cells = std::int64_t{1} << 26;
+
+/// A file or link to import, and where messages about it go.
+struct Import {
+    Sources& sources;
+    Diagnostics& diagnostics;
+    SourceId source = 0;    ///< The bytes of the file.
+    std::string name = {};  ///< Of the file, as messages and the comment of the script give it.
+    std::string stem = {};  ///< The beginning of the names of files beside the script.
+    /// Diffusion coefficients that the user gives, by the names of species. For formats that have
+    /// none.
+    std::map<std::string, std::string> diffusion = {};
+
+    std::string_view bytes() const { return sources[source].text(); }
+};
+
+/// A format of other programs.
+struct ImportFormat {
+    std::string_view name;     ///< Such as "pattern of Ready".
+    std::string_view endings;  ///< Such as ".vti", as shown in messages.
+    bool takes_diffusion;      ///< Whether `--diffusion` has a meaning.
+    bool (*recognises)(std::string_view file, std::string_view bytes);
+    /// Reports errors at their place and returns nothing if the file cannot be imported unchanged.
+    std::optional<Draft> (*read)(Import& import);
+};
+std::span<const ImportFormat> import_formats();
+
+/// The format of a file or link. Null if no format recognises it.
+const ImportFormat* format_of(std::string_view file, std::string_view bytes);
+
+std::optional<Draft> read_ready(Import& import);
+std::optional<Draft> read_visual_pde(Import& import);  // A link or a preset as JSON.
+std::optional<Draft> read_xpp(Import& import);
+
+}  // namespace cascade::importing

@@ -1,0 +1,47 @@
+// Patterns of Ready (github.com/GollyGang/ready): the parts of a file that its readers share.
+#pragma once
+
+#include "import/importer.h"
+#include "import/vtk_arrays.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace cascade::importing {
+
+/// What the reader of a pattern knows of it.
+struct ReadyPattern {
+    Import& import;
+    FreeNames names = {};
+    /// The cells along x, y and z. In Ready y points upwards; Cascade's rows are in the opposite
+    /// order, so that pictures look the same.
+    std::array<std::int64_t, 3> cells = {1, 1, 1};
+    bool is_periodic = true;
+    std::vector<std::string> species = {};  ///< Their names in the script, in Ready's order.
+    std::map<std::string, std::string> parameters = {};  ///< Names in the script by names of Ready.
+    std::map<std::string, double> values = {};  ///< Values of parameters by names of Ready.
+
+    int axes() const {
+        return static_cast<int>(cells[0] > 1) + static_cast<int>(cells[1] > 1) +
+               static_cast<int>(cells[2] > 1);
+    }
+    std::int64_t longest() const { return std::max({cells[0], cells[1], cells[2]}); }
+    bool has_spacing() const { return values.contains("dx"); }
+};
+
+/// Ready's name of the chemical `index`: a … z, aa … az, ba …
+std::string ready_chemical(std::size_t index);
+/// The number of a chemical. Nothing if there is none of this name.
+std::optional<std::size_t> ready_chemical_number(std::string_view name, std::size_t count);
+
+/// Adds the definitions and rates of the formula. Returns false after an error.
+bool add_ready_formula(ReadyPattern& pattern, const pugi::xml_node& formula, Draft& draft);
+
+/// Adds the starting values that the overlays of the file make. `stored` are the starting values of
+/// species that no overlay overwrites. Returns false after an error.
+bool add_ready_start(ReadyPattern& pattern, const pugi::xml_node& generator,
+                     const std::vector<std::string>& stored, Draft& draft);
+
+}  // namespace cascade::importing

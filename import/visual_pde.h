@@ -1,0 +1,106 @@
+// Simulations of VisualPDE (visualpde.com): the parts of a reader that its files share.
+#pragma once
+
+#include "import/importer.h"
+
+#include <nlohmann/json.hpp>
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cascade::importing {
+
+/// The options of a simulation, as texts. An option that is not given has VisualPDE's default.
+class VisualPdeOptions {
+public:
+    /// Reads a link, or a preset as JSON.
+    static std::optional<VisualPdeOptions> read(Import& import);
+
+    std::string text(const std::string& key) const;
+    /// An option of one of the four species, such as "reactionStr_1".
+    std::string text(std::string_view key, std::size_t species) const;
+    bool is_true(const std::string& key) const { return text(key) == "true"; }
+    /// The text of an option as a source, for messages about it.
+    Span source(Import& import, const std::string& key) const;
+
+private:
+    std::map<std::string, std::string> values_;
+};
+
+/// The names of a simulation, and the meaning of its formulas.
+class VisualPdeNames {
+public:
+    VisualPdeNames(Import& import, const VisualPdeOptions& options, Draft& draft)
+        : import_(import), options_(options), draft_(draft) {}
+
+    /// Declares species and parameters, and measures the domain. Returns false after an error.
+    bool declare();
+
+    enum class Where : std::uint8_t { rate, start, mask, side, picture };
+    /// The formula of an option in Cascade. Reports an error if it has none. An empty text is 0.
+    std::optional<Expression> formula(Span span, Where where);
+    std::optional<Expression> option(const std::string& key, Where where);
+    /// The value of an option that is one number.
+    std::optional<double> constant(const std::string& key);
+
+    /// Whether a formula in Cascade is the same number in all cells.
+    bool is_uniform(const Expression& formula) const;
+    const std::vector<std::string>& species() const { return species_; }
+    std::size_t algebraic() const { return algebraic_; }
+    bool is_line() const { return is_line_; }
+    bool is_differentiated(const std::string& species) const {
+        return differentiated_.contains(species);
+    }
+    void differentiate(const std::string& species) { differentiated_.insert(species); }
+    /// Adds the parameters that formulas have read so far.
+    void add_parameters();
+    void fail(Span span, std::string why, std::string hint = "");
+    bool has_failed() const { return has_failed_; }
+
+    double width = 0, height = 0, spacing = 0;
+    std::int64_t columns = 1, rows = 1;
+
+private:
+    struct Parameter {
+        std::string foreign, own, range;
+        Span value;
+        bool is_read = false;
+    };
+
+    bool declare_parameters();
+    bool measure();
+    std::optional<Expression> meaning(const Expression& part, Where where);
+    std::optional<Expression> named(const Expression& part, Where where);
+    std::optional<Expression> derivative(const std::string& word);
+    std::optional<Expression> at_other_cell(const Expression& part);
+    std::optional<Expression> picture(const Expression& part, Where where);
+    Expression shifted(Expression value, char axis, int cells);
+    Expression with_safe_powers(const Expression& formula);
+    Expression place(char axis);
+    void add_function(const std::string& text);
+
+    Import& import_;
+    const VisualPdeOptions& options_;
+    Draft& draft_;
+    FreeNames names_;
+    std::vector<std::string> species_;
+    std::map<std::string, std::string> own_species_;  ///< Names in the script by VisualPDE's.
+    std::vector<Parameter> parameters_;
+    std::map<std::string, double> values_;  ///< Of parameters that are numbers.
+    std::set<std::string> differentiated_;
+    std::map<std::string, std::string> pictures_;
+    std::size_t algebraic_ = 0;
+    bool is_line_ = false;
+    bool has_failed_ = false;
+    int depth_ = 0;
+};
+
+/// Adds the boundary conditions of all species, and `boundary` and `mask` of the domain.
+bool add_visual_pde_sides(VisualPdeNames& names, Import& import, const VisualPdeOptions& options,
+                          Draft& draft);
+
+}  // namespace cascade::importing

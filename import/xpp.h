@@ -1,0 +1,36 @@
+// Models of XPPAUT (.ode files): the statements of a file.
+#pragma once
+
+#include "import/importer.h"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cascade::importing {
+
+/// `name = value` of a file, or one equation.
+struct XppPair {
+    std::string name;  ///< In small letters.
+    Span place;        ///< Of the name.
+    Span value;        ///< Of the formula.
+    long number = 0;   ///< The value of [j] in the line, if `is_member`.
+    bool is_member = false;
+};
+
+/// The statements of a file, after its arrays have been understood.
+struct XppFile {
+    std::vector<XppPair> parameters, starts, rates, definitions, functions;
+    std::map<std::string, std::string> options;  ///< `@ dt=.05, total=100`
+    /// The elements of the arrays of species, from the first to the last.
+    long first = 0, last = 0;
+    bool has_arrays = false;
+    std::vector<XppPair> ends;  ///< Equations of single elements beside an array, such as u0'.
+};
+
+/// Reads the statements. If a script cannot express one of them, reports an error and returns null.
+std::optional<XppFile> read_xpp_statements(Import& import);
+
+}  // namespace cascade::importing

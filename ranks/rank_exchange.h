@@ -1,0 +1,52 @@
+// Exchanges planes and sums between the ranks of a run, each of which has a part of the grid.
+#pragma once
+
+#include "ranks/messenger.h"
+#include "solvers/exchange.h"
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+namespace cascade {
+
+class RankExchange final : public Exchange {
+public:
+    /// Divides the grid among all ranks of the messenger, which must outlive the exchange. The grid
+    /// must have a row for each rank or, if there are several slices, a slice.
+    RankExchange(const Grid& grid, Messenger& messenger);
+
+    void fill_halos(std::span<const Shared> planes, std::int64_t width) override;
+    void share_rows(std::span<std::vector<double>* const> rows) override;
+    void gather(std::span<const Field* const> own, std::span<Field* const> whole) override;
+    void scatter(std::span<const Field* const> whole, std::span<Field* const> own) override;
+
+    /// Collects all parts of planes in whole planes of every rank. They get the halo of the grid,
+    /// too.
+    void gather_everywhere(std::span<const Field> own, std::span<Field> whole);
+
+    /// The bytes of halos that this rank has sent so far.
+    std::int64_t halo_bytes_sent() const { return halo_bytes_sent_; }
+
+private:
+    /// Layers that a part computes and another part, or the same one, needs in its halo.
+    struct Transfer {
+        int from = 0, to = 0;
+        RowRange rows;            ///< In the part that computes them.
+        std::int64_t target = 0;  ///< The first row in the halo.
+        bool is_across = false;   ///< Whether the halo lies beyond a side of the grid.
+    };
+
+    const std::vector<Transfer>& transfers(std::int64_t width);
+    void add_transfers(int to, RowRange needed, std::vector<Transfer>& all) const;
+    /// The rows that a part gives to a whole plane: its own and, at the ends of the grid, the halo.
+    RowRange given_rows(std::size_t part) const;
+
+    Messenger& messenger_;
+    std::int64_t layer_ = 1;                                   ///< The number of rows in a layer.
+    std::map<std::int64_t, std::vector<Transfer>> transfers_;  ///< By width of the halo.
+    std::int64_t halo_bytes_sent_ = 0;
+};
+
+}  // namespace cascade

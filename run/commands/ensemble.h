@@ -1,0 +1,44 @@
+// Ensembles: runs of a sweep that differ only in their seed.
+#pragma once
+
+#include "run/commands/statistics.h"
+#include "picture/drawing.h"
+#include "run/commands/sweep_result.h"
+#include "run/commands/variation.h"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cascade {
+
+/// The results of a sweep, in the order of its runs. Missing results are empty.
+using SweepResults = std::span<const std::optional<SweepResult>>;
+
+/// The numbers that a sweep measures in each run: the features and, if a result counts crawling
+/// cells, `cells`, `births` and `deaths`.
+std::vector<std::string> measured_names(SweepResults results);
+/// A number of a result by its name. NaN if the result is missing, or does not have the number.
+double measured_number(const std::optional<SweepResult>& result, std::string_view name);
+
+/// Whether the seed is varied and has several values.
+bool has_ensembles(std::span<const Variation> varied);
+
+/// A table with a row for each combination of the values other than the seed, and for each measured
+/// number except `angle`, whose mean would depend on where its circle begins. A row has the
+/// combination, the name of the number, and its statistics over the runs that have it.
+std::string ensemble_table(SweepResults results, std::span<const Variation> varied);
+
+/// Checks whether draw_curve() can draw a number over the first varied name other than `seed`,
+/// whose values must then be numbers. Fails for an unknown number, too.
+Result<void> check_curve(std::string_view number, std::span<const Variation> varied);
+
+/// Draws a measured number over the first varied name other than `seed`, with a curve for each
+/// combination of the further names. Several seeds give the mean with a bar for the 95 % confidence
+/// interval. The arguments must have passed check_curve().
+Drawing draw_curve(std::string_view number, SweepResults results,
+                   std::span<const Variation> varied);
+
+}  // namespace cascade

@@ -1,0 +1,123 @@
+// Plans a sweep: its values, its scripts, and whether the result can be drawn.
+#include "run/commands/sweep_plan.h"
+
+#include "run/commands/ensemble.h"
+#include "run/pictures/painter.h"
+#include "run/script/embedded_script.h"
+#include "run/stage/memory.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <system_error>
+#include <utility>
+
+namespace cascade {
+
+namespace {
+
+using Planned = tl::expected<void, SweepError>;
+
+/// Checks that the picture of a run can be drawn.
+Planned check_picture(Script script, const SweepRequest& request) {
+    if (script.program->stages.empty()) {
+        return tl::unexpected(
+            SweepError{{"this script has no stage to run", example_of_stage(*script.program)}});
+    }
+    auto painter = Painter::create(script, request.picture);
+    if (painter) return {};
+    SweepError error{painter.error()};
+    if (script.diagnostics.has_errors()) error.script = std::move(script);
+    return tl::unexpected(std::move(error));
+}
+
+Planned plan_run(const Script& base, const SweepRequest& request, std::size_t number,
+                 SweepPlan& plan) {
+    PlannedRun& run = plan.runs[number];
+    run.values = values_of_run(request.varied, number);
+    auto overrides = overrides_of_run(base.overrides, request.varied, run.values);
+    if (!overrides) return tl::unexpected(SweepError{overrides.error()});
+    run.overrides = std::move(*overrides);
+    Script script = load(base, run);
+    if (!script.program) {
+        const auto fault = request.sets ? fault_in(*request.sets, script, number) : std::nullopt;
+        if (fault) return tl::unexpected(SweepError{*fault, std::nullopt, true});
+        return tl::unexpected(
+            SweepError{{"a script of the sweep is wrong", ""}, std::move(script)});
+    }
+    run.key = key_of_run(script, request.picture, request.tile_side);
+    if (plan.own.empty()) {
+        plan.memory_of_a_run = memory_of(*script.program);
+        if (auto good = check_picture(std::move(script), request); !good) return good;
+    }
+    plan.own.push_back(number);
+    return {};
+}
+
+Result<void> check_curves(const SweepRequest& request) {
+    for (const std::string& number : request.curves) {
+        if (auto good = check_curve(number, request.varied); !good) return good;
+    }
+    return {};
+}
+
+/// Checks what a part, and a sweep that gathers results, leave out.
+Result<void> check_division(const SweepRequest& request, std::size_t runs) {
+    if (request.part.count > runs) {
+        return failure(fmt::format("{} parts are more than the {} runs of the sweep",
+                                   request.part.count, runs),
+                       fmt::format("at most --part 1/{}", runs));
+    }
+    if (!request.part.is_all() && !request.film.empty()) {
+        return failure("a part of a sweep writes no film",
+                       "the same command without --part writes it, when all parts are done");
+    }
+    if (!request.part.is_all() && !request.curves.empty()) {
+        return failure("a part of a sweep draws no curve",
+                       "the same command without --part draws it, when all parts are done");
+    }
+    if (request.fields && !request.gathered.empty()) {
+        return failure("--gather copies results, but no fields",
+                       "leave --fields out; the fields stay in their folders");
+    }
+    for (const auto& folder : request.gathered) {
+        std::error_code error;
+        if (std::filesystem::is_directory(folder / "runs", error)) continue;
+        return failure(fmt::format("'{}' holds no results of a sweep", folder.string()),
+                       "--gather takes a folder that 'cascade sweep' has written");
+    }
+    return {};
+}
+
+}  // namespace
+
+Script load(const Script& script, const PlannedRun& run) {
+    return load_script(script.name, script.text, script.folder, run.overrides);
+}
+
+tl::expected<SweepPlan, SweepError> plan_sweep(const Script& script, const SweepRequest& request) {
+    const auto count = count_runs(request.varied);
+    if (!count) return tl::unexpected(SweepError{count.error()});
+    // The sheet is a single picture in memory.
+    constexpr double most_pixels = 1 << 27;
+    const double pixels = static_cast<double>(*count) * request.tile_side * request.tile_side;
+    if (pixels > most_pixels) {
+        return tl::unexpected(
+            SweepError{{fmt::format("a sheet of {} tiles of {} × {} pixels is too large", *count,
+                                    request.tile_side, request.tile_side),
+                        "make the tiles smaller with --tile"}});
+    }
+    auto good = check_division(request, *count).and_then([&] { return check_curves(request); });
+    if (!good) return tl::unexpected(SweepError{good.error()});
+    SweepPlan plan;
+    plan.runs.resize(*count);
+    for (std::size_t number = 0; number < *count; ++number) {
+        if (!request.part.has(number)) continue;
+        if (auto planned = plan_run(script, request, number, plan); !planned) {
+            return tl::unexpected(std::move(planned.error()));
+        }
+    }
+    return plan;
+}
+
+}  // namespace cascade

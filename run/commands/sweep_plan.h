@@ -1,0 +1,30 @@
+// The runs of a sweep, checked before the first step.
+#pragma once
+
+#include "run/commands/sweep.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace cascade {
+
+struct PlannedRun {
+    Overrides overrides;
+    std::vector<std::string> values;  ///< One for each varied name.
+    std::string key;                  ///< As key_of_run() computes it.
+};
+
+struct SweepPlan {
+    std::vector<PlannedRun> runs;  ///< All runs. Only runs of the part are filled in.
+    std::vector<std::size_t> own;  ///< The numbers of the runs of the part, in order.
+    double memory_of_a_run = 0;    ///< In bytes. Every run checks its memory again.
+};
+
+/// Loads and checks the script with the values of every run of the part.
+tl::expected<SweepPlan, SweepError> plan_sweep(const Script& script, const SweepRequest& request);
+
+/// The script with the values of a run.
+Script load(const Script& script, const PlannedRun& run);
+
+}  // namespace cascade

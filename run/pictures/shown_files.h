@@ -1,0 +1,34 @@
+// Writes what a picture shows to the files of option `-o` that other programs read as models: a
+// model, crawling cells, a body or a plane.
+#pragma once
+
+#include "core/result.h"
+#include "picture/image.h"
+#include "run/pictures/model_files.h"
+#include "run/pictures/painter.h"
+#include "run/pictures/written_files.h"
+#include "run/simulation/simulation.h"
+
+#include <filesystem>
+#include <functional>
+
+namespace cascade {
+
+struct ShownThings {
+    const Simulation& simulation;
+    Painter& painter;
+    const Canvas& canvas;        ///< The painter's last canvas of the simulation.
+    const MeshTexture& texture;  ///< Replaces the model's texture coordinates unless it is empty.
+    const ModelFileOptions& options;
+    PngTexts texts;  ///< Are written into maps.
+    /// Whether models and bodies also get the number of the canvas, as `shown`.
+    bool has_number = false;
+};
+
+using FileWriter = std::function<Result<WrittenFiles>(const std::filesystem::path&)>;
+
+/// A function that writes one file. It computes what several files share only once. The references
+/// of `shown` must outlive it.
+FileWriter writer_of(ShownThings shown);
+
+}  // namespace cascade

@@ -1,0 +1,36 @@
+// Rows of a list of diagnoses: when each applies, what is measured, and how it is described.
+#pragma once
+
+#include <span>
+#include <string>
+
+namespace cascade {
+
+/// A way in which a result may differ from what it seems.
+template <typename Subject>
+struct Diagnosis {
+    bool (*applies)(const Subject& subject);
+    std::string (*find)(const Subject& subject);  ///< One sentence, or "".
+};
+
+/// A row of a list. `measure` returns a finding or nothing, and `words` describes the finding, or
+/// returns "" if it turns out to be harmless.
+template <typename Subject, bool (*applies)(const Subject&), auto measure, auto words>
+constexpr Diagnosis<Subject> diagnosis() {
+    return {applies, [](const Subject& subject) {
+                const auto found = measure(subject);
+                return found ? words(subject, *found) : std::string();
+            }};
+}
+
+/// The description of the first diagnosis that is made. "" if there is none.
+template <typename Subject>
+std::string first_of(std::span<const Diagnosis<Subject>> list, const Subject& subject) {
+    for (const Diagnosis<Subject>& each : list) {
+        if (!each.applies(subject)) continue;
+        if (std::string words = each.find(subject); !words.empty()) return words;
+    }
+    return {};
+}
+
+}  // namespace cascade

@@ -1,0 +1,19 @@
+// Fronts that are thinner than a cell, which the grid may hold in place.
+#pragma once
+
+#include "core/plane.h"
+#include "core/spread.h"
+
+namespace cascade {
+
+struct Fronts {
+    double all = 0, thin = 0;
+    double speed = 0;  ///< The sum of the speeds of thin fronts, in cells per unit of time.
+
+    bool are_thin() const;  ///< Are almost all of them thin?
+};
+
+/// The fronts of a species with this spread. `rates` give their speed, and may be null.
+Fronts fronts_of(const Field& values, const Field* rates, const Spread& spread);
+
+}  // namespace cascade

@@ -1,0 +1,37 @@
+// How an executor says that it cannot go on.
+#pragma once
+
+#include "core/result.h"
+
+#include <exception>
+#include <optional>
+#include <utility>
+
+namespace cascade {
+
+/// Thrown by an executor whose device fails, for example because it was lost. Values that nobody
+/// has fetched are then lost, too.
+struct ExecutorFailure : std::exception {
+    explicit ExecutorFailure(Failure why) : failure(std::move(why)) {}
+    const char* what() const noexcept override { return failure.message.c_str(); }
+
+    Failure failure;
+};
+
+/// Calls `work`, and returns the failure of an executor that cannot go on; empty if it can.
+/// Where there are no exceptions, as in WebAssembly, executors do not fail.
+template <typename Work>
+std::optional<Failure> failure_in(const Work& work) {
+#ifdef __cpp_exceptions
+    try {
+        work();
+    } catch (const ExecutorFailure& error) {
+        return error.failure;
+    }
+#else
+    work();
+#endif
+    return std::nullopt;
+}
+
+}  // namespace cascade

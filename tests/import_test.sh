@@ -1,0 +1,188 @@
+#!/usr/bin/env bash
+# `cascade import`: scripts of models of other programs that run, and refusals of what cannot be said.
+set -u
+rm -rf ./*
+unset NO_COLOR
+
+about="import"
+source "$SOURCE/tests/support/program_runs.bash"
+models=$SOURCE/tests/import
+
+# imports MODEL NAME: the script is the expected one, and takes 50 finite steps.
+imports() {
+    run 0 import "$1" -o "$2.cascade"
+    says out "wrote $2.cascade"
+    diff "$models/$2.expected" "$2.cascade" || fail "another script of $1"
+    run 0 check "$2.cascade"
+    [ ! -s err ] || fail "the script of $1 has warnings"
+    run 0 run "$2.cascade" --steps 50 -q -o "$2.png"
+}
+
+imports "$models/spots.vti" spots
+imports "$models/operators.vti" operators
+says_note() { grep -qF "$1" "$2.cascade" || fail "no comment '$1' in $2.cascade"; }
+says_note "Note: Ready's bilaplacian has its own stencil" operators
+imports "$models/waves.json" waves
+imports "$(cat "$models/link.txt")" link
+imports "$models/fronts.ode" fronts
+imports "$models/clock.ode" clock
+
+# The name that -o gives, and no file is replaced.
+rm spots.cascade
+run 0 import "$models/spots.vti"
+cmp spots.cascade "$models/spots.expected" || fail "another script without -o"
+run 3 import "$models/spots.vti"
+says err 'spots.cascade already exists'
+run 64 import
+run 2 import "$SOURCE/README.md"
+says err 'is in no format that can be imported'
+run 64 import "$models/spots.vti" --diffusion a=1
+says err 'has its own diffusion'
+run 0 import "$models/clock.ode" --diffusion x=0.5 -o disc.cascade
+says_note '0.5 * lap(x_)' disc
+
+# A flat start waits for a click.
+run 0 import "$(cat "$models/link.txt")" -o flat.cascade
+says err 'cascade view flat.cascade'
+
+# A step that is too long for the differences here is shortened, with a note.
+sed 's|> 0.002 <|> 0.2 <|; s|c = [^;]*;||' "$models/operators.vti" >long.vti
+run 0 import long.vti
+says err 'it was shortened to'
+says_note "Note: The source's step of 0.2 is unstable" long
+run 0 run long.cascade --steps 8 -q -o long.png
+
+# Values of all cells: as text, in Base64, compressed, and after all elements, all the same.
+cat >make.py <<'END2'
+import base64, struct, sys, zlib
+W, H = 8, 4
+values = [0.25 * i + j for j in range(H) for i in range(W)]
+raw = struct.pack("<%df" % len(values), *values)
+
+def b64(data): return base64.b64encode(data).decode()
+def block(data, size=64):
+    parts = [data[k:k + size] for k in range(0, len(data), size)]
+    packed = [zlib.compress(p) for p in parts]
+    last = len(parts[-1]) % size
+    head = struct.pack("<%dI" % (3 + len(parts)), len(parts), size, last, *map(len, packed))
+    return head, b"".join(packed)
+
+def file(name, array, compressed=False, after="", extent=(W, H), head=""):
+    kind = ' compressor="vtkZLibDataCompressor"' if compressed else ""
+    with open(name, "wb") as out:
+        out.write(('%s<VTKFile type="ImageData" byte_order="LittleEndian"%s><RD><rule name="R" type="formula">'
+                   '<param name="timestep">0.1</param>'
+                   '<formula number_of_chemicals="1">delta_a = laplacian_a;</formula></rule>'
+                   '<initial_pattern_generator apply_when_loading="false"/></RD>'
+                   '<ImageData WholeExtent="0 %d 0 %d 0 0"><Piece><PointData>%s</PointData></Piece></ImageData>'
+                   % (head, kind, extent[0] - 1, extent[1] - 1, array)).encode())
+        out.write(after if isinstance(after, bytes) else after.encode())
+        out.write(b"</VTKFile>\n")
+
+def array(attributes, text=""):
+    return '<DataArray type="Float32" Name="a" %s>%s</DataArray>' % (attributes, text)
+
+size = struct.pack("<I", len(raw))
+head, packed = block(raw)
+binary = b64(head) + b64(packed)
+file("ascii.vti", array('format="ascii"', " ".join(map(str, values))))
+file("binary.vti", array('format="binary"', b64(size + raw)))
+file("zlib.vti", array('format="binary"', binary), True)
+file("later.vti", array('format="appended" offset="0"'), True,
+     '<AppendedData encoding="base64">_' + binary + "</AppendedData>")
+file("raw.vti", array('format="appended" offset="0"'), False,
+     b'<AppendedData encoding="raw">_' + size + raw + b"</AppendedData>")
+# Hostile files.
+file("short.vti", array('format="binary"', binary[:-40]), True)
+file("wrong.vti", array('format="binary"', "????" + binary), True)
+bomb = zlib.compress(bytes(50_000_000))
+file("bomb.vti", array('format="binary"', b64(struct.pack("<4I", 1, 128, 0, len(bomb))) + b64(bomb)), True)
+file("large.vti", array('format="binary"', b64(struct.pack("<4I", 1, 50_000_000, 0, len(bomb))) + b64(bomb)), True)
+file("many.vti", array('format="binary"', b64(struct.pack("<3I", 0xffffffff, 0xffffffff, 0))), True)
+file("fewer.vti", array('format="ascii"', "1 2 3"))
+file("huge.vti", array('format="ascii"', "1"), extent=(200_000, 200_000))
+file("none.vti", array('format="ascii"', "1"), extent=(0, 1))
+file("beyond.vti", array('format="appended" offset="99999999"'), False, "<AppendedData>_</AppendedData>")
+file("entity.vti", array('format="ascii"', "&x;"), head='<!DOCTYPE x [<!ENTITY x "1 1 1">]>')
+open("deep.vti", "w").write("<VTKFile>" * 1_000_000)
+open("open.vti", "w").write("<VTKFile><RD><rule type='formula'")
+formulas = {
+    "loop": "while (1) { a = 1; }", "function": "delta_a = erf(a);", "name": "delta_a = sesame;",
+    "vector": "delta_a = (float4)(1, 2, 3, 4);", "bits": "delta_a = a ^ 2;", "compare": "delta_a = a &lt; 1;",
+    "brackets": "delta_a = " + "(" * 5000 + "a" + ")" * 5000 + ";",
+    "rounds": "delta_a = " + "round(" * 60 + "a" + ")" * 60 + ";",
+    "sum": "delta_a = a" + "+a" * 3_000 + ";", "ends": "delta_a = a +"}
+for name, formula in formulas.items():
+    text = open("ascii.vti").read().replace("delta_a = laplacian_a;", formula)
+    open(name + ".vti", "w").write(text)
+text = open("ascii.vti").read()
+open("kernel.vti", "w").write(text.replace('type="formula"', 'type="kernel"'))
+END2
+python3 make.py || fail "make.py"
+for name in ascii binary zlib later raw; do
+    run 0 import $name.vti
+    [ "$(wc -c <${name}_a.npy)" -gt 128 ] || fail "no values of $name.vti"
+    cmp ascii_a.npy ${name}_a.npy || fail "other values of $name.vti"
+    run 0 run $name.cascade --steps 5 -q -o $name.png
+done
+# Rows are turned upside down.
+python3 -c '
+import struct
+data = open("ascii_a.npy", "rb").read()
+values = struct.unpack("<32f", data[-128:])
+assert values[0] == 3 and values[-1] == 1.75, values' || fail "rows in another order"
+
+# refuses FILE TEXT: nothing is written, and the message has this text.
+refuses() {
+    run 2 import "$1" -o refused.cascade
+    says err "$2"
+    [ ! -e refused.cascade ] && [ ! -e refused_a.npy ] || fail "$1 was refused, but something was written"
+}
+refuses short.vti "is no valid Base64, or ends too early"
+refuses wrong.vti "is no valid Base64, or ends too early"
+refuses bomb.vti "is not compressed by zlib as its header says"
+refuses large.vti "is larger than the domain"
+refuses many.vti "is larger than the domain"
+refuses fewer.vti "has not 32 numbers"
+refuses huge.vti "a domain of 1 to 67108864 cells is expected"
+refuses none.vti "a domain of 1 to 67108864 cells is expected"
+refuses beyond.vti "begins beyond the end of the file"
+refuses entity.vti "document types and entities of XML are not read"
+refuses deep.vti "nested more than 100 deep"
+refuses open.vti "this is no valid XML"
+refuses loop.vti "'while' of OpenCL has no counterpart"
+refuses function.vti "the function 'erf' of 1 arguments has no counterpart"
+refuses name.vti "'sesame' has no meaning here"
+refuses vector.vti "a vector of different values has no counterpart"
+refuses bits.vti "'^' combines the bits"
+refuses compare.vti "a comparison is a number here"
+refuses brackets.vti "nested more than 200 deep"
+refuses rounds.vti "has no counterpart"
+refuses sum.vti "nested more than 1000 deep"
+refuses ends.vti "where a value is missing"
+refuses kernel.vti "is a program, not a formula"
+
+# Meshes are not listed among the formats, and refused by name.
+sed 's/ImageData/UnstructuredGrid/g' "$models/spots.vti" >mesh.vtu
+refuses mesh.vtu "on meshes (.vtu) are not imported"
+
+# VisualPDE and XPPAUT.
+printf '{"numSpecies": 1, "reactionStr_1": "0", "domainViaIndicatorFun": true, "domainIndicatorFun": "x > t"}' >mask.json
+refuses mask.json "a mask that moves with t has no counterpart"
+printf '{"numSpecies": 1, "reactionStr_1": "sesame(u)"}' >word.json
+refuses word.json "'sesame'"
+printf '{"numSpecies": 9}' >nine.json
+refuses nine.json "1 to 4 species are expected"
+printf '{"parent": "Turing"}' >child.json
+refuses child.json "that is not here"
+printf '{"numSpecies": ' >cut.json
+refuses cut.json "this is no JSON of a simulation"
+refuses "https://visualpde.com/sim/?options=N4IgDiBcIMIK4" "damaged or incomplete"
+refuses "https://visualpde.com/sim/" "has no 'options='"
+printf "u'=-u\ntable f f.dat\n" >table.ode
+refuses table.ode "'table' has no counterpart"
+printf "u'=-u+erf(u)\n" >erf.ode
+refuses erf.ode "the function 'erf' has no counterpart"
+printf "# nothing\n" >empty.ode
+refuses empty.ode "has no equation"
+echo "import: ok"

@@ -1,0 +1,98 @@
+// Smooth planes, on the page of `cascade view` and on exported ones: as `cascade run --size` draws them, and squares when
+// one zooms to single cells. Arguments: the browser and the program; *.cascade, and the exported pages *.html, are in the
+// current folder. Screenshots are left there.
+import { spawnSync } from "node:child_process";
+import { existsSync, readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
+import { Browser, ending, expect, serve } from "./browser.mjs";
+
+const [command, program] = process.argv.slice(2);
+const scripts = ["spots", "colours"];
+const servers = [];
+for (const name of scripts) servers.push(await serve(program, `${name}.cascade`));
+const browser = await Browser.start(command, join(process.cwd(), "profile_of_smooth"));
+const end = ending(browser, ...servers.map(({ cascade }) => cascade));
+
+const click = (id) => browser.click(`#${id}`);
+const box = () => browser.evaluate(`(({ x, y, width, height }) => [x, y, width, height])(document.getElementById("pattern").getBoundingClientRect())`);
+const sides = () => browser.evaluate(`(({ width, height }) => [width, height])(document.getElementById("pattern"))`);
+const choose = (id, value, kind = "change") => browser.evaluate(`{ const field = document.getElementById("${id}"); field.value = "${value}"; field.dispatchEvent(new Event("${kind}")); }`);
+
+/// How far the canvas is from a picture, as the mean and the largest difference of levels on white.
+const difference = (name) => browser.evaluate(`(async () => {
+    const wanted = new Image();
+    await new Promise((resolve) => { wanted.onload = resolve; wanted.src = "data:image/png;base64,${readFileSync(name).toString("base64")}"; });
+    const levels = (image) => {
+        const copy = document.createElement("canvas"), pen = copy.getContext("2d");
+        [copy.width, copy.height] = [wanted.width, wanted.height];
+        pen.fillStyle = "white";
+        pen.fillRect(0, 0, copy.width, copy.height);
+        pen.drawImage(image, 0, 0);
+        return pen.getImageData(0, 0, copy.width, copy.height).data;
+    };
+    const a = levels(document.getElementById("pattern")), b = levels(wanted), away = a.map((level, k) => Math.abs(level - b[k]));
+    return [away.reduce((sum, level) => sum + level, 0) / away.length, away.reduce((most, level) => Math.max(most, level), 0)];
+})()`);
+
+/// Pictures hold the mean of four points for each pixel, in linear light, and the page one, so that edges differ a bit.
+async function expect_smooth(name, how) {
+    const [width, height] = await sides();
+    expect(width > 300, `${how}: the canvas is ${width} × ${height} pixels large`);
+    const run = spawnSync(program, ["run", `${name}.cascade`, "--palette", "leopard", "--size", `${width}x${height}`, "-o", "smooth_wanted.png", "--quiet"], { encoding: "utf8" });
+    expect(run.status === 0, run.stderr);
+    const [mean, most] = await difference("smooth_wanted.png");
+    expect(mean < 1, `${how}: what is seen differs by ${mean}, at most by ${most} levels`);
+    return mean;
+}
+
+async function open(address, stages) {
+    await browser.open(address);
+    await browser.until(`document.querySelectorAll("#stages li").length === ${stages} && document.getElementById("step").disabled`);
+    await choose("palette", "leopard");
+}
+
+async function look(name, address, stages, how) {
+    await open(address, stages);
+    const columns = name === "spots" ? 48 : 40, squares = `document.getElementById("squares")`;
+    expect(await browser.evaluate(`!${squares}.checked`), `${how}: planes are not smooth from the start`);
+    const mean = await expect_smooth(name, how);
+    writeFileSync(`smooth_${how}.png`, await browser.screenshot());
+
+    // Squares of one pixel instead, which the picture of cells has, are far from that.
+    await click("squares");
+    expect((await sides())[0] === columns, `${how}: squares have ${await sides()} pixels`);
+    await click("squares");
+
+    // Zoomed in to single cells they are squares, too, and zoomed out they are smooth again.
+    const [x, y, width, height] = await box();
+    await browser.wheel(x + width / 2, y + height / 2, -10000);
+    await browser.until(`document.getElementById("pattern").getBoundingClientRect().width > ${4 * width}`);
+    expect((await sides())[0] === columns, `${how}: single cells are not squares: ${await sides()} pixels`);
+    writeFileSync(`smooth_near_${how}.png`, await browser.screenshot());
+    await click("fit");
+    expect(Math.abs(await expect_smooth(name, `${how}, zoomed out again`) - mean) < 1e-9, `${how}: the picture is another one after zooming`);
+
+    // Lines and relief lie over the smooth colours.
+    if (name !== "spots") return;
+    const [plain] = await difference("smooth_wanted.png");
+    await choose("relief", "0.5", "input");
+    const [lit] = await difference("smooth_wanted.png");
+    expect(lit > plain + 0.3 && lit < 40, `${how}: relief differs by ${lit} from ${plain}`);
+    writeFileSync(`smooth_lit_${how}.png`, await browser.screenshot());
+    await choose("relief", "0", "input");
+}
+
+async function steer() {
+    await browser.call("Emulation.setDeviceMetricsOverride", { width: 1280, height: 800, deviceScaleFactor: 1, mobile: false });
+    await browser.begin_with({ squares: "0" });
+    for (const [k, name] of scripts.entries()) {
+        const stages = 2 - k;
+        await look(name, servers[k].address, stages, name);
+        if (existsSync(`${name}.html`)) await look(name, pathToFileURL(`${name}.html`).href, stages, `exported_${name}`);
+    }
+    const complaints = browser.heard.filter((words) => !words.startsWith("Applying inline style"));
+    expect(complaints.length === 0, `the page complains: ${complaints.join("\n")}`);
+}
+
+await steer().then(() => end(), end);
