@@ -105,7 +105,7 @@ Result<void> check_writable(const fs::path& path) {
                                    folder_of(target).string()),
                        "make the folder first");
     }
-    // Tries to write, because permissions, read-only disks and quotas all matter.
+    // Creates and removes a file, because permissions, read-only disks and quotas all matter.
     const Descriptor folder(open_folder(folder_of(target)));
     if (!folder.is_open()) return cannot("write", path.string(), errno);
     const TemporaryFile temporary(folder, 0600);

@@ -84,7 +84,7 @@ std::optional<FormatKind> output_kind(const std::filesystem::path& path);
 /// ".svg or .pdf" with the joint "or", ".svg, .pdf" without a joint.
 std::string endings_of(FormatKind kind, std::string_view joint = "");
 std::string endings_of(FormatTrait trait, std::string_view joint = "");
-/// The option that writes such a format, for hints: "-o NAME.svg or .pdf".
+/// The option that writes these formats, for hints: "-o NAME.svg or .pdf".
 template <typename Which>
 std::string output_of(Which which) {
     return "-o NAME" + endings_of(which, "or");

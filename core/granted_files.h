@@ -19,8 +19,8 @@ struct ReadAccess {
     friend bool operator==(const ReadAccess&, const ReadAccess&) = default;
 };
 
-/// Reads files that other files name. All such reads go through this class and no path leaves it,
-/// so every file it opens has been checked.
+/// Reads files that other files name. All such reads go through this class, which never hands out a
+/// path, so every file that is opened has been checked.
 class GrantedFiles {
 public:
     /// Names are relative to `folder`, and every file below it may be read. Messages call the

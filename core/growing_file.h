@@ -17,8 +17,8 @@ namespace cascade {
 /// name.
 class GrowingFile {
 public:
-    /// Begins an empty file. Fails where write_file would fail, and if `path` is a pipe or a
-    /// device, whose bytes cannot be overwritten later.
+    /// Begins an empty file. Fails in the same cases as write_file, and also if `path` is a pipe or
+    /// a device, whose bytes cannot be overwritten later.
     static Result<std::unique_ptr<GrowingFile>> create(const std::filesystem::path& path);
 
     /// Adds bytes at the end. If this fails, the file is unchanged.

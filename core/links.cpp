@@ -17,7 +17,8 @@ constexpr bool fits_offset(std::int64_t elements) {
 
 }  // namespace
 
-/// The positions of a list's cells in the rows of a plane. The links of cell i end before ends[i].
+/// Maps the cells of a list to their columns and rows in a plane. The links of cell i end before
+/// ends[i].
 class Links::Placing {
 public:
     Placing(std::span<const std::size_t> ends, const PlaneLayout& layout,
@@ -59,7 +60,7 @@ public:
         std::array<Range, slice_cells> links;
         std::array<std::int64_t, slice_cells> own{};
 
-        /// Of the remaining links: those of the cell that has the largest number of them; null if
+        /// Selects the cell that has most of the remaining links, and returns these links; null if
         /// no links remain.
         const Range* longest() const {
             const auto most =
@@ -262,7 +263,7 @@ void Links::assign(const PlacedLinks& links, const PlaneLayout& layout, Precisio
     slices_.cells = links.ends.size();
     if (changed.empty()) reach_ = 1;
     const Placing placing(links.ends, layout, {});
-    // The cells before this one are padding neither in the new table nor in the previous one.
+    // Cells before this one are real cells, not padding, in both the new and the previous table.
     const std::size_t whole = std::min(before_.cells, slices_.cells) - 1;
     const auto is_kept = [&](std::size_t number) {
         const auto [first, count] = placing.cells_of(number);

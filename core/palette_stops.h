@@ -71,8 +71,9 @@ constexpr std::array<Colour, 17> cividis{{
     {0.9369F, 0.8441F, 0.2806F}, {0.9957F, 0.9093F, 0.2178F},
 }};
 
-// Coats, drawn for this project. They go from the dark of the pattern to the light of the ground,
-// so that a species that is low in its spots (b of turing_spots) resembles the animal.
+// Animal coats, drawn for this project. They run from the dark colour of the markings to the light
+// colour of the background, so that a species with low values in its spots (b of turing_spots)
+// resembles the animal.
 
 constexpr std::array<Colour, 9> leopard{{
     hex(0x1b120b), hex(0x26180d), hex(0x49301a), hex(0x875a2c), hex(0xb27c3e),

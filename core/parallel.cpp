@@ -156,8 +156,9 @@ Team::Team(int size) : state_(std::make_unique<State>()) {
     for (int index = 1; index < size; ++index) {
         try {
             state_->workers.emplace_back([state = state_.get(), index] { state->serve(index); });
-        } catch (const std::exception&) {  // The system refused, or memory ran out.
-            state_->size = index;          // Workers read the size only when they have work.
+        } catch (
+            const std::exception&) {  // The system refused to start the thread, or memory ran out.
+            state_->size = index;     // Workers read the size only when they have work.
             break;
         }
     }

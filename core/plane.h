@@ -28,9 +28,9 @@ void free_plane(void* plane);
 template <typename Number>
 void fill_halo(Number* origin, const PlaneLayout& layout, const SideRules& sides);
 
-/// Fills all halo cells that depend on the cells of `patch` and that kernels read. Leaves out rows
-/// above and below a single row, because no stencil reads them. Threads with disjoint patches fill
-/// the whole halo without reading each other's cells.
+/// Fills all halo cells that kernels read and whose values come from the cells of `patch`. If a
+/// slice has a single row, leaves out the rows above and below it, because no stencil reads them.
+/// Threads with disjoint patches fill the whole halo without reading each other's cells.
 template <typename Number>
 void fill_halo_from(Number* origin, const PlaneLayout& layout, const SideRules& sides,
                     const Patch& patch);

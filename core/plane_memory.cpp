@@ -31,12 +31,12 @@ Block& block_of(const void* plane) {
     return *std::launder(reinterpret_cast<Block*>(begin - sizeof(Block)));
 }
 
-/// The offset of a plane in its memory block. Planes at equal offsets in their pages map rows to
-/// the same cache sets, which have too few ways for a tile of five planes. The processor also
-/// mistakes a load from one plane for a store to another, because it first compares only the low 12
-/// bits of addresses. So each plane is shifted by a different part of 128 KiB, one way of a
-/// second-level cache, or of a page if the plane is too small for that. Multiples of 783 are spread
-/// evenly over 2048 lines as well as over 64.
+/// The offset of a plane in its memory block. If all planes began at the same offset in their
+/// pages, equal rows would compete for the same cache sets, which have too few ways for a tile of
+/// five planes. The processor would also mistake a load from one plane for a store to another,
+/// because it first compares only the low 12 bits of addresses. So each plane is shifted by a
+/// different part of 128 KiB, one way of a second-level cache, or of a page if the plane is too
+/// small for that. Multiples of 783 are spread evenly over 2048 lines as well as over 64.
 std::size_t next_shift(std::size_t bytes) {
     constexpr std::size_t small_plane = 65536, lines_of_way = 2048, lines_of_page = 64;
     static std::atomic<std::size_t> planes{0};
@@ -69,7 +69,8 @@ void* map_pages(std::size_t bytes) {
     return begin;
 }
 
-/// The pages of a freed plane, stored in their own first bytes, for reuse by the next plane.
+/// The pages of a freed plane, ready for reuse by the next plane. The object is stored in the first
+/// bytes of these pages.
 struct SparePages {
     std::size_t bytes;
 };

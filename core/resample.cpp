@@ -110,8 +110,8 @@ Grid finer_grid(const Grid& grid, std::int64_t times) {
 
 namespace {
 
-/// The position of a finer cell's centre along an axis: the cells around it, and the fraction of
-/// the way from the third to the fourth.
+/// The position of a fine cell's centre along an axis of the coarse grid: the six coarse cells
+/// around it, and the fraction of the way from the third to the fourth.
 template <typename Number>
 struct Around {
     std::array<std::int64_t, cells_between> cells{};

@@ -8,12 +8,12 @@
 
 namespace cascade {
 
-/// The progress of a stage, sent about ten times a second and at the stage's end.
+/// The progress of a stage. Sent about ten times a second and once more when the stage ends.
 struct Progress {
-    std::string doing;  ///< The activity, if no stage is running. Its progress is `step` of `steps`
-                        ///< if `steps` is above 0.
-    std::string stage;  ///< The stage's name.
-    std::string note;   ///< Words to print after the stage's name; usually empty.
+    std::string doing;     ///< Names the current activity between stages. Its progress is `step` of
+                           ///< `steps` if `steps` is above 0.
+    std::string stage;     ///< The stage's name.
+    std::string note;      ///< Words to print after the stage's name; usually empty.
     int stage_number = 1;  ///< Counted from 1.
     int stage_count = 1;
     std::int64_t step = 0;   ///< Number of completed steps of this stage.
@@ -35,16 +35,16 @@ inline const std::atomic<bool> never_cancelled{false};
 /// run then ends after a complete step. It abandons a step that takes long.
 struct RunControl {
     std::atomic<bool> cancel{false};
-    /// Set some time after `cancel` where the program must end: outputs that take long are left
-    /// out.
+    /// Set some time after `cancel` if the program must end soon: outputs that take long to write
+    /// are then left out.
     std::atomic<bool> hurry{false};
-    /// Would an end of the program at this moment lose nothing but outputs that take long? False
-    /// from the first step until the run is saved.
+    /// Whether ending the program now would lose only outputs that take long to write. False from
+    /// the first step until the run is saved.
     std::atomic<bool> may_end{true};
-    /// Set when many calls together take the steps of one stage. A call may then return before
-    /// checking for non-finite values, and a later call checks, at most 64 steps after the values
-    /// appear. Doubts about the result wait for the stage's end, and faster ways to step are tried
-    /// as if one call took all steps.
+    /// Set when many short calls together take the steps of one stage. A call may then return
+    /// before it checks for non-finite values, and a later call checks, at most 64 steps after such
+    /// values appear. Doubts about the result are reported at the end of the stage, and faster ways
+    /// to step are tried as if one call took all steps.
     bool checks_later = false;
     std::function<void(const Progress&)> report;
     /// Called with each warning that does not stop the run, for example that a kernel is

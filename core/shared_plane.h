@@ -20,8 +20,8 @@ inline const void* memory_of(const Field& field) {
     });
 }
 
-/// Keeps the cells of a field unchanged while the result lives. Code that changes cells in place,
-/// such as a step, must test is_shared() and, if true, change a copy instead.
+/// Returns an object that keeps the cells of a field unchanged while it lives. Code that changes
+/// cells in place, such as a step, must first test is_shared() and, if true, change a copy instead.
 inline std::shared_ptr<const void> share(const Field& field) {
     const void* const memory = memory_of(field);
     add_owner_of_plane(memory);

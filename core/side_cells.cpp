@@ -14,7 +14,7 @@ RowRange common(RowRange rows, std::int64_t first, std::int64_t last) {
     return {begin, std::max(begin, std::min(rows.end, last))};
 }
 
-/// The slices whose row `row`, counted within the slice, is among the given rows.
+/// The slices in which row `row`, counted within the slice, is one of the given rows.
 RowRange slices_with(RowRange rows, std::int64_t row, std::int64_t height) {
     const auto first_from = [&](std::int64_t bound) {
         return std::max<std::int64_t>(0, (bound - row + height - 1) / height);

@@ -13,7 +13,8 @@ namespace cascade {
 /// magnitude. It is about the rounding error of binary32.
 inline constexpr double uniform_deviation = 1e-5;
 /// Values also count as uniform if their standard deviation is at most this fraction of the largest
-/// magnitude that they ever had. They are the remains of a pattern that has died away.
+/// magnitude that they ever had: such small differences are the remains of a pattern that has died
+/// away.
 inline constexpr double remaining_part = 1e-12;
 
 /// The statistics of a set of values. Non-finite values are ignored.
@@ -28,9 +29,8 @@ struct Spread {
     double magnitude() const {
         return count > 0 ? std::max(std::abs(smallest), std::abs(largest)) : 0;
     }
-    /// Whether the values count as uniform. True for a set without values. `once` is the largest
-    /// magnitude that the values had before. No absolute size counts as small, because users choose
-    /// the units.
+    /// Whether the values count as uniform. True for an empty set. `once` is the largest magnitude
+    /// that the values had earlier. There is no absolute threshold, because users choose the units.
     bool is_uniform(double once = 0) const {
         return !(deviation() > std::max(uniform_deviation * magnitude(), remaining_part * once));
     }

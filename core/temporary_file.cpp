@@ -47,8 +47,8 @@ void remove_if_dead(const Descriptor& folder, const char* name) {
     ::unlinkat(folder.number(), name, 0);
 }
 
-/// What remove_all() knows of a file. Constructors and destructors write it and a signal handler
-/// reads it, so it is global and takes no lock.
+/// An entry in the list of files that remove_all() removes. Constructors and destructors write the
+/// list and a signal handler reads it, so it is global and takes no lock.
 struct Slot {
     enum State : int { free, taken, whole };
     std::atomic<int> state{free};
@@ -58,7 +58,7 @@ struct Slot {
 std::array<Slot, 64> slots;
 static_assert(std::atomic<int>::is_always_lock_free);
 
-/// Negative where all slots are taken, or the name is too long.
+/// Returns the index of a new entry; negative if all entries are in use or the name is too long.
 int enter(int folder, std::string_view name) {
     for (std::size_t k = 0; k < slots.size() && name.size() < slots[k].name.size(); ++k) {
         int state = Slot::free;

@@ -52,8 +52,9 @@ public:
     int take_name(const std::string& name);
     /// Closes the file and leaves it under its temporary name. Returns 0 or the error number.
     int stay();
-    /// Removes most of the temporary files of this process. No TemporaryFile must be used
-    /// afterwards. A signal handler may call this function before it ends the program.
+    /// Removes nearly all temporary files of this process (those that found room in its fixed
+    /// list). No TemporaryFile may be used afterwards. A signal handler may call this function
+    /// before it ends the program.
     static void remove_all() noexcept;
 
 private:
