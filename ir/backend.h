@@ -94,8 +94,8 @@ public:
     virtual std::string_view name() const = 0;  ///< "interp" or "jit".
     /// Compiles a kernel for grids with this stencil. The kernel must not run on other grids.
     virtual Result<KernelPointer> compile(const CellKernel& kernel, Stencil stencil) = 0;
-    /// The result of compile(), or null if obtaining it would take longer than interpreting the
-    /// kernel once.
+    /// Returns the result of compile() if it can be obtained in less time than interpreting the
+    /// kernel once takes; else null.
     virtual KernelPointer find(const CellKernel& kernel, Stencil stencil) = 0;
     /// The number of kernels compiled and found so far.
     virtual KernelCounts counts() const { return {}; }

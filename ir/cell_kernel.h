@@ -148,7 +148,7 @@ IdVector<ValueId, bool> varying(const CellKernel& kernel);
 /// nullopt if several results are computed from the field, or if it is read in other cells.
 IdVector<FieldSlot, std::optional<std::size_t>> sole_results(const CellKernel& kernel);
 
-/// A hash of everything that determines the generated code, so not of the names.
+/// A hash of everything that determines the generated code. Names do not contribute.
 std::uint64_t hash(const CellKernel& kernel);
 
 /// The kernel as text, one value per line: `%7 = multiply %3, %5`. The format is stable.

@@ -22,8 +22,8 @@
 namespace cascade {
 namespace {
 
-/// The overhead of interpreting a row, in addition to its cells: it takes as long as interpreting
-/// this number of cells.
+/// The fixed cost of interpreting a row, as the number of cells whose interpretation takes the same
+/// time.
 constexpr std::int64_t cells_per_row = 64;
 
 /// The number of cells without links whose interpretation takes as long as one cell of this kernel.

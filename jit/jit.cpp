@@ -93,8 +93,8 @@ private:
                 copied.begin * layout.stride, copied.end * layout.stride);
         };
         if (pairs_ == 0) return run(rows, nullptr, {0, 0});
-        // For this many cells, the copies of the pairs of fields in the cells and around them fit
-        // into a second-level cache.
+        // The number of cells per part. The copied pairs of fields for so many cells, and for the
+        // cells around them, fit into a second-level cache.
         constexpr std::int64_t cells_of_part = 16384;
         const std::int64_t height = std::max(cells_of_part / layout.width, links.reach);
         static thread_local AlignedArray<Number> pairs;

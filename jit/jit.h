@@ -16,7 +16,7 @@ namespace cascade {
 struct JitOptions {
     int lanes = 0;     ///< Cells of binary32 per vector: 4, 8 or 16 (of binary64 half as many). 0
                        ///< takes the host's widest vectors.
-    int optimise = 2;  ///< The level of LLVM's code generator, 0 … 3.
+    int optimise = 2;  ///< The optimisation level of LLVM's code generator, 0 … 3.
     /// The folder in which compiled kernels are stored for later processes. If it is empty or
     /// cannot be used, kernels are not stored.
     std::filesystem::path cache = {};
@@ -81,9 +81,9 @@ struct ObjectContent {
 ///   `slice`. Row j of slice k is then row k * slice_rows + j, where slice_rows is the height plus
 ///   2. All rows of a call must be in the slice `slice`.
 ///
-/// The results have the same bits as those of a run if the processor flushes denormal inputs and
-/// results while the function runs (FTZ and DAZ on x86). Fails for kernels for linked cells, for
-/// invalid C names, and for unknown CPUs.
+/// The results have the same bits as the results of a run if the processor flushes denormal inputs
+/// and results while the function runs (FTZ and DAZ on x86). Fails for kernels for linked cells,
+/// for invalid C names, and for unknown CPUs.
 Result<std::vector<std::uint8_t>> compile_object(const ObjectContent& content, Stencil stencil,
                                                  const std::string& cpu);
 

@@ -21,9 +21,9 @@ struct TargetChoice {
     int lanes = 0;
 };
 
-/// The target machine for a CPU of the host's architecture. `cpu` is LLVM's name of it; "" is the
-/// host with all its features. The number of lanes is that of `options`, or, if this is 0, the
-/// number of the CPU's widest vectors. Callers must check the options first. Fails for a CPU that
+/// The target machine for a CPU of the host's architecture. `cpu` is a name that LLVM knows; "" is
+/// the host with all its features. `options` gives the number of lanes; if it gives 0, the lanes of
+/// the CPU's widest vectors are used. Callers must check the options first. Fails for a CPU that
 /// LLVM does not know.
 Result<TargetChoice> choose_target(const std::string& cpu, const JitOptions& options);
 
