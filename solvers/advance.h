@@ -83,8 +83,8 @@ public:
     /// the last step at which all values were finite. Without a stored copy the check itself names
     /// a cell, and `species` has the spoiled values.
     ///
-    /// Reports through `control`: at the start, about ten times a second, and at the end of the
-    /// call in any case, then with `stage_done` set. The last step of a call is checked unless
+    /// Reports through `control` at the start, about ten times a second, and at the end of every
+    /// call, then with `stage_done` set. The last step of a call is checked unless
     /// `control.checks_later`. If `control.cancel` is set, the loop ends at the next complete step.
     /// The loop reads this flag after each batch of steps, about every 20 ms. May be called again
     /// unless a value was spoiled or steps became too short.

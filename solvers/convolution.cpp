@@ -160,8 +160,8 @@ struct ConvolutionRunner<Number>::Implementation {
         buffer = make_buffer();
         kernel = make_buffer();
         make_transforms();
-        // A sum over lags +l is a convolution with the kernel mirrored to lags −l, so it multiplies
-        // waves by those of the mirrored kernel.
+        // A sum over lags +l is a convolution with the kernel mirrored to lags −l. So the waves of
+        // the plane are multiplied by the waves of the mirrored kernel.
         const double scale = 1.0 / static_cast<double>(size[0] * size[1] * size[2]);
         for (std::size_t k = 0; k < weighted.lags.size(); ++k) {
             const Lag& lag = weighted.lags[k];

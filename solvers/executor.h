@@ -33,7 +33,7 @@ struct CopyRoles {
     static constexpr int none = -1;
     int kept = 0;  ///< `none` if there are two copies.
     int current = 0;
-    int last = 1;  ///< The copy that was current before, and is probably in the cache.
+    int last = 1;  ///< The previous current copy, which is probably still in the cache.
 
     /// The copy that the next step writes: neither kept nor current.
     int target() const { return kept == none || kept == current ? last : 3 - kept - current; }

@@ -9,8 +9,8 @@
 namespace cascade {
 
 /// A transform of lines by a plan that FFTW estimates. FFTW could also measure, but would then
-/// choose different plans in different runs. The memory given to run() must be aligned like that
-/// given to the constructor.
+/// choose different plans in different runs. The memory given to run() must have the same alignment
+/// as the memory given to the constructor.
 template <typename Number>
 class FftwTransform {
 public:

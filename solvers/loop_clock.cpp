@@ -15,7 +15,7 @@ std::int64_t next_multiple(std::int64_t step, std::int64_t of) { return (step / 
 }  // namespace
 
 double marks_reached(double t, double end_time, double every) {
-    // Sums of time are rounded.
+    // Allows for rounding errors in sums of times.
     if (every > 0) return std::floor(t / every * (1 + 1e-12));
     return std::isfinite(end_time) ? std::floor(10 * t / end_time + 1e-9) : 0;
 }
@@ -53,7 +53,7 @@ bool LoopClock::judges_next() const {
 }
 
 std::int64_t LoopClock::next_check() {
-    // A step that ended at a mark may have been shorter.
+    // The last step may have been shortened to end at a mark.
     if (schedule_.every > 0 && schedule_.fixed_step > 0) set_step(schedule_.fixed_step);
     if (judges_next()) return step + 1;
     std::int64_t stop = last_look + schedule_.check_every;

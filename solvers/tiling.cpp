@@ -67,7 +67,8 @@ std::int64_t height_of_layer(const StepProblem& problem, std::int64_t cells_of_e
 Tiling tiling_of_layers(std::int64_t height, std::int64_t count, std::int64_t bytes,
                         const CacheSizes& caches) {
     Tiling tiling;
-    if (height >= count) return tiling;  // A single layer leaves nothing to overlap.
+    if (height >= count)
+        return tiling;  // Levels that consist of a single layer have nothing to overlap.
     tiling.outer_layer = height;
     const std::int64_t layer_bytes = bytes / count * height;
     tiling.levels = levels_in(bytes_for_layers(caches), layer_bytes);
