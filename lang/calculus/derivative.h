@@ -31,8 +31,8 @@ struct JacobianBound {
     /// method, or sets its number of stages.
     Formula whole;
     /// A bound for the part of J that additional stages do not stabilise: the reaction, waves, and
-    /// growth caused by operators, such as that by -lap(c) in lap(c^3 - c - lap(c)). It limits the
-    /// step of a stabilised method.
+    /// growth caused by operators, such as the growth by -lap(c) in lap(c^3 - c - lap(c)). It
+    /// limits the step of a stabilised method.
     Formula reaction;
     /// A bound for the part of J that reads other cells, by operators and aggregates. It limits the
     /// step of a method that takes the reaction in each cell implicitly.

@@ -147,7 +147,7 @@ private:
         const NodeId half = algebra_.number(program_.domain.grid.spacing / 2);
         const auto& surface = program_.domain.surface;
         if (!surface || !surface->has_metric) return half;
-        // The formula is that of across_side() in lang/lower/surface_pass.cpp.
+        // This is the same formula as in across_side() in lang/lower/surface_pass.cpp.
         const auto square = [&](MetricPlane plane) {
             return algebra_.product(algebra_.leaf(plane), algebra_.leaf(plane));
         };

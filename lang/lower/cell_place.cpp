@@ -9,8 +9,8 @@
 
 namespace cascade::lowering {
 
-/// The number of the column, row or slice. Beyond a periodic side it is the number of the opposite
-/// cell, beyond other sides that of the cell beside the side.
+/// The number of the column, row or slice. A cell beyond a periodic side has the number of the
+/// opposite cell. A cell beyond another side has the number of the cell beside the side.
 ValueId CellPlace::number(int axis) {
     const Grid& grid = assembly_.program().domain.grid;
     const std::array sides{grid.width, grid.height, grid.depth};

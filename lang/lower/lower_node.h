@@ -27,11 +27,11 @@ struct NodeInCell {
 /// The value of a node. The node must be neither an operator nor a vector.
 Value lower_node(KernelAssembly& assembly, const NodeInCell& node);
 
-/// The plane from which a node is read that is already in a plane before the first pass
-/// (PlanGraph::is_plane).
+/// For a node that is in a plane before the first pass (PlanGraph::is_plane): the plane from which
+/// it is read.
 PlaneSource plane_source(const PlanGraph& graph, NodeId id);
 
-// The values of single kinds of calls.
+// Lower particular kinds of calls.
 Value lower_palette(KernelAssembly& assembly, const NodeInCell& node);
 ValueId lower_shape(KernelAssembly& assembly, const NodeInCell& node);
 ValueId lower_draw(KernelAssembly& assembly, const NodeInCell& node);

@@ -14,12 +14,13 @@
 
 namespace cascade::lowering {
 
-/// Which value a node that is read at neighbours has beyond the two sides of an axis.
+/// The value that a node has beyond the two sides of an axis, where operators read it at
+/// neighbours.
 enum class Beyond : std::uint8_t {
-    anything,  ///< Any: all cells have the same value, or the axis has one cell.
+    anything,  ///< No value is needed: all cells have the same value, or the axis has one cell.
     periodic,  ///< The value in the opposite cell of the axis.
     mirrored,  ///< The value in the cell beside the side.
-    itself,    ///< A value of its own: given by the rule of a species, or computed from operands.
+    itself,    ///< Another value: given by a species' rule, or computed from operands.
 };
 
 using SideKinds = std::array<SideKind, side_count>;

@@ -47,8 +47,8 @@ struct Declaration {
 /// A declaration replaces declarations of the same name in bases. `p:` and `d =` replace a value or
 /// a definition, and take its position. `p: e after divide` replaces only a declaration with `after
 /// divide`. `a' =` replaces the whole rate. `a >= e` replaces all bounds of the same kind. In the
-/// same system, the value, definition or rate of a single member, such as `u[2]: e`, replaces that
-/// of the whole family, such as `u[i]: e`.
+/// same system, the value, definition or rate of a single member, such as `u[2]: e`, replaces the
+/// value, definition or rate that the whole family has by `u[i]: e`.
 std::vector<Declaration> system_declarations(Workspace& work, System& system,
                                              std::span<const SystemStatement> statements);
 
