@@ -32,8 +32,8 @@ std::string_view reason_against(Function function) {
     }
 }
 
-/// Whether no array in the formula has elements for cells in rows and columns. Otherwise reports an
-/// error.
+/// Whether every array that the formula reads is given a position in the file, because cells of a
+/// model are not in rows and columns. Otherwise reports an error.
 bool arrays_have_places(const Program& program, const Formula& formula, Diagnostics& diagnostics) {
     bool have_places = true;
     for (const Node& node : formula.nodes) {

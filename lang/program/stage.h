@@ -87,8 +87,8 @@ struct Stage {
                                 ///< duration.
     Formula show;
     StageTime time;
-    /// For `grid: coarse(…)`: the ratio of the width of the stage's cells to that of the domain's
-    /// cells.
+    /// For `grid: coarse(…)`: the ratio of the width of the stage's cells to the width of the
+    /// domain's cells.
     std::int64_t coarse = 1;
     Span coarse_span;  ///< Where the script sets `grid: coarse(…)`.
     std::optional<StageSize> size;

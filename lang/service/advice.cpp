@@ -53,7 +53,8 @@ std::optional<std::string> fix_of(const Diagnostic& diagnostic, const std::strin
     if (fix.empty()) return std::nullopt;
     std::string changed = text;
     changed.replace(diagnostic.span.begin, diagnostic.span.end - diagnostic.span.begin, fix);
-    // Beside an error warnings do not count: some are only found in scripts without errors.
+    // If the message is an error, warnings are not compared, because some warnings are given only
+    // for scripts without errors.
     const bool is_warning = diagnostic.severity == Severity::warning;
     const auto old = messages_of(before, is_warning);
     const auto left = messages_of(check(changed), is_warning);

@@ -23,7 +23,7 @@ constexpr std::array cell_counts = {std::pair{std::string_view("cells"), &CellCo
 
 struct Ensemble {
     std::vector<std::string> values;  ///< One for each varied name except `seed`.
-    std::vector<std::size_t> runs;    ///< Numbers of runs.
+    std::vector<std::size_t> runs;    ///< The indices of its runs.
 };
 
 std::vector<std::string> without_seed(std::vector<std::string> cells,

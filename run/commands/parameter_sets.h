@@ -16,8 +16,8 @@ namespace cascade {
 
 struct ParameterSets {
     Variation variation;  ///< All names of the table, which vary together.
-    /// For each cell of the table, where it stands in the file, such as "sets.csv:3:7", for
-    /// messages. By row (the header first) and column.
+    /// For each cell of the table, its position in the file, such as "sets.csv:3:7", for messages.
+    /// By row (the header first) and column.
     std::vector<std::vector<std::string>> places;
 };
 

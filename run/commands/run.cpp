@@ -52,8 +52,8 @@ Result<StageEnd> Runner::run_stage(std::uint32_t k) {
     return end;
 }
 
-/// Is nothing computed before the first stage takes its first step? The stage then sets `may_end`
-/// to false. Stages of cells do not.
+/// Whether a run that ends now would lose no computed values, unless the first stage takes a step:
+/// the stage then sets `may_end` to false. Stages of cells that crawl do not set it.
 bool Runner::has_nothing_to_lose() const {
     return request_.resume.empty() && !is_of_cells(*simulation_->domain(0).program, 0);
 }

@@ -26,7 +26,8 @@ Result<void> check_rows(const Script& script, const LogRequest& request) {
         const Stage& stage = script.program->stages[k];
         // A stage without an interval gets ten rows.
         const std::int64_t every = request.every > 0 ? request.every : stage.interval;
-        // A stage that ends after a duration has an unknown number of steps, as has one of moments.
+        // The number of steps is unknown if the stage ends after a duration or makes steps end at
+        // multiples of a time (`every`).
         const bool is_known = !stage.time.has_duration() && !(stage.time.every > 0);
         if (is_known) rows += every > 0 ? stage.iterations / every : 10;
         if (rows <= most_log_rows) continue;

@@ -280,8 +280,9 @@ Result<void> read_cells(ArrayReader& arrays, const nlohmann::json& manifest,
 
 /// How the values of stages of one kind are saved.
 struct SavedKind {
-    std::vector<std::string_view> arrays;            ///< Besides the arrays of items.
-    std::string_view (*second_array)(const Stage&);  ///< The suffix of another one of each species.
+    std::vector<std::string_view> arrays;  ///< Besides the arrays of items.
+    std::string_view (*second_array)(
+        const Stage&);  ///< The suffix of the array that each species has besides its values.
     void (*save)(ArrayWriter& arrays, const StageState& state, const Program& program,
                  std::uint32_t stage, nlohmann::json& manifest);
     Result<void> (*read)(ArrayReader& arrays, const nlohmann::json& manifest,

@@ -18,8 +18,8 @@
 
 namespace cascade {
 
-/// A position in a file: first the fraction of the width from the left, second that of the height
-/// from the top, third that of the depth from the first slice, all 0 … 1.
+/// A position in a file by three fractions, each 0 … 1: of the width from the left, of the height
+/// from the top, and of the depth from the first slice.
 using FilePlace = std::array<double, 3>;
 
 /// The number at a position in an array, interpolated linearly between the centres of elements.

@@ -43,8 +43,8 @@ std::shared_ptr<const SurfaceMesh> body_of(const Field& values, const DomainMask
             value = std::isnan(value) ? -magnitude : std::clamp(value, -magnitude, magnitude);
         },
         inside);
-    // The length of edges in cells. With so large triangles, the surface of any grid has few of
-    // them.
+    // The longest edges, in cells. With edges of this length, the surface in any grid has few
+    // triangles.
     constexpr double coarsest = 64;
     for (double edge = 1; edge < coarsest; edge *= 2) {
         auto body = grown_body(inside, boundary, never_cancelled, edge);

@@ -70,9 +70,9 @@ struct CellState {
     }
 };
 
-/// Level 0 contains the unfiltered cells. Level k ≥ 1 is blurred so that its standard deviation,
-/// together with that of the filter, is 2^k / 2 distances between cells. A sample 2^k distances
-/// wide has the same standard deviation.
+/// Level 0 contains the unfiltered cells. Level k ≥ 1 is blurred so that blur and filter together
+/// have a standard deviation of 2^k / 2 distances between cells. A sample 2^k distances wide has
+/// the same standard deviation.
 using Levels = std::vector<std::vector<float>>;
 
 /// The level for a sample that covers a square with this side, in distances between cells.
@@ -99,8 +99,8 @@ void add_levels(const SurfaceCells& cells, const CellState& parts, float highest
 /// The mesh to be drawn, which may be a refined copy of the cells' mesh.
 struct Ground {
     const TriangleMesh& mesh;
-    /// For each triangle of the refined mesh, where it comes from. Empty if the mesh is not
-    /// refined.
+    /// For each triangle of the refined mesh, the triangle of the cells' mesh that contains it.
+    /// Empty if the mesh is not refined.
     std::span<const TriangleOrigin> origins;
 
     /// The position on the cells' mesh at which a ray hits the drawn mesh.

@@ -227,7 +227,7 @@ Result<void> FrameRecorder::use_canvases(std::span<const std::size_t> numbers, i
 
 void FrameRecorder::draw_one(Painter& painter, std::size_t number, const Canvas& canvas,
                              Image& image) const {
-    // All frames of a film must have the same size, so those without cells get the size of those
+    // All frames of a film must have the same size, so frames without cells get the size of frames
     // with cells.
     image = shows_cells() ? painter.image_beside_cells(canvas, range())
                           : painter.image(canvas, range(), std::move(image));

@@ -42,7 +42,7 @@ public:
     ValueRange range() const { return automatic_range(values_); }
 
     /// The part of the work on a picture that must be done in the order of the pictures. It runs
-    /// after that of all earlier pictures.
+    /// after the same work for all earlier pictures.
     using InOrder = std::function<Result<void>()>;
     /// Processes the picture of frame `number`, and returns the work that must be done in order.
     /// Called on several threads at the same time.

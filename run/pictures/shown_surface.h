@@ -38,16 +38,17 @@ struct ShownSurface {
     Axis up = Axis::y;
     /// The distance between a model's cells, in the lengths of `positions`. 0 for a function.
     double spacing = 0;
-    /// The positions of a model are in the coordinates of scripts, and those of a function in its
-    /// own space. A body is turned like pictures, with z upwards (see lay_flat()).
+    /// The positions of a model are in the coordinates of scripts. The positions of a function's
+    /// surface are in the function's own space. A body is turned like pictures, with z upwards (see
+    /// lay_flat()).
     std::vector<Vector3> positions;
     std::vector<Vector3> normals;  ///< Of length 1. A point on a crease is stored as several
                                    ///< vertices with different normals.
     /// For a function: x and y of the vertices in script coordinates. Otherwise empty.
     std::vector<std::array<float, 2>> places;
     std::vector<std::array<std::uint32_t, 3>> triangles;
-    /// The weights of vertex v are those from shares[ends[v − 1]] up to shares[ends[v]]. Cells are
-    /// numbered in the order of planes, row by row.
+    /// The weights of vertex v are shares[ends[v − 1]] up to shares[ends[v]]. Cells are numbered in
+    /// the order of planes, row by row.
     std::vector<std::uint32_t> ends;
     std::vector<CellShare> shares;
 };

@@ -199,7 +199,7 @@ PaintedNames go_on_with_fields(Simulation& simulation, std::uint32_t k, const Ke
     return still_painted;
 }
 
-/// Are two expressions the same except for their source locations.
+/// Whether two expressions are the same except for their source locations.
 bool is_same(const Formula& first, const Formula& second) {
     return std::equal(first.nodes.begin(), first.nodes.end(), second.nodes.begin(),
                       second.nodes.end(), [](const Node& a, const Node& b) {

@@ -6,7 +6,7 @@
 
 namespace cascade {
 
-/// A way in which a result may differ from what it seems.
+/// A way in which a result may be misleading.
 template <typename Subject>
 struct Diagnosis {
     bool (*applies)(const Subject& subject);

@@ -42,7 +42,7 @@ struct Ended {
 
 bool took_steps(const Ended& ended) { return ended.state().done && ended.state().steps > 0; }
 
-/// Does its course reach its end?
+/// Whether the record of the stage (its course) reaches to its end.
 bool was_watched(const Ended& ended) {
     const StageState& state = ended.state();
     return state.done && !state.course.empty() && state.course.last().step == state.steps;
@@ -50,13 +50,14 @@ bool was_watched(const Ended& ended) {
 
 bool was_watched_in_steps(const Ended& ended) { return took_steps(ended) && was_watched(ended); }
 
-/// The trend of the last stage. Earlier ones are often ended early on purpose.
+/// The trend of the last stage. Earlier stages have none, because they are often ended early on
+/// purpose.
 Trend trend_of(const Ended& ended) {
     const bool is_meant = !ended.is_last || ended.state().condition_met;
     return is_meant ? Trend::none : ended.course().trend();
 }
 
-/// Is every parameter the same in all cells?
+/// Whether every parameter is the same in all cells.
 bool is_uniform_in_space(const Stage& stage, const System& system) {
     return std::ranges::all_of(system.quantities.ids(), [&](ItemId item) {
         return system.is_species(item) || stage.uniform[item];
@@ -190,7 +191,8 @@ std::string describe_growth(const Ended& ended) {
         course.last().species[fastest].deviation(), errors.empty() ? "" : "; it " + errors);
 }
 
-/// Do the cells differ, in every species, by no more than the tolerance of a step?
+/// Describes a stage in which the cells differ, in every species, by no more than the tolerance of
+/// a step.
 std::string describe_tolerance(const Ended& ended) {
     const StageTime& time = ended.stage().time;
     const auto is_within = [&](const Spread& spread) {
@@ -217,7 +219,7 @@ std::string describe_fading(const Ended& ended) {
     return ended.about("is dying out: the deviations left are small and falling ({})", rest);
 }
 
-/// Does a stage end with its starting values because its rates are 0 everywhere?
+/// Describes a stage that ends with its starting values because its rates are 0 everywhere.
 std::string describe_standstill(const Ended& ended) {
     const StageCourse& course = ended.course();
     const auto is_same = [](const Spread& a, const Spread& b) {
@@ -239,8 +241,8 @@ std::string describe_standstill(const Ended& ended) {
 
 bool is_of_neighbours(const Node& node) { return node.is<Call>() && differentiates(node.function); }
 
-/// Could the grid alone have made the fronts of this stage stand still? False if its result depends
-/// on positions, random numbers, earlier stages, frozen cells or a model.
+/// Whether the grid alone could have made the fronts of this stage stand still. False if its result
+/// depends on positions, random numbers, earlier stages, frozen cells or a model.
 bool may_be_pinned(const Ended& ended) {
     const StageView& view = ended.view;
     const StageState& state = view.state();

@@ -15,8 +15,9 @@ namespace {
 
 constexpr std::int64_t most_settling_steps = 1'000'000'000;
 
-/// Would the solver become unstable in finer cells unless `speed` is reduced? Euler's steps are
-/// divided automatically if they are too long (StageTimer::substeps), provided `speed` is uniform.
+/// Whether the solver would become unstable in finer cells unless `speed` is reduced. Euler's steps
+/// are divided automatically if they are too long (StageTimer::substeps), provided `speed` is
+/// uniform.
 bool needs_shorter_steps(const Stage& stage, bool has_uniform_speed) {
     const Solver solver = stage.time.solver;
     if (stage.time.chooses_steps() || takes_long_steps(solver)) return false;

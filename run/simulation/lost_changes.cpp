@@ -24,7 +24,8 @@ constexpr double lost_change_threshold = 0.01;
 constexpr double least_noticed = 5e-6;
 /// A change of this part of the differences between cells is noticed.
 constexpr double part_of_differences = 0.1;
-/// Less than this part of the differences at the start of a stage is the rest of a fading pattern.
+/// If less than this part of the differences at the start of a stage is left, the pattern is
+/// fading.
 constexpr double least_contrast_left = 0.1;
 
 /// Changes that are so small that adding them to a species has no effect.

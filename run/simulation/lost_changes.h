@@ -16,7 +16,7 @@ struct ChangesLost {
     double lost = 0;    ///< The sum of the changes lost during the stage.
 };
 
-/// Can a stage have lost enough to matter?
+/// Whether a stage can have lost enough to matter.
 bool could_lose_changes(const StageView& view);
 
 /// The first species that has lost changes.

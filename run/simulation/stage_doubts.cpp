@@ -44,7 +44,7 @@ public:
 
     const std::string& name() const { return view.stage().name; }
     std::string species(std::size_t number) const { return species_name(view.system(), number); }
-    /// Several doubts ask for it; it is measured once.
+    /// Whether values jump from step to step. Measured once, although several doubts need it.
     const std::optional<Flicker>& flicker() const {
         if (!flicker_) flicker_ = allows_trial_steps(ended) ? find_flicker(ended) : std::nullopt;
         return *flicker_;
@@ -155,7 +155,7 @@ std::string describe_flicker(const Doubted& stage, const SureFlicker& sure) {
     return text + fmt::format("try 'speed: {:.2g}'", use.speed / 2);
 }
 
-// Neighbours that alternate because of the steps or the rate.
+// Describes neighbours that alternate because of the steps or the rate.
 
 /// The number of the first species that alternates from cell to cell.
 std::optional<std::size_t> find_alternating(const Doubted& stage) {
@@ -216,8 +216,8 @@ std::string describe_chequerboard(const Doubted& stage, std::size_t species) {
 /// alternate with each step often alternate with steps of half the length, too.
 constexpr std::int64_t shorter_steps = 3;
 
-/// Do the rates depend on the number or length of steps, or on random numbers? If so, shorter steps
-/// would compute a different stage.
+/// Whether the rates depend on the number or length of steps, or on random numbers. If so, shorter
+/// steps would compute a different stage.
 bool knows_its_steps(const Program& program, std::uint32_t stage) {
     const System& system = program.system_of(stage);
     const auto knows = [&](const Node& node) {

@@ -10,7 +10,7 @@ struct Fronts {
     double all = 0, thin = 0;
     double speed = 0;  ///< The sum of the speeds of thin fronts, in cells per unit of time.
 
-    bool are_thin() const;  ///< Are almost all of them thin?
+    bool are_thin() const;  ///< Whether almost all of them are thin.
 };
 
 /// The fronts of a species with this spread. `rates` give their speed, and may be null.

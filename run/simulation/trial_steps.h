@@ -19,7 +19,8 @@ struct EndedStage {
 /// The number of trial steps, which is also at most a quarter of the steps taken before.
 inline constexpr std::int64_t most_trial_steps = 8, least_trial_steps = 4;
 
-/// Can the species be copied, and has the stage taken so many steps that a few more cost little?
+/// Whether the species can be copied and the stage has taken so many steps that a few more cost
+/// little.
 bool allows_trial_steps(const EndedStage& ended);
 
 /// Takes `count` steps with `timer`, and calls `observe` before the first step and after each step.

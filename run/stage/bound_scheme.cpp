@@ -17,8 +17,8 @@ IdVector<RegisterId, bool> halo_registers(const Scheme& scheme) {
     return registers;
 }
 
-/// Are the rates at the end of a step bit for bit the rates at the start of the next step? Not if
-/// they read the number or the length of the step.
+/// Whether the rates at the end of a step are bit for bit the rates at the start of the next step.
+/// They are not if they read the number or the length of the step.
 bool rates_go_on(const StepPlan& plan) {
     for (const Pass& pass : plan.passes) {
         for (const UniformSource& source : pass.bound.uniforms) {

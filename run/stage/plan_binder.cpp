@@ -33,7 +33,7 @@ std::shared_ptr<const Field> areas_of_cells(const BindingContext& context) {
     return areas;
 }
 
-/// Does a pass read a component of a gradient on a model?
+/// Whether a pass reads a component of a gradient on a model.
 bool reads_gradients(const Pass& pass) {
     const auto& code = pass.bound.kernel->code;
     return std::any_of(code.begin(), code.end(), [](const Instruction& instruction) {

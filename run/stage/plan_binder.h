@@ -29,9 +29,9 @@ public:
 
     /// Writes the results of the plan to the last temporaries of the problem.
     void keep_results() { keeps_results_ = true; }
-    /// By species: do neighbours read it? Other plans of the same step may add to this.
+    /// By species: whether neighbours read it. Other plans of the same step may add to this.
     std::vector<bool>& species_needs_halo() { return problem_.species_needs_halo; }
-    /// By register of the scheme: does any sweep read it at neighbours?
+    /// By register of the scheme: whether a sweep reads it at neighbours.
     void set_halo_registers(const IdVector<RegisterId, bool>& registers) {
         halo_registers_ = registers;
     }
@@ -81,7 +81,7 @@ private:
     const SweepForm* form_;  ///< The form of the sweep; null for a plan outside of a scheme.
     const Sweep* sweep_;
     std::vector<double> read_at_;  ///< By output of the sweep: the moment at which rates read it.
-    bool senses_ = false;          ///< Do passes read values that cells sense at their positions?
+    bool senses_ = false;  ///< Whether passes read values that cells sense at their positions.
     bool keeps_results_ = false;
     std::map<const Solve*, std::unique_ptr<OfConstraint>> constraints_;
     StepProblem problem_;

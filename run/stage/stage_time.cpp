@@ -19,10 +19,11 @@ namespace {
 /// it.
 constexpr double usual_duration = 10000;
 constexpr double most_of_duration = 0.05, most_of_duration_without_bound = 0.001;
-/// The first step is this fraction of Euler's longest, because no error estimate precedes it.
+/// The first step is this fraction of the longest stable step of Euler's method, because no error
+/// estimate precedes it.
 constexpr double part_of_first_step = 0.25;
-/// Chosen steps are not shorter than these fractions of Euler's longest and of the duration,
-/// because shorter ones would gain nothing.
+/// Chosen steps are not shorter than these fractions of the longest stable step of Euler's method
+/// and of the duration, because shorter steps would gain nothing.
 constexpr double least_part = 0.01, least_of_duration = 1e-6;
 /// Explicit steps cost little compared with the estimate of their error, so several steps are taken
 /// between two estimates. These are the largest numbers of such steps.
