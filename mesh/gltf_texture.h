@@ -21,8 +21,9 @@ struct GltfTexture {
 };
 
 /// Selects the texture coordinates of the material's base colour. Without such a texture, selects
-/// those of the first texture of normals, roughness, light and occlusion. If the primitive lacks
-/// the selected set, selects its first set without a transformation.
+/// the texture coordinates of the first texture that exists among normals, roughness, light and
+/// occlusion. If the primitive lacks the selected set, selects its first set without a
+/// transformation.
 GltfTexture texture_of(const tinygltf::Model& model, const tinygltf::Primitive& primitive);
 
 }  // namespace cascade

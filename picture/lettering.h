@@ -15,8 +15,8 @@ inline constexpr Colour sheet_ink{0.16F, 0.16F, 0.17F};
 
 /// The number of pixels around the content of a sheet or map.
 inline constexpr std::int64_t sheet_margin = 16;
-/// The least height, in pixels, of a picture on a sheet. A picture with fewer rows, such as that of
-/// a line of cells, is stretched to a band of this height.
+/// The least height, in pixels, of a picture on a sheet. A picture with fewer rows, such as the
+/// picture of a line of cells, is stretched to a band of this height.
 inline constexpr std::int64_t least_band_height = 24;
 
 /// Fills the pixels (x, y) … (x + width − 1, y + height − 1), all of which must be in the image.
