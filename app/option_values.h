@@ -91,7 +91,8 @@ Result<float> parse_bump(std::string_view text);
 Result<std::string> parse_output_path(std::string_view text);
 /// Accepts any text that is not empty.
 Result<std::string> any_text(std::string_view text);
-/// Does a path end as files do, of a format that Cascade writes or that newcomers may try?
+/// Whether a path has the ending of a file format: one that Cascade writes, or another that
+/// newcomers may try.
 bool has_ending_of_file(const std::filesystem::path& path);
 /// Parses the path of a folder for output. It must not end as a file does.
 Result<std::string> parse_folder(std::string_view text);

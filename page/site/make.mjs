@@ -25,7 +25,7 @@ function run(words, options = {}) {
 }
 
 const empty = mkdtempSync(join(tmpdir(), "cascade-site-"));
-/// Can the engine of live.html grow it? It has no files, makes cells for few models, and no bodies.
+/// Whether the engine of live.html can run the script. It has no files and no bodies, and few models have cells there.
 function is_live(script) {
     if (/\bmesh:|\bbody:|\bsurface: *(creature|leopard|giraffe|zebra|fish|frog|implicit)/.test(script)) return false;
     writeFileSync(join(empty, "script.cascade"), script);

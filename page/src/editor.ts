@@ -87,7 +87,7 @@ export class Editor {
     private is_silent = false;
     private timer = 0;
 
-    /// Has text been typed for which `changed` has not been called yet?
+    /// Whether text has been typed for which `changed` has not been called yet.
     get is_changing() { return this.timer !== 0; }
 
     get text() { return this.view.state.doc.toString(); }
@@ -105,7 +105,7 @@ export class Editor {
         this.view.focus();
     }
 
-    /// Has the caret been put anywhere?
+    /// Whether the caret has been put anywhere.
     get was_entered() { return this.has_caret; }
 
     /// Writes at the caret what `compose` makes of the text before and after it, and selects a part of that.

@@ -78,8 +78,8 @@ export function locked_parts(script: string): [from: number, to: number][] {
     return parts;
 }
 
-/// Does a change from `from` to `to` of a text reach into a locked part? Beside it, what is written begins a line of its
-/// own or ends one.
+/// Whether a change of a text from `from` to `to` touches a locked part. Text that a learner writes directly beside a
+/// locked part would join its line, so the ends count too.
 export const touches = (parts: [number, number][], from: number, to: number) => parts.some(([begin, end]) => to >= begin && from <= end);
 
 export const text_in = (texts: Texts, language: string) => texts[language.slice(0, 2)] ?? texts[""] ?? Object.values(texts)[0] ?? "";

@@ -55,7 +55,7 @@ export class LineDrawer {
         });
     }
 
-    /// Does this browser support WebGL2?
+    /// Whether this browser supports WebGL2.
     get is_possible() { return this.program !== undefined; }
 
     private bind(unit: number, texture?: WebGLTexture) {

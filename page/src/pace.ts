@@ -41,10 +41,10 @@ export class Pace {
 
     get is_going_on() { return this.is_asking || this.is_starting || this.seen?.is_going_on === true; }
 
-    /// Is the present moment between two rows of the picture of a one-row grid?
+    /// Whether the present moment is between two rows of the picture of a one-row grid.
     get is_between_rows() { return this.is_asking && this.seen!.is_going_on && is_row(this.seen!); }
 
-    /// Can more steps be taken, possibly after lengthening the last stage?
+    /// Whether more steps can be taken, possibly after lengthening the last stage.
     get is_possible() {
         const last = this.seen?.stages.at(-1);
         return last !== undefined && (!is_over(this.seen!) || last.duration > 0 || last.steps >= last.iterations);

@@ -35,7 +35,7 @@ export class Pattern {
         this.lines = new LineDrawer(use_shader);
     }
 
-    /// Is the pattern drawn in space?
+    /// Whether the pattern is drawn in space.
     get is_solid() {
         const { snapshot, solid } = this, { surface } = solid;
         return !!snapshot && !!surface && solid.is_possible && surface.number === snapshot.surface

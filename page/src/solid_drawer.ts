@@ -111,7 +111,7 @@ export class SolidDrawer {
         gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     }
 
-    /// Is the light of the sky still being computed? Then another picture will be better than the last.
+    /// Whether the light of the sky is still being computed. Then another picture will be better than the last.
     get is_getting_better() { return this.directions < (this.is_slow ? few_sky_directions : sky_directions); }
 
     take(shown: Surface) {

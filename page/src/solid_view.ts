@@ -56,7 +56,7 @@ export class SolidView implements View {
         this.drawer = gl ? new SolidDrawer(gl) : undefined;
     }
 
-    /// Can this browser draw surfaces in space?
+    /// Whether this browser can draw surfaces in space.
     get is_possible() { return this.drawer !== undefined; }
     /// The direction of view in whole degrees, as in requests for pictures.
     get view() {

@@ -4,7 +4,7 @@ import type { Snapshot } from "./connection";
 /// The number of rows of such a picture: the number of cells, within limits.
 export const rows_of_time = ({ columns }: Snapshot) => Math.min(Math.max(columns, 16), 512);
 
-/// Is this snapshot of a grid of one row?
+/// Whether this snapshot is of a grid of one row.
 export const is_row = ({ rows, slice, cells }: Snapshot) => rows === 1 && !slice && !cells;
 
 export class TimeRows {

@@ -65,7 +65,7 @@ protected:
         return values;
     }
 
-    /// Does the grid have the values of the array at the same positions? Values outside count as
+    /// Whether the grid has the values of the array at the same positions. Values outside count as
     /// NaN.
     template <typename Grid>
     void expect_same(const std::string& name, const std::string& species, std::size_t number) {

@@ -57,7 +57,7 @@ struct ScriptFile {
 
 ScriptFile read_script_file(const std::string& text);
 
-/// Does a text match a pattern, in which '…' matches anything?
+/// Whether a text matches a pattern, in which '…' matches anything.
 bool matches(const std::string& text, const std::string& pattern);
 
 }  // namespace cascade::test

@@ -74,7 +74,7 @@ TEST(Equations, AreMathMLForBrowsers) {
         "<mo>,</mo><msup><mn>10</mn><mrow><mo>−</mo><mn>3</mn></mrow></msup><mo>)</mo></mrow>");
 }
 
-/// Are the tags nested correctly?
+/// Whether the tags are nested correctly.
 bool is_well_formed(std::string_view text) {
     std::vector<std::string_view> open;
     for (std::size_t at = text.find('<'); at != std::string_view::npos; at = text.find('<', at)) {
@@ -307,7 +307,7 @@ TEST(Equations, LongSumsGoOnInLinesBelow) {
     EXPECT_EQ(tex("1 / (" + script + ")").find("notag"), std::string::npos);
 }
 
-/// Are all brackets of TeX closed by brackets of the same kind, in order?
+/// Whether all brackets of TeX are closed by brackets of the same kind, in order.
 bool is_balanced(const std::string& text) {
     std::vector<std::string> open;
     for (std::size_t k = 0; k < text.size(); ++k) {

@@ -169,7 +169,7 @@ std::string unescaped(const std::string& literal) {
     return text;
 }
 
-/// Is this text of the sources the beginning of the hint, with anything in place of `{…}`?
+/// Whether this text of the sources is the beginning of the hint, with anything in place of `{…}`.
 bool begins(std::string text, std::string_view hint) {
     text = std::regex_replace(text, std::regex(R"(\{\{|\}\})"), "\x01");  // A literal bracket.
     std::size_t place = 0;

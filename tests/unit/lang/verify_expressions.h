@@ -68,7 +68,7 @@ private:
         return !is_flux || !context_.has_links() || !is_laid_out();
     }
 
-    /// Has everything that depends on the positions of cells been expanded?
+    /// Whether everything that depends on the positions of cells has been expanded.
     bool is_laid_out() const { return is_past(context_.is_tissue() ? "tissue" : "links"); }
     /// A function of vectors in space or of neighbours that lowering has not made for kernels.
     static bool is_of_cells(Function function) {

@@ -10,7 +10,7 @@
 
 namespace cascade::test {
 
-/// Does every edge occur exactly once in each direction?
+/// Whether every edge occurs exactly once in each direction.
 inline bool is_closed(const TriangleMesh& mesh) {
     using Place = std::array<float, 3>;
     std::multiset<std::pair<Place, Place>> edges;
