@@ -10,11 +10,15 @@ export const is_growing = `document.getElementById("run").ariaLabel === "Pause"`
 
 const most_minutes = 12;
 
+/// Up to how many milliseconds a test waits before each command, at random, while the page is up to 6 times as slow.
+/// Whoever changes these tests sets it, for example to 1500, to find steps that depend on how fast things happen.
+const longest_delay = Number(process.env.DELAY ?? 0);
+
 /// Limits a test to twelve minutes, many times as long as it takes on an idle machine. The returned function ends the
 /// browser, the programs and this process. After an error the status is 1, and the error, a screenshot failed.png and
 /// messages of the page are left.
 export function ending(browser, ...programs) {
-    const limit = setTimeout(() => end(new Error(`it took more than ${most_minutes} minutes`)), 60000 * most_minutes);
+    const limit = longest_delay === 0 && setTimeout(() => end(new Error(`it took more than ${most_minutes} minutes`)), 60000 * most_minutes);
     async function end(error) {
         clearTimeout(limit);
         if (error) {
@@ -67,6 +71,7 @@ export class Browser {
         for (const domain of ["Page", "Runtime", "Log"]) await browser.call(`${domain}.enable`);
         // Full speed and a pixel for each cell, unless a test says otherwise.
         await browser.begin_with({ speed: "5", squares: "1" });
+        if (longest_delay > 0) await browser.call("Emulation.setCPUThrottlingRate", { rate: 1 + 5 * Math.random() });
         return browser;
     }
 
@@ -93,7 +98,14 @@ export class Browser {
         error ? caller.reject(new Error(error.message)) : caller.resolve(result);
     }
 
-    call(method, params = {}) {
+    async call(method, params = {}) {
+        if (longest_delay > 0 && this.session && Math.random() < 0.5) {
+            await new Promise((resolve) => setTimeout(resolve, Math.random() * longest_delay));
+        }
+        return this.send(method, params);
+    }
+
+    send(method, params = {}) {
         const id = (this.last = (this.last ?? 0) + 1);
         this.shell.stdio[3].write(JSON.stringify({ id, method, params, sessionId: this.session }) + "\0");
         return new Promise((resolve, reject) => this.waiting.set(id, { resolve, reject }));
@@ -117,7 +129,7 @@ export class Browser {
         throw new Error(await otherwise());
     }
 
-    /// Waits until an expression in the page is true. It is looked at every 50 ms, so it should stay true.
+    /// Waits until an expression in the page is true. It is evaluated every 50 ms, so it should stay true.
     async until(expression, seconds = 240) {
         // During navigation the old page cannot answer, but the next page can.
         const look = () => this.evaluate(expression).catch((error) => { if (!/navigated|context was destroyed/.test(error.message)) throw error; });

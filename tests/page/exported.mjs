@@ -53,14 +53,18 @@ async function enlarge() {
 
 async function expect_the_picture(how, name = "spots") {
     await browser.evaluate(`{ const choice = document.getElementById("palette"); choice.value = "leopard"; choice.dispatchEvent(new Event("change")); }`);
-    const found = await pixels(`document.getElementById("pattern")`);
     const wanted = await pixels(`new Promise((resolve) => {
         const image = new Image();
         image.onload = () => resolve(image);
         image.src = "data:image/png;base64,${readFileSync(`${name}.png`).toString("base64")}";
     })`);
-    const differs = found.findIndex((level, k) => Math.abs(level - wanted[k]) > (k < 2 ? 0 : 1));
-    expect(found.length === wanted.length && differs < 0, `${how}: the canvas differs from ${name}.png at ${differs}: ${found[differs]} and not ${wanted[differs]}`);
+    let found, differs;
+    const is_like = async () => {
+        found = await pixels(`document.getElementById("pattern")`);
+        differs = found.findIndex((level, k) => Math.abs(level - wanted[k]) > (k < 2 ? 0 : 1));
+        return found.length === wanted.length && differs < 0;
+    };
+    await browser.eventually(is_like, () => `${how}: the canvas differs from ${name}.png at ${differs}: ${found[differs]} and not ${wanted[differs]}`);
 }
 
 try {

@@ -36,15 +36,23 @@ const difference = (name) => browser.evaluate(`(async () => {
 })()`);
 
 /// Pictures hold the mean of four points for each pixel, in linear light, and the page one, so that edges differ a bit.
-async function expect_smooth(name, how) {
-    const [width, height] = await sides();
-    expect(width > 300, `${how}: the canvas is ${width} × ${height} pixels large`);
-    const run = spawnSync(program, ["run", `${name}.cascade`, "--palette", "leopard", "--size", `${width}x${height}`, "-o", "smooth_wanted.png", "--quiet"], { encoding: "utf8" });
-    expect(run.status === 0, run.stderr);
-    const [mean, most] = await difference("smooth_wanted.png");
-    expect(mean < 1, `${how}: what is seen differs by ${mean}, at most by ${most} levels`);
-    return mean;
+async function until_smooth(name, how, is_wanted = (mean) => mean < 1) {
+    let drawn, found;
+    await browser.eventually(async () => {
+        const size = await sides();
+        if (size[0] <= 300) return false;
+        if (drawn !== size.join("x")) {
+            drawn = size.join("x");
+            const run = spawnSync(program, ["run", `${name}.cascade`, "--palette", "leopard", "--size", drawn, "-o", "smooth_wanted.png", "--quiet"], { encoding: "utf8" });
+            expect(run.status === 0, run.stderr);
+        }
+        found = await difference("smooth_wanted.png");
+        return is_wanted(found[0]);
+    }, async () => `${how}: a canvas of ${await sides()} pixels differs by ${found?.[0]}, at most by ${found?.[1]} levels`);
+    return found[0];
 }
+
+const until_squares = (columns, how) => browser.eventually(async () => (await sides())[0] === columns, async () => `${how} have ${await sides()} pixels`);
 
 async function open(address, stages) {
     await browser.open(address);
@@ -56,29 +64,29 @@ async function look(name, address, stages, how) {
     await open(address, stages);
     const columns = name === "spots" ? 48 : 40, squares = `document.getElementById("squares")`;
     expect(await browser.evaluate(`!${squares}.checked`), `${how}: planes are not smooth from the start`);
-    const mean = await expect_smooth(name, how);
+    const mean = await until_smooth(name, how);
     writeFileSync(`smooth_${how}.png`, await browser.screenshot());
 
     // Squares of one pixel instead, which the picture of cells has, are far from that.
     await click("squares");
-    expect((await sides())[0] === columns, `${how}: squares have ${await sides()} pixels`);
+    await until_squares(columns, `${how}: squares`);
     await click("squares");
 
     // Zoomed in to single cells they are squares, too, and zoomed out they are smooth again.
     const [x, y, width, height] = await box();
     await browser.wheel(x + width / 2, y + height / 2, -10000);
     await browser.until(`document.getElementById("pattern").getBoundingClientRect().width > ${4 * width}`);
-    expect((await sides())[0] === columns, `${how}: single cells are not squares: ${await sides()} pixels`);
+    await until_squares(columns, `${how}: single cells`);
     writeFileSync(`smooth_near_${how}.png`, await browser.screenshot());
     await click("fit");
-    expect(Math.abs(await expect_smooth(name, `${how}, zoomed out again`) - mean) < 1e-9, `${how}: the picture is another one after zooming`);
+    await until_smooth(name, `${how}, zoomed out again`, (again) => Math.abs(again - mean) < 1e-9);
 
     // Lines and relief lie over the smooth colours.
     if (name !== "spots") return;
     const [plain] = await difference("smooth_wanted.png");
     await choose("relief", "0.5", "input");
-    const [lit] = await difference("smooth_wanted.png");
-    expect(lit > plain + 0.3 && lit < 40, `${how}: relief differs by ${lit} from ${plain}`);
+    let lit;
+    await browser.eventually(async () => ([lit] = await difference("smooth_wanted.png"))[0] > plain + 0.3 && lit < 40, () => `${how}: relief differs by ${lit} from ${plain}`);
     writeFileSync(`smooth_lit_${how}.png`, await browser.screenshot());
     await choose("relief", "0", "input");
 }
