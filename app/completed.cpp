@@ -57,7 +57,7 @@ bool is_known(const std::string& name, Completed& values) {
     return false;
 }
 
-/// The words in "N|faces|vertices" that stand for themselves.
+/// The words in "N|faces|vertices" that a user types as they are, without the placeholder N.
 std::vector<std::string> words_in(std::string_view value) {
     std::vector<std::string> words;
     while (!value.empty()) {

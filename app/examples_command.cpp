@@ -65,8 +65,8 @@ Failure unknown_example(const std::vector<Example>& examples,
                 : "'cascade examples' lists the names"};
 }
 
-/// Copies the script of an example, and the files that it reads, to the place where `target` is
-/// written. No existing file is replaced, and if any of them exists, none is written.
+/// Copies the script of an example to `target`, and the files that it reads to the same folder. If
+/// any of the copies would replace a file, writes none.
 Result<std::vector<fs::path>> copy_example(const Example& example, const fs::path& target) {
     std::vector<std::pair<fs::path, fs::path>> copies = {{example.file, target}};
     for (const fs::path& file : files_read_by(example)) {

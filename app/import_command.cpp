@@ -34,9 +34,9 @@ std::string imported_name(const std::string& source) {
 }
 
 /// The longest stable step at the start of the stage, on a grid of few cells with the same spacing.
-/// Nothing if no estimate is possible.
+/// Empty if no estimate is possible.
 std::optional<double> longest_stable_step(importing::Draft draft, const fs::path& folder) {
-    // The values of files belong to the whole grid. Any others show the same limit of diffusion.
+    // The values of files need the whole grid. Other values give the same limit of diffusion.
     for (auto* const part : {&draft.parameters, &draft.starts}) {
         for (std::string& each : *part) {
             const auto file = each.find("field(");
@@ -63,7 +63,7 @@ std::optional<double> longest_stable_step(importing::Draft draft, const fs::path
     return longest_step(view.stability(view.state().species()), view.step_in_use());
 }
 
-/// Shortens a step that would not be stable, and says so in the script.
+/// Shortens a step that would not be stable, and adds a comment about it to the script.
 void shorten_step(importing::Draft& draft, const fs::path& folder) {
     const auto limit = longest_stable_step(draft, folder);
     if (!limit || draft.speed <= *limit) return;

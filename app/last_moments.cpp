@@ -1,5 +1,5 @@
-// Two timers of the system send SIGPROF: one counts the processor time of all threads, the other
-// looks at the clock. Their handler calls only functions that POSIX allows in handlers.
+// Two timers of the system send SIGPROF: one measures the processor time of all threads, the other
+// measures real time. Their handler calls only functions that POSIX allows in handlers.
 #include "app/last_moments.h"
 
 #include "app/exit_status.h"

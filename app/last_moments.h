@@ -1,5 +1,5 @@
-// The short time that a program has after SIGTERM, SIGHUP or --limit-time. It is short because a
-// system that shuts down soon kills the processes that are left.
+// The short time that a program has to end after SIGTERM, SIGHUP or --limit-time. It is short
+// because a system that shuts down soon kills all processes that still run.
 #pragma once
 
 #include "core/run_control.h"
@@ -8,11 +8,12 @@
 
 namespace cascade {
 
-/// While it exists, and once begin_last_moments() is called, `hurry` is set after half of a time,
-/// and at its end the program ends where `may_end` is true. The time is 2 s of processor time or,
-/// if the limit of time is reached, a tenth of `limit_seconds` if that is more. `hurry` is also set
-/// after 5 s of the clock, in which another program may have computed. Only one may exist at a
-/// time. It uses system timers, since creating a thread may be denied.
+/// As long as this object exists, begin_last_moments() starts a short time. After half of it
+/// `hurry` is set, and at its end the program ends if `may_end` is true. The time is 2 s of
+/// processor time or, if the limit of time is reached, a tenth of `limit_seconds` if that is more.
+/// `hurry` is also set after 5 s of real time, because other programs may have used the processor.
+/// Only one such object may exist at a time. Uses system timers, because creating a thread may be
+/// forbidden.
 class LastMoments {
 public:
     LastMoments(double limit_seconds, std::atomic<bool>& hurry, const std::atomic<bool>& may_end);

@@ -8,8 +8,8 @@
 namespace cascade {
 
 /// Sets `cancel` after a number of seconds, unless this object is destroyed before. 0 means no
-/// limit. The program's last moments begin then. Only one such object may exist at a time. Uses a
-/// system timer, because creating a thread may be forbidden.
+/// limit. At that moment the program's last moments begin (app/last_moments.h). Only one such
+/// object may exist at a time. Uses a system timer, because creating a thread may be forbidden.
 class TimeLimit {
 public:
     TimeLimit(double seconds, std::atomic<bool>& cancel);

@@ -37,7 +37,7 @@ std::string upper(std::string text) {
     return text;
 }
 
-/// What NAME says of a command: the first sentence without its full stop.
+/// The text for the section NAME: the first sentence without its full stop.
 std::string in_short(const std::string& about) {
     std::string first = about.substr(0, about.find(". "));
     std::replace(first.begin(), first.end(), '\n', ' ');
@@ -78,8 +78,8 @@ std::string options_by_group(const std::vector<ManualOption>& options) {
     return text;
 }
 
-/// The text at the end of --help: indented lines stay as they are, "Examples:" becomes a heading,
-/// and so does "Exit status:".
+/// The text at the end of --help. Indented lines stay as they are. "Examples:" and "Exit status:"
+/// become headings.
 std::string examples(std::string_view text) {
     constexpr std::string_view status = "Exit status: ";
     std::string page;

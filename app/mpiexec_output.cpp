@@ -1,4 +1,4 @@
-// Knows the words of Open MPI 4 and of Hydra, the launcher of MPICH 4.
+// Recognises the messages of Open MPI 4 and of Hydra, the launcher of MPICH 4.
 #include "app/mpiexec_output.h"
 
 #include <fmt/format.h>
@@ -38,7 +38,7 @@ std::string this_machine() {
 
 constexpr std::string_view before_process = "cascade: rank 0 is process ";
 
-/// The process of an announcement, if it is on this machine.
+/// The process that an announcement names, if it is on this machine.
 std::optional<pid_t> announced(std::string_view line) {
     pid_t process = 0;
     const char* const end = line.data() + line.size();

@@ -8,8 +8,8 @@
 
 namespace cascade {
 
-/// The line by which rank 0 tells the process that has called mpiexec to which process Ctrl-C must
-/// be passed on.
+/// A line that rank 0 prints when it starts. It tells the process that has called mpiexec which
+/// process must receive Ctrl-C.
 std::string announcement_of_root();
 
 /// Separates the messages of ranks, which are passed on, from the explanations of mpiexec, which

@@ -117,7 +117,7 @@ std::string Parser::near_option(const std::string& word) {
     return nearest_name(word.substr(0, word.find('=')), names);
 }
 
-/// The first argument that looks like an option but is none.
+/// The first argument that begins like an option but is not one.
 std::optional<std::string> Parser::unknown_option() const {
     for (const std::string& word : app.remaining(true)) {
         if (word.starts_with("-") && word.size() > 1) return word;

@@ -25,7 +25,7 @@
 namespace cascade {
 namespace {
 
-// What the signal handler reads and changes, so it is global.
+// The signal handler reads and changes these, so they are global.
 std::atomic<pid_t> mpiexec_process{0}, root_process{0};
 std::atomic<int> interrupts{0};
 static_assert(std::atomic<pid_t>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
@@ -40,7 +40,7 @@ extern "C" void pass_on(int) {
     }
 }
 
-/// Passes signals on while it exists.
+/// Passes signals on as long as this object exists.
 class PassedSignals {
 public:
     PassedSignals() {

@@ -25,11 +25,12 @@ struct Draft {
     std::vector<std::string> domain;
     std::vector<std::string> stage;  ///< Its statements except `speed`.
     double speed = 1;
-    /// Whether a shorter step means the same: false if a formula computes values of the next step.
+    /// Whether a shorter step gives the same equations. False if a formula computes values of the
+    /// next step.
     bool may_shorten = true;
-    /// Whether the file has no pattern at the start and its program waits for a click.
+    /// Whether the file has no pattern at the start because its program waits for a click.
     bool waits_for_click = false;
-    /// What differs from the source. Written as comments, and shown to the user.
+    /// The differences from the source. Written as comments, and shown to the user.
     std::vector<std::string> remarks;
     std::vector<FileBeside> files;
 };
@@ -40,7 +41,7 @@ std::string write_script(const Draft& draft);
 /// Whether a statement reads or declares the name.
 bool has_word(std::string_view statement, std::string_view name);
 
-/// A line of text without control characters and repeated blanks, for comments.
+/// A text as one line without control characters and repeated blanks, for comments.
 std::string plain_line(std::string_view text);
 
 /// Chooses names that a script may declare. A name that the language uses gets an underscore.
@@ -48,7 +49,7 @@ class FreeNames {
 public:
     /// The name under which the script declares `foreign`. Different names stay different.
     std::string declare(std::string_view foreign);
-    /// A name like `wanted` that nothing else has.
+    /// A name like `wanted` that is not used yet.
     std::string fresh(std::string_view wanted);
 
 private:

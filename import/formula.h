@@ -30,7 +30,7 @@ struct Expression {
     std::string text = "0";
     std::vector<Expression> of = {};
     Span span = {};         ///< The place in the source.
-    bool is_whole = false;  ///< Whether C computes it with whole numbers, as `1/2` is 0 there.
+    bool is_whole = false;  ///< Whether C computes it with integers: `1/2` is 0 in C.
     std::uint32_t depth = 1;
 
     bool is_number(std::string_view value) const { return kind == Kind::number && text == value; }
@@ -58,17 +58,17 @@ Expression operation(Expression left, std::string_view sign, Expression right);
 /// A number as Cascade writes it, with up to nine digits.
 std::string number_text(double value);
 
-/// Reads the formula at `span` of a source. Reports an error and returns nothing if it is not a
-/// formula. In XML texts `&lt;`, `&gt;` and `&amp;` are read as the signs that they mean.
+/// Reads the formula at `span` of a source. If it is not a formula, reports an error and returns an
+/// empty optional. In XML texts `&lt;`, `&gt;` and `&amp;` are read as the signs that they mean.
 std::optional<Expression> read_formula(Span span, const Sources& sources, Diagnostics& diagnostics,
                                        const Dialect& dialect);
 
-/// The tree as text. Brackets surround it if it binds less than `least`, a precedence of the
+/// The tree as text. It is in brackets if its operator binds less than `least`, a precedence of the
 /// language's operators from 1 (`or`) to 9 (operands).
 std::string write_formula(const Expression& formula, int least = 0);
 
-/// Replaces each name and each call by what `replace` returns for it. The arguments of a call are
-/// replaced before the call. Where `replace` returns nothing, nothing changes.
+/// Replaces each name and each call by the result of `replace`. The arguments of a call are
+/// replaced before the call. If the result is empty, the name or call stays.
 using Replace = std::function<std::optional<Expression>(const Expression&)>;
 Expression replaced(const Expression& formula, const Replace& replace);
 
@@ -79,11 +79,11 @@ struct ForeignFunction {
     std::size_t arguments;
     std::string_view meaning;
 };
-/// The meaning of a call by a table. Nothing if the table has no such function.
+/// The meaning of a call by a table. Empty if the table has no such function.
 std::optional<Expression> meaning_of(const Expression& function,
                                      std::span<const ForeignFunction> table);
 
-/// The value of a formula of numbers and functions of numbers. Nothing if it contains a name or
+/// The value of a formula of numbers and functions of numbers. Empty if it contains a name or
 /// another function.
 std::optional<double> value_of(const Expression& formula);
 

@@ -24,7 +24,7 @@ Expression with_operands(Expression node) {
 }  // namespace
 
 std::string number_text(double value) {
-    // Scripts are in single precision, whose numbers nine digits tell apart.
+    // Scripts are in single precision. Nine digits are enough to distinguish its numbers.
     return fmt::format("{:.9g}", value);
 }
 
@@ -92,8 +92,8 @@ Expression replaced(const Expression& formula, const Replace& replace) {
 
 namespace {
 
-/// The largest call that is replaced by its meaning, in parts. A meaning may repeat arguments, so
-/// nested calls could grow without bound.
+/// A call with more parts than this is not replaced by its meaning. A meaning may repeat arguments,
+/// so nested calls could grow without bound.
 constexpr std::size_t largest_call = 20'000;
 
 /// Counts the parts of a formula until there are more than `most`.

@@ -15,7 +15,7 @@ bool is_letter_of_name(char letter) {
 }
 bool is_decimal_digit(char letter) { return letter >= '0' && letter <= '9'; }
 
-/// The signs of all dialects, longer ones first. The second column is what they mean.
+/// The signs of all dialects, longer ones first, with their meanings.
 constexpr std::pair<std::string_view, std::string_view> foreign_signs[] = {
     {"&amp;&amp;", "and"}, {"&lt;=", "<="}, {"&gt;=", ">="}, {"&lt;", "<"}, {"&gt;", ">"},
     {"**", "**"},          {"+=", "+="},    {"-=", "-="},    {"*=", "*="},  {"/=", "/="},
@@ -29,7 +29,8 @@ public:
     WordReader(Span span, std::string_view text, const Dialect& dialect)
         : span_(span), text_(text), dialect_(dialect) {}
 
-    /// The next word. Its kind is `end` at the end, and its text then tells of a wrong letter.
+    /// The next word. At the end of the text its kind is `end`. If a letter belongs to no word, the
+    /// kind is `end`, too, and the text describes the error.
     FormulaWord next() {
         skip();
         FormulaWord word;

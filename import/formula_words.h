@@ -1,5 +1,5 @@
-// Divides a formula of another program into words (internal to read_formula.cpp and the readers of
-// programs of several statements).
+// Divides a formula of another program into words. Internal to read_formula.cpp and to readers of
+// programs with several statements.
 #pragma once
 
 #include "import/formula.h"
@@ -17,17 +17,17 @@ struct FormulaWord {
     bool is_whole = false;  ///< A number without a point and an exponent.
 };
 
-/// The most words of one formula or list of statements.
+/// The largest number of words in one formula or list of statements.
 inline constexpr std::size_t most_formula_words = 100'000;
 
-/// The words of a text. The last is `end`. Comments of C are left out. Reports an error and returns
-/// nothing if a letter belongs to no word.
+/// The words of a text, followed by `end`. Comments of C are left out. If a letter belongs to no
+/// word, reports an error and returns an empty optional.
 std::optional<std::vector<FormulaWord>> formula_words(Span span, const Sources& sources,
                                                       Diagnostics& diagnostics,
                                                       const Dialect& dialect);
 
-/// Writes loops `for (int i = 0; i < 5; i++) { … }` out, and gives the elements of arrays names:
-/// `u[2]` becomes `u_2`. Loops of another form stay as they are.
+/// Replaces each loop `for (int i = 0; i < 5; i++) { … }` by its repeated statements, and gives the
+/// elements of arrays names: `u[2]` becomes `u_2`. Loops of another form stay as they are.
 std::vector<FormulaWord> unroll_loops(std::vector<FormulaWord> words);
 
 /// Reads expressions from words, by operator precedence. After an error, all further results are 0

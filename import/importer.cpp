@@ -8,7 +8,7 @@ namespace cascade::importing {
 
 namespace {
 
-/// Also .vtu, so that the reader can refuse meshes by name.
+/// Accepts .vtu, too, so that the reader can refuse meshes with a suitable message.
 bool is_ready(std::string_view file, std::string_view bytes) {
     return file.ends_with(".vti") || file.ends_with(".vtu") ||
            bytes.substr(0, 4096).find("<VTKFile") != std::string_view::npos;

@@ -18,15 +18,15 @@ inline constexpr std::uint64_t largest_import = std::uint64_t{1} << 28;
 /// The most cells of an imported domain.
 inline constexpr std::int64_t most_imported_cells = std::int64_t{1} << 26;
 
-/// A file or link to import, and where messages about it go.
+/// A file or link to import, and the receiver of messages about it.
 struct Import {
     Sources& sources;
     Diagnostics& diagnostics;
     SourceId source = 0;    ///< The bytes of the file.
-    std::string name = {};  ///< Of the file, as messages and the comment of the script give it.
+    std::string name = {};  ///< The name of the file in messages and in the comment of the script.
     std::string stem = {};  ///< The beginning of the names of files beside the script.
-    /// Diffusion coefficients that the user gives, by the names of species. For formats that have
-    /// none.
+    /// Diffusion coefficients that the user gives, by the names of species. For formats that do not
+    /// contain any.
     std::map<std::string, std::string> diffusion = {};
 
     std::string_view bytes() const { return sources[source].text(); }
@@ -34,11 +34,12 @@ struct Import {
 
 /// A format of other programs.
 struct ImportFormat {
-    std::string_view name;     ///< Such as "pattern of Ready".
-    std::string_view endings;  ///< Such as ".vti", as shown in messages.
+    std::string_view name;     ///< For example "pattern of Ready".
+    std::string_view endings;  ///< For example ".vti", as messages show it.
     bool takes_diffusion;      ///< Whether `--diffusion` has a meaning.
     bool (*recognises)(std::string_view file, std::string_view bytes);
-    /// Reports errors at their place and returns nothing if the file cannot be imported unchanged.
+    /// If the file cannot be imported unchanged, reports errors with their positions and returns an
+    /// empty optional.
     std::optional<Draft> (*read)(Import& import);
 };
 std::span<const ImportFormat> import_formats();

@@ -12,7 +12,7 @@ class LzBits {
 public:
     explicit LzBits(std::string_view letters) : letters_(letters) {}
 
-    /// A number of `count` bits, the lowest first. Nothing at the end of the letters.
+    /// A number of `count` bits, the lowest first. Empty at the end of the letters.
     std::optional<std::uint32_t> take(int count) {
         std::uint32_t value = 0;
         for (int k = 0; k < count; ++k) {
@@ -30,8 +30,7 @@ private:
         constexpr std::string_view alphabet =
             "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+-$";
         const std::size_t place = alphabet.find(letter);
-        // '$' is the filling of the last group, and has the value 64 in lz-string, whose low six
-        // bits are 0.
+        // '$' fills the last group. lz-string gives it the value 64, whose low six bits are 0.
         return place == std::string_view::npos ? -1 : static_cast<int>(place & 63);
     }
 
@@ -89,12 +88,12 @@ Units units_of(const std::vector<LzEntry>& entries, std::uint32_t index) {
 std::optional<std::string> from_lz_string(std::string_view letters, std::size_t most) {
     LzBits bits(letters);
     std::vector<LzEntry> entries(3);  // The codes 0, 1 and 2 have other meanings.
-    std::uint32_t room = 4;           // The codes until they become a bit wider.
+    std::uint32_t room = 4;           // How many more codes have the present width.
     int width = 3;
     const auto counts_down = [&] {
         if (--room == 0) room = 1u << width++;
     };
-    /// The entry that a code names, or a new entry of one unit. 2 is the end.
+    /// The entry that a code denotes, or a new entry of one unit. The code 2 marks the end.
     const auto entry_of = [&](std::uint32_t code) -> std::optional<std::uint32_t> {
         if (code >= 2) return code;
         const auto unit = bits.take(code == 0 ? 8 : 16);
@@ -118,7 +117,8 @@ std::optional<std::string> from_lz_string(std::string_view letters, std::size_t 
         if (*code < 2) counts_down();
         const auto next = static_cast<std::uint32_t>(entries.size());
         if (*entry > next) return std::nullopt;
-        // A code may name the entry that is about to be made, which begins like the one before.
+        // A code may denote the entry that is about to be made. This entry begins with the previous
+        // one.
         Units units = units_of(entries, *entry < next ? *entry : before);
         if (*entry == next) units.push_back(units.front());
         text.insert(text.end(), units.begin(), units.end());

@@ -50,7 +50,7 @@ bool read_cells(ReadyPattern& pattern, const pugi::xml_node& image) {
     return false;
 }
 
-/// The text before the rules: what the file is, and its description without marks of HTML.
+/// The text before the rules: the type of the file, and its description without HTML tags.
 std::vector<std::string> description_of(const Import& import, const pugi::xml_node& rd) {
     const std::string title = plain_line(unescaped(rd.child("rule").attribute("name").value()));
     std::vector<std::string> lines = {fmt::format("{}, imported from a pattern of Ready: {}",
@@ -93,7 +93,7 @@ bool read_parameters(ReadyPattern& pattern, const pugi::xml_node& rule) {
     return true;
 }
 
-/// The values of a species in the file as a NumPy array beside the script.
+/// Stores the values of a species in the file as a NumPy array beside the script.
 std::optional<std::string> store_species(const ReadyPattern& pattern, const VtkFile& file,
                                          const pugi::xml_node& data, std::size_t species,
                                          Draft& draft) {
@@ -130,7 +130,7 @@ std::optional<std::string> store_species(const ReadyPattern& pattern, const VtkF
     return fmt::format("field(\"{}\")", draft.files.back().name);
 }
 
-/// Whether the overlays of the file, rather than its values, are the starting values.
+/// Whether the starting values come from the overlays of the file, and not from its values.
 bool begins_with_overlays(const pugi::xml_node& generator) {
     return generator &&
            std::string_view(generator.attribute("apply_when_loading").as_string("true")) == "true";

@@ -11,7 +11,7 @@
 
 namespace cascade::importing {
 
-/// What the reader of a pattern knows of it.
+/// The properties of a pattern that its reader has found.
 struct ReadyPattern {
     Import& import;
     FreeNames names = {};
@@ -33,7 +33,7 @@ struct ReadyPattern {
 
 /// Ready's name of the chemical `index`: a … z, aa … az, ba …
 std::string ready_chemical(std::size_t index);
-/// The number of a chemical. Nothing if there is none of this name.
+/// The number of a chemical. Empty if no chemical has this name.
 std::optional<std::size_t> ready_chemical_number(std::string_view name, std::size_t count);
 
 /// Adds the definitions and rates of the formula. Returns false after an error.

@@ -1,9 +1,9 @@
-// Translates the formula of a pattern of Ready, a straight piece of OpenCL for one step of Euler's
+// Translates the formula of a pattern of Ready: assignments in OpenCL for one step of Euler's
 // method.
 //
-// Assignments happen one after the other, and each name means its last assignment. In the script
-// each assignment is a separate definition. In the end a chemical has the value that it was
-// assigned, if any, plus timestep times its delta.
+// Assignments are executed in order, and each name denotes its last assignment. In the script each
+// assignment is a separate definition. In the end a chemical has the value that it was assigned, if
+// any, plus timestep times its delta.
 #include "import/formula_words.h"
 #include "import/ready.h"
 #include "import/ready_words.h"
@@ -136,7 +136,7 @@ void ReadyFormula::assign(const FormulaWord& target, const std::string& sign, Ex
     assigned_.push_back(std::move(made));
 }
 
-/// A comparison of vectors of OpenCL is -1 or 0, so it may only be a condition.
+/// A comparison of vectors is -1 or 0 in OpenCL, so it may only be used as a condition.
 void ReadyFormula::check_conditions(const Expression& value, bool is_condition) {
     constexpr std::string_view comparisons[] = {"<", "<=", ">", ">=", "==", "!="};
     const bool compares = std::find(std::begin(comparisons), std::end(comparisons), value.text) !=
@@ -268,7 +268,7 @@ void ReadyFormula::count_uses(const Expression& value) {
     for (const Expression& operand : value.of) count_uses(operand);
 }
 
-/// The value with deltas that are used once in place of their names.
+/// The value. Each delta that is used only once is written in place of its name.
 Expression ReadyFormula::inlined(const Expression& value) const {
     return replaced(value, [&](const Expression& part) -> std::optional<Expression> {
         for (const Assigned& each : assigned_) {

@@ -1,8 +1,8 @@
 // Writes the overlays of a pattern of Ready as starting values.
 //
-// An overlay changes a chemical inside of its shapes by an operation and a fill. Overlays apply one
-// after the other. Positions are fractions of the domain, and Ready compares them with the corners
-// of cells; shapes are written here such that they contain the same cells.
+// An overlay changes a chemical inside its shapes by an operation and a fill. Overlays are applied
+// in order. Positions are fractions of the domain. Ready compares them with the corners of cells,
+// so shapes are written here such that they contain the same cells.
 #include "import/ready.h"
 
 #include <fmt/format.h>
@@ -116,8 +116,8 @@ private:
 
     bool exists(std::size_t axis) const { return pattern_.cells[axis] > 1; }
 
-    /// The place `at` along an axis, counted in cells from the corner of Ready's first cell, as a
-    /// coordinate of Cascade: "128.5/256" for the middle of the cell 128.
+    /// The position `at` along an axis, counted in cells from the corner of Ready's first cell, as
+    /// a coordinate of Cascade: "128.5/256" for the middle of the cell 128.
     Expression coordinate(std::size_t axis, double at) const {
         const double middle = at + 0.5;
         const double place = axis == 1 ? static_cast<double>(pattern_.cells[1]) - middle : middle;
@@ -127,7 +127,7 @@ private:
         return value * 1000 == std::floor(value * 1000) ? number(value) : quotient;
     }
 
-    /// The condition that a cell is inside a shape. Nothing if no cell is.
+    /// The condition that a cell is inside a shape. Empty if no cell is inside.
     std::optional<Expression> shape_of(const pugi::xml_node& node) {
         const std::string_view kind = node.name();
         if (kind == "everywhere") return number(1);
@@ -227,7 +227,7 @@ private:
         return squares;
     }
 
-    /// The part of the way from the first point to the second, as a formula of the position.
+    /// The fraction of the way from the first point to the second, as a formula of the position.
     Expression way(const std::vector<Point>& points, const pugi::xml_node& node) {
         double length2 = 0;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -243,7 +243,7 @@ private:
                 continue;
             }
             const auto count = static_cast<double>(pattern_.cells[axis]);
-            // Ready's fraction of the side: x_pos = sx - 0.5/W, y_pos = 1 - sy - 0.5/H.
+            // In Ready, fractions of the side are x_pos = sx - 0.5/W and y_pos = 1 - sy - 0.5/H.
             const double origin = points[0][axis] + 0.5 / count;
             const Expression place = name(fmt::format("s{}", "xyz"[axis]));
             const Expression from = axis == 1 ? operation(number(1 - origin), "-", place)

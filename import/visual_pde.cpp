@@ -123,7 +123,7 @@ bool add_mask(VisualPdeNames& names, const VisualPdeOptions& options, Draft& dra
     return true;
 }
 
-/// What VisualPDE shows, if pictures can show it, and else the first species.
+/// The value that VisualPDE shows, if pictures can show it, otherwise the first species.
 std::string shown_value(VisualPdeNames& names, Import& import, const VisualPdeOptions& options,
                         Draft& draft) {
     Diagnostics ignored;

@@ -41,7 +41,8 @@ public:
     bool declare();
 
     enum class Where : std::uint8_t { rate, start, mask, side, picture };
-    /// The formula of an option in Cascade. Reports an error if it has none. An empty text is 0.
+    /// The formula of an option in Cascade. If the text is not a formula, reports an error. An
+    /// empty text is 0.
     std::optional<Expression> formula(Span span, Where where);
     std::optional<Expression> option(const std::string& key, Where where);
     /// The value of an option that is one number.

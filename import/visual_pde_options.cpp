@@ -98,7 +98,7 @@ std::vector<std::tuple<std::string, std::string, std::string>> all_options() {
     return all;
 }
 
-/// The JSON of a link. Nothing after an error.
+/// The JSON of a link. Empty after an error.
 std::optional<std::string> json_of_link(Import& import) {
     const auto refuse = [&](const std::string& why) {
         import.diagnostics.error({import.source, 0, 0}, why);

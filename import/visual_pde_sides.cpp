@@ -62,7 +62,7 @@ public:
     }
 
 private:
-    /// A condition such as "dirichlet" with its formula at `span`.
+    /// Sets `made` to a condition such as "dirichlet", whose formula is at `span`.
     bool condition(const std::string& kind, Span span, std::size_t species, ConditionOfPde& made) {
         if (kind == "periodic") {
             made = {};
@@ -135,7 +135,7 @@ private:
             begin = end + 1;
         }
         for (std::size_t side = 0; side < 4; ++side) {
-            // A side that is not given continues where the opposite one is periodic.
+            // If the opposite side is periodic, a side that is not given is periodic, too.
             const std::size_t opposite = side ^ 1U;
             if (is_given[side] || !is_given[opposite]) continue;
             if (all[opposite].kind != SideOfPde::periodic) {

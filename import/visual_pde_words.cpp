@@ -24,7 +24,7 @@ std::optional<Expression> VisualPdeNames::named(const Expression& part, Where wh
             each.is_read = true;
             return name(each.own);
         }
-        // Masks read no parameters, so their values are written.
+        // Masks cannot read parameters, so the formulas of parameters are written in their place.
         if (++depth_ > 20) fail(part.span, "the parameters read each other");
         auto value = has_failed_ ? std::nullopt : formula(each.value, Where::mask);
         --depth_;
@@ -96,7 +96,7 @@ std::optional<Expression> VisualPdeNames::at_other_cell(const Expression& part) 
     differentiate(found->second);
     Expression value = name(found->second);
     for (std::size_t k = 0; k < 2; ++k) {
-        // The argument is the position plus an offset. Find the offset by its values.
+        // The argument is the position plus an offset. The offset is found from its values.
         const char axis = k == 0 ? 'x' : 'y';
         const Expression offset =
             replaced(operation(part.of[k], "-", place(axis)),

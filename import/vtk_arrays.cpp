@@ -1,4 +1,4 @@
-// Decodes the arrays of XML files of VTK within the bounds that the reader gives.
+// Decodes the arrays of XML files of VTK. The reader limits their sizes.
 #include "import/vtk_arrays.h"
 
 #include "core/base64.h"
@@ -67,7 +67,7 @@ std::optional<std::string> first_of_base64(std::string_view text, std::uint64_t 
 std::optional<VtkFile> VtkFile::read(Import& import, pugi::xml_document& document) {
     const std::string_view text = import.bytes();
     const std::size_t appended = text.find("<AppendedData");
-    // Raw bytes are no XML, so the document ends before them.
+    // Raw bytes are not XML, so the document ends before them.
     const bool is_read = read_xml(import, appended, document);
     if (!is_read) return std::nullopt;
     VtkFile file(import);

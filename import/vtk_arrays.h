@@ -1,9 +1,9 @@
 // The numbers in XML files of VTK.
 //
-// An array is written as decimal numbers, as Base64, or after all other elements as Base64 or raw
-// bytes. Bytes may be compressed by zlib in blocks. The format is described in the VTK User's Guide
-// (Kitware, "VTK XML Formats"). No array becomes larger than its reader expects, whatever the file
-// says.
+// An array is written as decimal numbers or as Base64. It may also be stored after all other
+// elements, as Base64 or raw bytes. Bytes may be compressed by zlib in blocks. The format is
+// described in the VTK User's Guide (Kitware, "VTK XML Formats"). An array is never larger than its
+// reader expects, even if the file gives another size.
 #pragma once
 
 #include "import/xml.h"
@@ -17,17 +17,17 @@ namespace cascade::importing {
 
 class VtkFile {
 public:
-    /// Reads the XML of the import's source. Reports an error if it is no file of VTK or has an
-    /// unknown encoding.
+    /// Reads the XML of the import's source. If it is not a file of VTK or has an unknown encoding,
+    /// reports an error.
     static std::optional<VtkFile> read(Import& import, pugi::xml_document& document);
 
     pugi::xml_node root() const { return root_; }
 
-    /// The `count` numbers of a <DataArray>. Reports an error at the array if it has other numbers
-    /// or cannot be read.
+    /// The `count` numbers of a <DataArray>. If it has another count of numbers or cannot be read,
+    /// reports an error at the array.
     std::optional<std::vector<double>> numbers(const pugi::xml_node& array,
                                                std::uint64_t count) const;
-    /// The number of elements that an array has by its own size. At most `most`.
+    /// All numbers of an array. If it has more than `most`, reports an error at the array.
     std::optional<std::vector<double>> all_numbers(const pugi::xml_node& array,
                                                    std::uint64_t most) const;
 

@@ -1,4 +1,4 @@
-// XML of strangers: read by pugixml, without document types and entities.
+// XML from untrusted files: read by pugixml, without document types and entities.
 #pragma once
 
 #include "import/importer.h"
@@ -15,17 +15,18 @@ namespace cascade::importing {
 /// than 100 deep.
 bool read_xml(Import& import, std::size_t end, pugi::xml_document& document);
 
-/// The place of an element, for messages.
+/// The position of an element, for messages.
 Span place_of(const Import& import, const pugi::xml_node& node);
-/// The text of an element, as a place in the source. Its references such as &lt; are not replaced.
+/// The text of an element, as a span of the source. References such as &lt; are not replaced.
 Span text_of(const Import& import, const pugi::xml_node& node);
-/// The attribute or text with &lt;, &gt;, &amp;, &quot;, &apos; and numbers of letters replaced.
+/// The attribute or text in which &lt;, &gt;, &amp;, &quot;, &apos; and numeric references are
+/// replaced by their characters.
 std::string unescaped(std::string_view text);
 
-/// A number in an attribute. Reports an error if it is missing or no number.
+/// A number in an attribute. Reports an error if it is missing or not a number.
 std::optional<double> number_attribute(Import& import, const pugi::xml_node& node,
                                        const char* attribute);
-/// A number in a text. Nothing if it is none.
+/// A number in a text. Empty if the text is not a number.
 std::optional<double> plain_number(std::string_view text);
 
 }  // namespace cascade::importing

@@ -1,8 +1,9 @@
 // Reads a model of XPPAUT: ordinary differential equations, and chains of them that discretise a
 // line, u[1..50]' = d*(u[j-1] - 2*u[j] + u[j+1]) + …
 //
-// A chain becomes a species on a line of cells, and u[j+1] its value in the next cell. Names such
-// as u0 and u51 beyond the ends are definitions of the file, from which the sides follow.
+// A chain becomes a species on a line of cells, and u[j+1] its value in the next cell. Names beyond
+// the ends of the chain, such as u0 and u51, are definitions of the file, from which the conditions
+// at the sides are derived.
 #include "import/xpp.h"
 
 #include "import/xml.h"
@@ -85,8 +86,8 @@ private:
         }
     }
 
-    /// The chain and the side that a name such as u0 or u51 is beyond. -1: none, 0: before, 1:
-    /// after.
+    /// The chain to which a name such as u0 or u51 belongs, and the end beyond which it lies. -1:
+    /// none, 0: before, 1: after.
     std::pair<std::string, int> end_of(const std::string& name) const {
         for (const XppPair& each : file_.rates) {
             if (!each.is_member) continue;
@@ -221,7 +222,7 @@ private:
         draft_.starts.push_back(fmt::format("{}: {}", own, start));
     }
 
-    /// The element `number` of a chain, as in u50. Nothing if the formula is none.
+    /// The element `number` of a chain, as in u50. Empty if the formula is not such an element.
     std::optional<long> element(Span span, const std::string& chain) const {
         std::string words;
         for (const char c : import_.sources.text(span)) {

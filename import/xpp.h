@@ -11,7 +11,7 @@
 
 namespace cascade::importing {
 
-/// `name = value` of a file, or one equation.
+/// A statement `name = value` of a file, or one equation.
 struct XppPair {
     std::string name;  ///< In small letters.
     Span place;        ///< Of the name.
@@ -20,7 +20,7 @@ struct XppPair {
     bool is_member = false;
 };
 
-/// The statements of a file, after its arrays have been understood.
+/// The statements of a file. Its arrays have been recognised.
 struct XppFile {
     std::vector<XppPair> parameters, starts, rates, definitions, functions;
     std::map<std::string, std::string> options;  ///< `@ dt=.05, total=100`

@@ -44,8 +44,8 @@ Json range_in(std::string_view text, const Lines& lines, std::size_t begin, std:
             {"end", json_of(lines.position_of(text, end))}};
 }
 
-/// A file with the text of a system or a shape of the library, for editors to open. It is in the
-/// folder of compiled kernels.
+/// Writes the text of a system or a shape of the library to a file, so that editors can open it.
+/// The file is in the folder of compiled kernels.
 std::optional<std::filesystem::path> file_of_library(const Source& source) {
     const std::filesystem::path cache = usual_kernel_cache();
     if (cache.empty()) return std::nullopt;

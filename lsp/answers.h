@@ -37,8 +37,8 @@ inline Json range_of(const Document& document, Span span) {
 /// The bytes [begin, end) of a range. Empty if `json` is no range.
 std::optional<std::pair<std::size_t, std::size_t>> bytes_of_range(const Document& document,
                                                                   const Json& json);
-/// The address and range of a span in any source of a script. Null if it is a text of the library
-/// that could not be written to a file.
+/// The address and range of a span in any source of a script. Null if the source is a text of the
+/// library that could not be written to a file.
 Json location_of(Document& document, Span span);
 
 /// The diagnostics of a document, at most `most_diagnostics`.

@@ -1,4 +1,4 @@
-// The colours rgb(…) of numbers, and their texts for other colours.
+// The colours that calls rgb(…) with numbers denote, and the texts that denote other colours.
 #include "lsp/answers.h"
 
 #include <fmt/format.h>
@@ -60,7 +60,7 @@ Result<Json> colour_texts(const Asked& asked) {
     for (std::size_t k = 0; k < 3; ++k) {
         const Json& part = member(colour, names[k]);
         if (!part.is_number()) return failure("a colour needs red, green and blue");
-        // Three digits keep all 256 levels apart.
+        // With three digits, all 256 levels have different texts.
         parts[k] = std::round(std::clamp(part.get<double>(), 0.0, 1.0) * 1000) / 1000;
     }
     return Json::array({{{"label", fmt::format("rgb({})", fmt::join(parts, ", "))}}});

@@ -1,4 +1,4 @@
-// Errors and warnings, and changes that do what their hints say.
+// Errors and warnings, and the edits that their hints suggest.
 #include "core/counted.h"
 #include "lang/service/advice.h"
 #include "lsp/answers.h"
@@ -15,8 +15,8 @@ constexpr int severity_error = 1, severity_warning = 2, severity_information = 3
 /// Each fix requires a check of the whole text.
 constexpr std::size_t most_fixes = 5, largest_fixed_text = std::size_t{1} << 16;
 
-/// A span of the own text for a diagnostic about any source: for a file that the script uses, the
-/// name of the file.
+/// The span in the document's own text at which a diagnostic is shown. For a diagnostic in a file
+/// that the script uses, it is the name of the file.
 Span own_span(const Script& script, Span span) {
     if (span.source == own_source) return span;
     const std::string& name = script.sources[span.source].name();

@@ -1,4 +1,4 @@
-// Checks a script when it is asked for, at most once for each version of the text.
+// Checks a script when the checked script is needed, at most once for each version of the text.
 #include "lsp/document.h"
 
 #include "lsp/file_uri.h"

@@ -21,8 +21,8 @@ using OpenFiles = std::function<std::vector<std::pair<std::filesystem::path, std
 
 class Document {
 public:
-    /// A text without a path, such as a new one, names files relative to the current folder. Files
-    /// that a script uses and that are open are read from the editor in place of the disk.
+    /// A text without a path, such as a new one, names files relative to the current folder. If a
+    /// script uses a file that is open, the file is read from the editor instead of from the disk.
     Document(std::string uri, std::string text, ColumnUnit unit, OpenFiles open);
 
     const std::string& uri() const { return uri_; }
@@ -35,7 +35,7 @@ public:
     /// Replaces the text between two positions. They may be in either order.
     void replace(Position from, Position to, std::string_view text);
 
-    /// Checks the script again when it is needed next.
+    /// Makes the next call that needs the script check it again.
     void forget();
     /// The script of the present text. It has no program if it has errors.
     Script& script();
@@ -48,7 +48,7 @@ public:
 
     /// The number of the text in the editor, if it gave one.
     std::optional<std::int64_t> version;
-    /// Whether the editor has not got the diagnostics of the present text.
+    /// Whether the editor has not yet received the diagnostics of the present text.
     bool is_changed = true;
 
 private:

@@ -1,4 +1,4 @@
-// Reads headers line by line. Unknown fields are ignored, as the protocol demands.
+// Reads headers line by line. Unknown fields are ignored, as the protocol requires.
 #include "lsp/frames.h"
 
 #include <fmt/format.h>

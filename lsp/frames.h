@@ -9,8 +9,8 @@
 
 namespace cascade::lsp {
 
-/// The largest message that is read, in bytes. A script of the largest size fits, even with
-/// escapes.
+/// The largest message that is read, in bytes. It is large enough for a script of the largest size,
+/// even if many characters are escaped.
 inline constexpr std::size_t largest_message = std::size_t{64} << 20;
 inline constexpr std::size_t largest_header = 4096;
 
@@ -30,7 +30,7 @@ public:
     /// The next complete message. Empty if more bytes are needed or after a fault. The bytes of a
     /// message above largest_message are dropped as they arrive.
     std::optional<Frame> next();
-    /// Why no further message can be found in the stream. Empty as long as there is no fault.
+    /// The reason why no further message can be found in the stream. Empty if there is no fault.
     const std::string& fault() const { return fault_; }
 
 private:
@@ -38,7 +38,7 @@ private:
 
     std::string bytes_;
     std::size_t begin_ = 0;              ///< The bytes before this one have been used.
-    std::optional<std::size_t> length_;  ///< The bytes of the present message that are to come.
+    std::optional<std::size_t> length_;  ///< How many bytes of the present message are missing.
     bool is_dropped_ = false;            ///< Whether the present message is too large.
     std::string fault_;
 };

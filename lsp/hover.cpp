@@ -21,7 +21,7 @@ namespace {
 /// A longer value or equation is left out.
 constexpr std::size_t most_characters = 400;
 
-/// Limits of systems whose waves are predicted, so that an answer takes milliseconds.
+/// Waves are predicted only for systems within these limits, so that an answer takes milliseconds.
 constexpr std::uint32_t most_species = 3;
 
 /// Markdown: a line with the name and its kind, sentences, and lines of equations.
@@ -149,7 +149,7 @@ std::optional<Card> card_of(Document& document, std::size_t byte) {
 
 Result<Json> hover(const Asked& asked) {
     const std::string& text = asked.document.text();
-    // A word that only begins after the byte is not meant, so the byte must be in or after a word.
+    // If a word begins after this byte, it is not meant, so the byte must be in or after a word.
     const std::size_t end = end_of_word(text, asked.byte);
     const std::size_t begin = end - last_word(std::string_view(text).substr(0, end)).size();
     if (begin == end) return Json();

@@ -1,4 +1,4 @@
-// The numbers and words by which the protocol names kinds of names.
+// The numbers and words by which the protocol denotes kinds of names.
 #pragma once
 
 #include "lang/service/known_names.h"

@@ -1,4 +1,4 @@
-// Goes through the text once. Later searches begin at the nearest mark.
+// Reads the text once. Later searches begin at the nearest mark.
 #include "lsp/lines.h"
 
 #include "core/utf8.h"
@@ -35,7 +35,8 @@ Lines::Lines(std::string_view text, ColumnUnit unit) : unit_(unit), marks_{{0, 0
             ++line;
             column = 0;
         }
-        // No mark between CR and LF: a column there means the end of the line, which is before CR.
+        // There is no mark between CR and LF, because a column there means the end of the line,
+        // which is before CR.
         if (!is_end && text[byte - 1] == '\r') continue;
         last = byte;
         marks_.push_back({static_cast<std::uint32_t>(byte), line, column});

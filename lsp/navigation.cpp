@@ -1,4 +1,4 @@
-// Declarations and uses of names, and other names for them.
+// Finds the declaration and the uses of a name, and renames it.
 #include "lsp/answers.h"
 
 namespace cascade::lsp {

@@ -22,7 +22,7 @@ Json json_of(const Document& document, const Symbol& symbol) {
     return json;
 }
 
-/// The lines of a text that are comments alone.
+/// The lines of a text that contain only a comment.
 std::vector<bool> comment_lines(std::string_view text) {
     std::vector<bool> lines;
     for (std::size_t at = 0; at <= text.size();) {

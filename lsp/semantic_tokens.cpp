@@ -1,4 +1,4 @@
-// The colours of words: what each name means, where the same word may mean different things.
+// The colours of words that may have several meanings: what each such word means here.
 #include "core/utf8.h"
 #include "lang/service/symbols.h"
 #include "lang/syntax/parse.h"
@@ -16,7 +16,7 @@
 namespace cascade::lsp {
 namespace {
 
-/// The types of tokens that are no names.
+/// The types of tokens that are not names.
 constexpr std::string_view number_type = "number", text_type = "string", comment_type = "comment";
 /// The bits of the modifiers, in the order of the legend.
 constexpr unsigned is_declaration = 1, is_of_language = 2;
@@ -118,7 +118,7 @@ private:
         if (const auto name = names_.name_at(span.begin); name && name->begin == span.begin) {
             const auto declared = names_.declaration_at(span.begin);
             const auto kind = declared ? kinds_.at(*declared) : std::nullopt;
-            // Indices and parameters of functions are in no outline.
+            // Outlines do not contain indices and parameters of functions.
             const Colour colour{numbers_of(kind.value_or(NameKind::parameter)).colour};
             if (declared == *name) return {colour.type, is_declaration};
             return declared && declared->source != own_source ? Colour{colour.type, is_of_language}
@@ -135,7 +135,7 @@ private:
         return {};
     }
 
-    /// Adds the comments of a part of the text that has no tokens.
+    /// Adds the comments of a part of the text in which there are no tokens.
     void add_comments(std::size_t begin, std::size_t end) {
         const std::string& text = document_.text();
         for (std::size_t at = begin; at < end; ++at) {
@@ -146,8 +146,8 @@ private:
         }
     }
 
-    /// Adds five numbers: lines and columns from the token before, the length, the type and the
-    /// modifiers.
+    /// Adds five numbers: the distance from the previous token in lines and columns, the length,
+    /// the type and the modifiers.
     void add(std::size_t begin, std::size_t end, Colour colour) {
         if (colour.type.empty()) return;
         const std::string& text = document_.text();

@@ -6,9 +6,10 @@
 namespace cascade::lsp {
 
 /// Reads messages from the file descriptor `in` and writes the answers to `out`, until the editor
-/// sends `exit` or closes its stream. Diagnostics are sent whenever no further message waits, so
-/// that not every letter of a fast writer is checked. The result is whether the editor has sent
-/// `shutdown` before. Fails if the input is no stream of messages, or if a stream fails.
+/// sends `exit` or closes its stream. Diagnostics are sent only when no further message is waiting,
+/// so that a script is not checked after every letter of a fast typist. Returns whether the editor
+/// has sent `shutdown` before. Fails if the input is not a stream of messages, or if a stream
+/// fails.
 Result<bool> serve(int in, int out);
 
 }  // namespace cascade::lsp

@@ -34,8 +34,8 @@ Json notification(const char* method, Json params) {
 
 bool is_id(const Json& id) { return id.is_string() || id.is_number_integer(); }
 
-/// Whether a text is small enough to be parsed as JSON: a parser needs many times the memory of a
-/// text of brackets.
+/// Whether a text is small enough to be parsed as JSON. For a text of brackets, a parser needs many
+/// times the memory of the text.
 bool is_parsable(std::string_view text) {
     const JsonSize size = measure_json(text);
     return size.depth <= 64 && size.values <= 2'000'000;
@@ -71,7 +71,8 @@ std::vector<std::string> LanguageServer::receive(std::string_view text) {
     const Json& id = member(message, "id");
     const bool is_request = message.is_object() && message.contains("id");
     if (!method.is_string()) {
-        // Answers to requests of the server have no method. It sends none.
+        // A message without a method answers a request of the server, but this server sends no
+        // requests.
         if (is_request && (message.contains("result") || message.contains("error"))) return {};
         return {print(error(nullptr, invalid_request, "the message has no method"))};
     }
@@ -188,7 +189,7 @@ void LanguageServer::change(const Json& params) {
     forget_users_of_files();
 }
 
-/// Closes a document. The editor then shows none of its diagnostics.
+/// Closes a document, and removes its diagnostics from the editor.
 void LanguageServer::close(const Json& params) {
     const Document* const document = find(params);
     if (document == nullptr) return;
@@ -204,7 +205,8 @@ Document* LanguageServer::find(const Json& params) {
     return found == documents_.end() ? nullptr : found->second.get();
 }
 
-/// Has documents checked again that use files, since a used file may be open and have changed.
+/// Lets all documents that use files be checked again, because a used file may be open and may have
+/// changed.
 void LanguageServer::forget_users_of_files() {
     for (const auto& [uri, document] : documents_) {
         if (!document->is_changed && !document->script().tree.uses.empty()) document->forget();

@@ -23,8 +23,8 @@ public:
     LanguageServer(const LanguageServer&) = delete;  // Documents refer to the server.
     LanguageServer& operator=(const LanguageServer&) = delete;
 
-    /// Carries out a message of the editor. Returns the messages to send, without headers. The
-    /// answer to a text that is no message is an error.
+    /// Carries out a message of the editor. Returns the messages to send, without headers. If the
+    /// text is not a message, the answer is an error.
     std::vector<std::string> receive(std::string_view message);
     /// The answer to a message of more than largest_message bytes, which was not read.
     static std::string refuse_large_message();

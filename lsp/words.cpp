@@ -1,4 +1,4 @@
-// Sorts the words of the tables by the places at which they have a meaning.
+// Sorts the words of the tables by the positions at which they have a meaning.
 #include "lsp/words.h"
 
 #include "ir/solver.h"
@@ -16,8 +16,8 @@ namespace {
 
 using Words = std::set<std::string, std::less<>>;
 
-/// The functions that are called by name, and the first words of those such as `sum over domain`,
-/// whose last words become `regions`.
+/// The functions that are called by name, and the first words of functions such as `sum over
+/// domain`. The last words of these functions are added to `regions`.
 void add_functions(Words& functions, Words& regions) {
     constexpr std::string_view over = " over ";
     for (std::size_t k = 0; k < function_count; ++k) {
@@ -39,7 +39,7 @@ void add_settings(Words& settings, Words& words) {
     for (const LibraryText& text : library_shapes()) words.emplace(text.system_name());
 }
 
-/// Divides the keywords: some begin a statement, the others are written between operands.
+/// Divides the keywords into those that begin a statement and those between operands.
 void add_keywords(Words& beginnings, Words& between) {
     for (const std::string_view word : keywords) {
         const bool is_logic = word == "and" || word == "or" || word == "not";
@@ -56,7 +56,7 @@ std::string language_words() {
     add_functions(functions, regions);
     add_settings(settings, words);
     values.insert(builtin_names.begin(), builtin_names.end());
-    // In `up: x` and `surface: box`, words have the colour of the value x and the function box.
+    // In `up: x` and `surface: box`, the words are coloured as the value x and the function box.
     std::erase_if(words, [&](const std::string& word) {
         return values.contains(word) || functions.contains(word);
     });

@@ -6,7 +6,7 @@
 namespace cascade::lsp {
 
 /// A JSON object of lists, made from the tables of the language. editors/make.py writes grammars
-/// from it. A word may be in several lists, because its meaning depends on its place.
+/// from it. A word may be in several lists, because its meaning depends on its position.
 std::string language_words();
 
 }  // namespace cascade::lsp
