@@ -1,4 +1,4 @@
-// Finds diffusion that makes differences grow. No step is short enough for it.
+// Finds diffusion that makes differences grow. With such diffusion no time step is short enough.
 #pragma once
 
 #include "lang/program/program.h"

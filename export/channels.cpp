@@ -1,4 +1,4 @@
-// Adds underscores to names in use. Clamps colours. NaN has its own colour.
+// Adds underscores to names that are already in use. Clamps colours. NaN has its own colour.
 #include "export/channels.h"
 
 #include <algorithm>

@@ -15,10 +15,11 @@ std::array<std::int64_t, 2> texture_size(const FlatCells& cells, std::int64_t te
 /// The maps of a plane. Values between cells lie on cubic curves that stay in range at edges
 /// (core/between_cells.h). Colours are computed from these values. A texel is the mean of its
 /// samples, with colours in linear light. There are four samples per texel or, in small textures,
-/// at least one per cell. Normals are those of the surface raised by the texels' heights. Cells
-/// outside the domain get the values of their surroundings. So do heights that are not finite. The
-/// function `painted.colour` is called without a meaningful position. `size` is in texels across
-/// and down. The result is the same with any number of threads. Throws std::bad_alloc.
+/// at least one per cell. Normals belong to the surface that is raised by the texels' heights.
+/// Cells outside the domain get the values of their surroundings. A height that is not finite is
+/// replaced in the same way. The function `painted.colour` is called without a meaningful position.
+/// `size` is in texels across and down. The result is the same with any number of threads. Throws
+/// std::bad_alloc.
 MaterialMaps bake_plane(const FlatCells& cells, const PaintedCells& painted,
                         std::array<std::int64_t, 2> size, Team& team);
 

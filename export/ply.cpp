@@ -20,8 +20,8 @@ std::string one_word(std::string name) {
     return name;
 }
 
-/// Names for the channels that have no other meaning in a PLY file. They are none of the names that
-/// G. Turk defined, and none that readers take for texture coordinates or colours.
+/// Names for the channels. A channel must not have a name that G. Turk defined, or that readers
+/// take for texture coordinates or colours.
 std::vector<std::string> property_names(std::span<const Channel> channels) {
     std::vector<Channel> named;
     for (const Channel& channel : channels) named.push_back({one_word(channel.name), {}});

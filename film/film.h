@@ -42,7 +42,7 @@ public:
 };
 
 /// Checks, before any frame is drawn, whether a film with this path could be begun. The path must
-/// not be that of a pipe or device, and ffmpeg must be installed if the format needs it.
+/// not name a pipe or a device, and ffmpeg must be installed if the format needs it.
 Result<void> check_film(const std::filesystem::path& path);
 
 /// Checks whether players can show this many frames per second.

@@ -278,9 +278,9 @@ std::uint32_t CellFilter::nearest_cell(const Patch& patch, FlatPoint place) cons
     return nearest;
 }
 
-/// Calls `visit(near)` once for each cell within the radius. On an edge, the distance is that of
-/// the edge's own sighting, so that both triangles agree. Inside a triangle, distances are
-/// interpolated between the edges.
+/// Calls `visit(near)` once for each cell within the radius. On an edge, the distance is the one
+/// that is stored for the edge itself, so that both triangles agree. Inside a triangle, distances
+/// are interpolated between the edges.
 template <typename Visit>
 void CellFilter::visit_near(const Patch& patch, FlatPoint place, const Visit& visit) const {
     const Vector3 position = patch.origin + patch.x_axis * place.x + patch.y_axis * place.y;

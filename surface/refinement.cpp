@@ -21,8 +21,8 @@ struct LongEdge {
     }
 };
 
-/// A queue of edges, the longest first. If edges are equally long, that of the triangle with the
-/// lowest index is first.
+/// A queue of edges, the longest first. Of equally long edges, the first is the edge of the
+/// triangle with the lowest index.
 class LongEdges {
 public:
     LongEdges(const SurfaceMesh& mesh, double longest) : mesh_(mesh), longest_(longest) {

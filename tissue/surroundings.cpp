@@ -68,8 +68,8 @@ public:
     }
 
 private:
-    /// The nearest position, for a cell that is not above or below the inside of `triangle` or one
-    /// next to it.
+    /// The nearest position. For cells that are neither above nor below the inside of `triangle` or
+    /// of a triangle next to it.
     NearPlace search(Vector3d point, std::uint32_t triangle) const {
         NearPlace near = near_nothing(point);
         near.place.triangle = triangle;

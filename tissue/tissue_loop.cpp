@@ -173,8 +173,8 @@ private:
         return left < 1.01 * whole ? left : whole;
     }
 
-    /// Returns false, with the state of the last complete step, if there is none: after a failure
-    /// or a cancel. A run that is resumed takes the step.
+    /// Takes one step. After a failure or a cancel, returns false and leaves the state of the last
+    /// complete step. A run that is resumed takes this step again.
     bool take_step(const RunControl& control) {
         const auto ordered = stepper_.order_cells();
         if (!ordered) return fail(ordered.error());

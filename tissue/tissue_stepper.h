@@ -22,9 +22,9 @@
 
 namespace cascade {
 
-/// The root mean square over the cells of each of `fields`. If `others` is not null, of the
-/// difference between each field and the corresponding one of `others`. NaN if a value is NaN. The
-/// threads of the team share the planes.
+/// For each of `fields`, the root mean square over the cells. If `others` is not null, the root
+/// mean square of the difference between each field and the corresponding one of `others`. NaN if a
+/// value is NaN. The threads of the team share the planes.
 std::vector<double> root_mean_squares(const std::vector<Field>& fields, const Tissue& tissue,
                                       Team& team, const std::vector<Field>* others = nullptr);
 
