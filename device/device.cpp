@@ -47,7 +47,7 @@ Result<std::vector<FoundDevice>> all_devices() {
     return all;
 }
 
-/// The first line of a driver's messages that speaks of an error, or else the first line.
+/// The first line of a driver's messages that contains an error, or else the first line.
 std::string first_error(const std::string& log) {
     std::istringstream lines(log);
     std::string line, first;

@@ -13,15 +13,16 @@
 
 namespace cascade {
 
-/// An opened device. Remembers what its probes found. Throws OpenclError and ProgramRefused.
+/// An opened device. Stores the results of its probes and its compiled programs. Throws OpenclError
+/// and ProgramRefused.
 class Device {
 public:
     Device(const OpenclApi& api, FoundDevice found) : open_(api, std::move(found)) {}
 
     OpenDevice& open() { return open_; }
     const DeviceFacts& facts() const { return open_.facts(); }
-    /// How programs of a precision are printed for this device, and whether results have
-    /// Cascade's bits. The first call runs a small program.
+    /// How programs of a precision are printed for this device, and whether its results have the
+    /// same bits as Cascade's. The first call runs a small program.
     const ProbeResult& probe(Precision precision);
     /// A compiled program. Equal programs are compiled once.
     const DeviceProgram& program(const std::string& source, const TextTarget& target);
@@ -32,7 +33,8 @@ private:
     std::map<std::string, DeviceProgram> programs_;
 };
 
-/// The messages for a device that fails, and for a driver that cannot compile a program.
+/// Converts an error of the device, or a program that its driver cannot compile, to a message for
+/// users.
 ExecutorFailure failure_of(const DeviceFacts& facts, const OpenclError& error);
 ExecutorFailure failure_of(const DeviceFacts& facts, const ProgramRefused& refusal);
 

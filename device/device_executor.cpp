@@ -1,4 +1,4 @@
-// Keeps the planes of steps on a device and adds passes to its queue. The queue is emptied a few
+// Stores the planes of steps on a device and adds passes to its queue. The queue is emptied a few
 // times a second, and no launch takes long, because drivers reset devices that do not answer.
 #include "device/device_executor.h"
 
@@ -87,7 +87,7 @@ public:
     std::vector<Field> take(int copy) override {
         return on(*device_, [&] { return planes_.read(planes_.copy(copy)); });
     }
-    /// Is called by destructors, so a failure waits for the next step.
+    /// Destructors call this function, so a failure is only reported at the next step.
     void put(int copy, std::vector<Field> species) override {
         try {
             planes_.write(planes_.copy(copy), species);
@@ -178,7 +178,7 @@ void DeviceExecutor::prepare(const StepProblem& problem) {
             passes_ = &all_passes_.back();
         }
         if (rows_of_launch_ == 0) {
-            // The first launches are small, until their time is known.
+            // The first launches are small, because nothing is known yet about their duration.
             constexpr std::int64_t cells = std::int64_t{1} << 22;
             rows_of_launch_ =
                 std::clamp<std::int64_t>(cells / layout_.width, 1, layout_.row_count());
@@ -253,7 +253,8 @@ void DeviceExecutor::run_passes(const StageClock& clock, StepPass next, std::siz
     if (waiting_ > 0) wait(waiting_);
 }
 
-/// Empties the queue, and adapts the length of launches to the time that the passes took.
+/// Waits until the queue is empty, and adapts the length of launches to the time that the passes
+/// took.
 void DeviceExecutor::wait(std::size_t passes) {
     device_->open().finish();
     const Clock::time_point now = Clock::now();

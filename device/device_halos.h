@@ -35,7 +35,8 @@ private:
     DeviceKernel kernel_;
 };
 
-/// Writes numbers as words of a precision into a buffer, which is made larger if needed.
+/// Writes numbers as words of a precision into a buffer. If the buffer is too small, a larger one
+/// replaces it.
 void write_words(OpenDevice& device, DeviceBuffer& to, const std::vector<double>& numbers,
                  Precision precision);
 

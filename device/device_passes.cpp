@@ -38,7 +38,7 @@ Number value_of(const StepProblem::ChangingUniform& uniform, const StepMoment& m
 }  // namespace
 
 std::int64_t rows_of_item(const DeviceFacts& facts, const StepProblem& problem) {
-    // A processor's driver runs work-groups one after the other; larger ones cost less.
+    // On a processor, the driver runs work-groups one after the other, so larger groups cost less.
     const std::int64_t rows = problem.grid.height * problem.grid.depth;
     return facts.is_gpu ? 1 : std::clamp<std::int64_t>(rows / 64, 1, 8);
 }
@@ -194,7 +194,8 @@ void DevicePasses::launch(OfPass& pass, CopyRoles roles, const StepMoment& momen
     }
 }
 
-/// The rules of a result at the moment at which neighbours will read it, as in PassRunner.
+/// The rules of a result's sides at the moment at which neighbours will read the result, as in
+/// PassRunner.
 SideRules DevicePasses::rules_at(const StepProblem::Result& result,
                                  const StepMoment& moment) const {
     const auto* const own = std::get_if<StepProblem::SpeciesPlane>(&result.plane);

@@ -25,10 +25,12 @@ public:
         return scratch_[id.index() - first_scratch_register.index()];
     }
     const DeviceBuffer& temporaries() const { return temporaries_; }
-    /// The buffer of a register in a step: the old step, the new one, or scratch.
+    /// The buffer of a register in a step: the species before the step, the species after it, or
+    /// scratch.
     const DeviceBuffer& of(RegisterId id, CopyRoles roles) const;
 
-    /// Makes what a problem needs: registers (with the registers of the copies) and temporaries.
+    /// Allocates the registers (including those of the copies) and temporaries that a problem
+    /// needs.
     void make(std::uint32_t registers, std::uint32_t temporaries);
     void exchange(RegisterId one, RegisterId other);
 

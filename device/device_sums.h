@@ -1,4 +1,4 @@
-// Aggregates, norms and checks of planes on a device, in the order in which threads compute them.
+// Aggregates, norms and checks of planes on a device, in the same order as threads compute them.
 #pragma once
 
 #include "device/device.h"
@@ -20,10 +20,11 @@ public:
     DeviceSums(Device& device, const TextTarget& target, const PlaneLayout& layout);
 
     /// Writes an aggregate, rounded, to word `number` of `aggregates`. `cells` is the number of
-    /// cells that count in a mean.
+    /// cells over which a mean is taken.
     void reduce(ReductionKind kind, const DevicePlane& plane, std::int64_t cells,
                 const DeviceBuffer& aggregates, std::uint32_t number);
-    /// The sums of squares of all rows. `counted` cells count, the last rows' others are 0.
+    /// The sums of squares of all rows. Only the first `counted` cells count. Others in the last
+    /// rows count as 0.
     std::vector<double> squares(const DevicePlane& plane, std::int64_t counted);
 
 private:
@@ -39,7 +40,7 @@ class DeviceCheck {
 public:
     DeviceCheck(Device& device, const TextTarget& target, const PlaneLayout& layout);
 
-    /// Whether all cells of `planes` planes, which lie one after the other, are finite.
+    /// Whether all cells of `planes` planes, which follow each other in the buffer, are finite.
     bool are_finite(const DeviceBuffer& buffer, std::size_t planes);
 
 private:

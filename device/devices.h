@@ -14,20 +14,20 @@ namespace cascade {
 
 class Device;
 
-/// Opens the device that the user named: "gpu" or "cpu", the first of this kind, or the number of
-/// one in the list. Fails if there is no such device, no driver, or no loader of drivers.
+/// Opens the device that the user has chosen: "gpu" or "cpu", the first of this kind, or the number
+/// of a device in the list. Fails if there is no such device, no driver, or no loader of drivers.
 Result<std::shared_ptr<Device>> open_device(std::string_view choice);
 
-/// Two lines for each device: number, kind, name, memory and driver; and whether results have
-/// Cascade's bits. Opens and probes each device.
+/// Two lines for each device: its number, kind, name, memory and driver, and whether its results
+/// have the same bits as Cascade's. Opens and probes each device.
 Result<std::string> list_devices();
 
 /// Makes executors whose planes stay on the device. Problems that the device cannot run are run by
 /// threads instead. `tell`, which may be empty, is then called with the reason, the end of a
 /// sentence such as "runs on threads, because it has a convolution".
 ///
-/// A device with other bits than the interpreter's is refused unless `may_differ` is true. The
-/// executors throw an ExecutorFailure if the device fails, or has too little memory.
+/// A device whose results have other bits than the interpreter's is refused unless `may_differ` is
+/// true. The executors throw an ExecutorFailure if the device fails, or has too little memory.
 MakeExecutor on_device(std::shared_ptr<Device> device, bool may_differ,
                        std::function<void(const std::string&)> tell);
 

@@ -1,4 +1,5 @@
-// Prints one declaration for each value. Values of links are declared in their loops.
+// Prints one declaration for each value. Values that belong to links are declared in the loops over
+// links.
 #include "device/kernel_text.h"
 
 #include "core/check.h"
@@ -45,7 +46,8 @@ bool reads_numbers(Op op) {
     }
 }
 
-/// Whether the result may be denormal although arithmetic flushes: the operation passes words on.
+/// Whether the operation copies words, so that its result may be denormal although arithmetic
+/// flushes.
 bool passes_words(Op op) {
     switch (op) {
         case Op::field:
@@ -112,7 +114,7 @@ private:
         return passes_words(instruction.op);
     }
 
-    /// A constant. Those with which compilers simplify arithmetic pass through c_pad.
+    /// A constant. A constant with which compilers simplify arithmetic passes through c_pad.
     std::string word(std::uint64_t bits) const {
         const std::string literal =
             fmt::format("{:#x}{}", bits, target_.precision == Precision::single ? "u" : "ul");
@@ -182,7 +184,7 @@ private:
             fmt::format("        const cw {} = {};\n", value(id), expression(kernel_.code[id]));
     }
 
-    /// One loop over the links of the cell.
+    /// Prints one loop over the links of the cell.
     void print(const LinkLoop& loop) {
         for (const ValueId id : loop.before) declare(id);
         for (const ValueId id : loop.reductions) {

@@ -10,7 +10,7 @@
 
 namespace cascade {
 
-/// Where a printed kernel finds its planes and uniforms, as C expressions. Planes are pointers to
+/// The names of planes and uniforms in a printed kernel, as C expressions. Planes are pointers to
 /// cell (0, 0, 0), uniforms are words.
 struct KernelNames {
     std::vector<std::string> fields, masks, uniforms, results;
@@ -22,8 +22,8 @@ struct KernelNames {
 std::string cell_text(const CellKernel& kernel, const KernelNames& names, const TextTarget& target,
                       Stencil stencil, const PlaneLayout& layout);
 
-/// The loops over `rows` rows from c_first_row on around the text of a cell: the beginning of a
-/// kernel whose work-items are columns, and bands of `rows_of_item` rows.
+/// The beginning of a kernel: the loops over `rows` rows from c_first_row on, inside which the text
+/// of a cell follows. Work-items are columns, and bands of `rows_of_item` rows.
 std::string cells_begin(const TextTarget& target, Stencil stencil, const PlaneLayout& layout,
                         std::int64_t rows_of_item);
 inline constexpr std::string_view cells_end = "    }\n";

@@ -1,4 +1,4 @@
-// Replaces the room in builds without the headers of OpenCL.
+// Replaces all other files of device/ in builds without the headers of OpenCL.
 #include "device/devices.h"
 
 namespace cascade {

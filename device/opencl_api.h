@@ -30,8 +30,8 @@ struct OpenclApi {
 #undef CASCADE_MEMBER
 };
 
-/// The functions of the system's loader, libOpenCL.so.1. Fails, with what to install, if there is
-/// none. The library stays loaded.
+/// The functions of the system's loader, libOpenCL.so.1. If there is none, fails with a hint about
+/// what to install. The library stays loaded.
 Result<const OpenclApi*> opencl_api();
 
 /// Thrown when a call to OpenCL fails: the device was lost, or lacks memory.

@@ -162,8 +162,8 @@ void OpenDevice::flush() { check_opencl(api_.clFlush(queue_), "clFlush"); }
 void OpenDevice::finish() { check_opencl(api_.clFinish(queue_), "clFinish"); }
 
 std::size_t OpenDevice::group_for(std::size_t columns, std::size_t unit) const {
-    // Graphics processors share small groups among their cores; a processor's core takes a group at
-    // a time.
+    // Graphics processors distribute small groups among their cores. On an ordinary processor, a
+    // core runs one group at a time.
     const std::size_t wanted = facts().is_gpu ? 256 : 4096;
     const std::size_t most = std::min(wanted, facts().largest_group);
     std::size_t best = std::min(unit, most);

@@ -18,7 +18,7 @@
 
 namespace cascade {
 
-/// What a device says of itself.
+/// The properties that a device reports.
 struct DeviceFacts {
     std::string name, platform, driver;
     bool is_gpu = false;
@@ -68,7 +68,7 @@ private:
     std::size_t size_ = 0;
 };
 
-/// A kernel of a program, with its next argument. Movable.
+/// A kernel of a program, and the number of the argument that is set next. Movable.
 class DeviceKernel {
 public:
     DeviceKernel() = default;
@@ -89,7 +89,7 @@ public:
         begin();
         (add(arguments), ...);
     }
-    // The same one by one.
+    // The same, one argument at a time.
     void begin() { next_ = 0; }
     void add(const DeviceBuffer& buffer) {
         const cl_mem memory = buffer.memory();
@@ -163,8 +163,8 @@ public:
     void read(const DeviceBuffer& from, std::size_t offset, void* bytes, std::size_t size);
     void copy(const DeviceBuffer& from, std::size_t from_offset, const DeviceBuffer& to,
               std::size_t to_offset, std::size_t size);
-    /// Adds a kernel on columns × rows work-items. Work-groups are `group` columns of one row;
-    /// `group` divides `columns`.
+    /// Adds a kernel that runs on columns × rows work-items. A work-group consists of `group`
+    /// columns of one row; `columns` is a multiple of `group`.
     void launch(const DeviceKernel& kernel, std::size_t columns, std::size_t rows,
                 std::size_t group);
     /// Starts the added commands.
@@ -172,7 +172,8 @@ public:
     /// Waits for the added commands.
     void finish();
 
-    /// The most columns of a work-group that divide `columns`, a multiple of `unit`.
+    /// The number of columns in a work-group: the largest multiple of `unit` that divides `columns`
+    /// and is not above a limit of the device.
     std::size_t group_for(std::size_t columns, std::size_t unit) const;
 
 private:

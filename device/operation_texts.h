@@ -1,8 +1,8 @@
 // The meaning of every operation of ir/operations.def in OpenCL C.
 //
-// Internal to device/. Values are words: `cw` is the integer and `cn` the number of the kernel's
-// precision. All names begin with c_, because OpenCL has built-in functions such as step() and
-// mix(), and a kernel with such a name silently does not exist.
+// Internal to device/. Values are words: `cw` is the integer type and `cn` the number type of the
+// kernel's precision. All names begin with c_, because OpenCL has built-in functions such as step()
+// and mix(). A kernel with such a name would be missing without any error.
 //
 // The text of an operation on operands is the body of a function of the words a, b and c
 // (prelude.h). The text of a source is an expression in a kernel. It may contain:

@@ -4,10 +4,10 @@
 namespace cascade {
 namespace {
 
-// The numbers of SideKind: 0 periodic, 1 no_flux, 2 fixed, 3 slope. Of plane number p,
-// the records are kinds[12 p + side], the place of the side's first value or -1 in
-// kinds[12 p + 6 + side], and numbers[7 p + side], with the spacing in numbers[7 p + 6]. A halo
-// cell at an edge follows the rules of its sides one after the other: columns, rows, slices.
+// The numbers of SideKind: 0 periodic, 1 no_flux, 2 fixed, 3 slope. The records of plane p are
+// kinds[12 p + side], numbers[7 p + side], and kinds[12 p + 6 + side], which is the position of the
+// side's first value or -1. numbers[7 p + 6] is the spacing. A halo cell at an edge follows the
+// rules of its sides one after the other: columns, rows, slices.
 constexpr std::string_view halo_kernels = R"(
 cw c_beyond(int kind, cw cell, cw value, cw spacing) {
     const cw two = c_word((cn)2);

@@ -1,5 +1,5 @@
-// Kernels that work on planes of any problem: halos, checks for numbers that are not finite, and
-// sums. Drivers keep compiled programs, so these are compiled once per device.
+// Kernels that can be used with the planes of any problem: halos, checks for numbers that are not
+// finite, and sums. Drivers store compiled programs, so these are compiled once per device.
 #pragma once
 
 #include "device/prelude.h"

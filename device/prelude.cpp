@@ -140,7 +140,8 @@ std::string prelude_text(const TextTarget& target) {
     text += scale_function;
     text += operation_functions();
     text += multiple_function;
-    // Sums of numbers from memory: two words from memory are never constants.
+    // Sums of numbers from memory. Compilers cannot simplify them, because words from memory are
+    // never constants.
     text += target.flushing == Flushing::by_device ? "#define c_field_word(w) (w)\n"
                                                    : "#define c_field_word(w) c_flush(w)\n";
     return text;

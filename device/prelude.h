@@ -5,9 +5,9 @@
 // this in one of two ways:
 //
 // - `by_device`: the program is built with -cl-denorms-are-zero, and the device's arithmetic
-//   flushes. Compilers may not know this, and replace x · 1 by x, or a choice by a minimum. So
-//   constants with which they could do that, and words that may be denormal, pass through an
-//   exclusive or with c_pad, a kernel argument that is 0.
+//   flushes. Some compilers ignore this, and replace x · 1 by x, or a choice between two numbers by
+//   a minimum. So the constants with which they could do that, and words that may be denormal, pass
+//   through an exclusive or with c_pad, a kernel argument that is 0.
 // - `by_kernel`: the device may keep denormal numbers. Kernels flush operands that may be denormal,
 //   and results. A product just below the least normal number would be rounded up to it, so the
 //   product of larger operands decides (wasm/arithmetic.cpp does the same).
@@ -22,11 +22,12 @@ namespace cascade {
 
 enum class Flushing : std::uint8_t { by_device, by_kernel };
 
-/// What a program is printed for.
+/// The device properties and the precision for which a program is printed.
 struct TextTarget {
     Precision precision = Precision::single;
     Flushing flushing = Flushing::by_kernel;
-    /// Whether fma() is an instruction. If not, a Laplacian does without it, with the same result.
+    /// Whether fma() is an instruction. If not, a Laplacian is computed without it, with the same
+    /// result.
     bool has_fast_fma = false;
     /// Whether elements of a plane are counted in 64 bits.
     bool has_large_planes = false;
@@ -35,12 +36,12 @@ struct TextTarget {
 /// The types and functions of a program. Must come first.
 std::string prelude_text(const TextTarget& target);
 
-/// The functions of cells that have neighbours on a grid, or links: c_laplacian() and others. Comes
-/// after prelude_text().
+/// The functions that read neighbours on a grid, or links: c_laplacian() and others. Comes after
+/// prelude_text().
 std::string stencil_text(const TextTarget& target, Stencil stencil, const PlaneLayout& layout);
 
-/// The macro C_LINKS, the arguments for the links of a cell, and the parameters of kernels.
-/// Both are empty on grids.
+/// The macro C_LINKS, which contains the arguments for the links of a cell, and the parameters of
+/// kernels. Both are empty on grids.
 std::string link_parameters(const TextTarget& target, bool linked);
 
 }  // namespace cascade

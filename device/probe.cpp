@@ -1,4 +1,4 @@
-// Computes each operation on pairs of hard words, by a printed kernel and by the interpreter.
+// Computes each operation on pairs of difficult words, by a printed kernel and by the interpreter.
 #include "device/probe.h"
 
 #include "core/check.h"
@@ -18,7 +18,7 @@
 namespace cascade {
 namespace {
 
-/// Words at which devices that are not exact go wrong. Each is combined with each.
+/// Words for which inexact devices give wrong results. Each is combined with each.
 template <typename Number>
 std::vector<WordOf<Number>> hard_words() {
     constexpr WordFormat format = format_of(precision_of<Number>);
@@ -33,7 +33,7 @@ std::vector<WordOf<Number>> hard_words() {
           format.exponent() - 1, format.exponent(), format.nan(), one, one - 1, one + 1, one + 2}) {
         add(word);
     }
-    // Quotients and roots of numbers with dense digits, at both ends of the exponents.
+    // Numbers with dense digits and with exponents at both ends, for quotients and roots.
     std::uint64_t digits = 0x9e3779b97f4a7c15;
     for (const int exponent : {1, 2, format.bias / 2, format.bias - 1, format.bias,
                                format.bias + format.fraction_bits, 2 * format.bias}) {
@@ -41,7 +41,7 @@ std::vector<WordOf<Number>> hard_words() {
         const std::uint64_t fraction = digits >> (64 - format.fraction_bits);
         add(static_cast<std::uint64_t>(exponent) << format.fraction_bits | fraction);
     }
-    // Ties of round_to_even, and whole numbers of 2^23 and more.
+    // Ties of round_to_even, and integers of at least 2^23.
     for (const double number : {0.5, 1.5, 2.5, 8388607.5, 3.0, 10.0}) {
         words.push_back(static_cast<WordOf<Number>>(word_of(number, precision_of<Number>)));
     }
@@ -68,7 +68,7 @@ CellKernel probing_kernel(Precision precision) {
             default: builder.result(name, builder.apply(op, a, b, b));
         }
     }
-    // Compilers that know nothing of flushing replace these by a.
+    // A compiler that does not consider flushing replaces these by a.
     builder.result("a * 1", builder.multiply(a, builder.number(1)));
     builder.result("a + -0", builder.add(a, builder.word(builder.format().sign())));
     builder.result("least", builder.select(builder.apply(Op::less, a, b), a, b));

@@ -1,4 +1,4 @@
-// Gives the slots of a pass their places in the buffers.
+// Finds the position of each slot of a pass in the buffers.
 #include "device/problem_text.h"
 
 #include "core/check.h"

@@ -10,7 +10,7 @@
 
 namespace cascade {
 
-/// The planes of a problem that no pass writes, in the order in which they lie in a device's
+/// The planes of a problem that no pass writes, in the order in which they are stored in a device's
 /// memory.
 struct ConstantPlanes {
     std::vector<const Field*> fields;
@@ -19,7 +19,7 @@ struct ConstantPlanes {
     explicit ConstantPlanes(const StepProblem& problem);
 };
 
-/// A uniform that is passed at each call: every changing uniform but an aggregate.
+/// The uniforms that are passed at each call: all that change, except aggregates.
 std::vector<StepProblem::ChangingUniform> passed_uniforms(const StepProblem::Pass& pass);
 
 /// The name of a pass's kernel. Its parameters are, in this order:
