@@ -64,7 +64,7 @@ void set_values(PythonPattern& of, const std::string& item, const py::array& num
         refuse("'" + item + "' cannot take an array of " + std::string(py::str(numbers.dtype())),
                "arrays have real numbers, such as float32 and float64");
     }
-    // If there is no such item, the change below says so.
+    // If there is no such item, Pattern::set_values() below fails with a message.
     const PatternView view = pattern.view(item);
     const py::tuple its_shape = shape_of(view.depth, view.height, view.width);
     const py::object given_shape = numbers.attr("shape");

@@ -31,7 +31,8 @@ PatternOptions options(const std::string& folder, int threads, bool native,
     return made;
 }
 
-/// Makes a pattern while other Python threads run, because making the cells of a model takes long.
+/// Makes a pattern. Other Python threads may run meanwhile, because making the cells of a model
+/// takes long.
 std::unique_ptr<PythonPattern> made(const std::function<Pattern()>& make) {
     const py::gil_scoped_release others;
     return std::make_unique<PythonPattern>(make());
@@ -73,14 +74,14 @@ void define_steps(PatternClass& pattern) {
             "Makes a step(), run() or film() in another thread return after the step that it is taking.");
 }
 
-/// Makes a method of a function of Pattern that returns whether it has done its work.
+/// Makes a Python method of a function of Pattern that returns whether it was successful.
 template <typename... Arguments>
 auto doing(bool (Pattern::*function)(Arguments...)) {
     return [function](PythonPattern& of, Arguments... arguments) {
         of.check((of.running().*function)(arguments...));
     };
 }
-/// The same, while other Python threads run.
+/// The same, but other Python threads may run during the call.
 template <typename... Arguments>
 auto doing_long(bool (Pattern::*function)(Arguments...)) {
     return [function](PythonPattern& of, Arguments... arguments) {
@@ -177,7 +178,7 @@ void define_values_and_files(PatternClass& pattern) {
         });
 }
 
-/// Makes a property of a function of Pattern, which also a failed pattern has.
+/// Makes a Python property of a function of Pattern. The property can also be read after a failure.
 template <typename Value>
 auto fact(Value (Pattern::*function)() const) {
     return [function](PythonPattern& of) { return (of.own().*function)(); };

@@ -56,7 +56,7 @@ public:
     }
     void cancel();
 
-    /// Makes a call of the pattern while other Python threads run.
+    /// Makes a call of the pattern, during which other Python threads may run.
     template <typename Call>
     auto during(const Call& call) {
         Pattern& pattern = running();

@@ -18,7 +18,7 @@ namespace {
 [[maybe_unused]] constexpr const char* what_to_install =
     "install libopenmpi-dev and openmpi-bin, and build Cascade again";
 
-/// The first of these environment variables that is a number from 0 on.
+/// The value of the first of these environment variables that contains an integer of at least 0.
 template <std::size_t count>
 std::optional<int> number_in(const std::array<const char*, count>& names) {
     for (const char* const name : names) {
@@ -36,7 +36,8 @@ std::optional<int> number_in(const std::array<const char*, count>& names) {
 
 Result<Messenger*> load_messenger() {
 #ifdef CASCADE_MPI_MODULE
-    // MPI libraries load plug-ins that look for the library's symbols among the global ones.
+    // MPI libraries load plug-ins, which look for the symbols of the library among the global
+    // symbols.
     void* const module = ::dlopen(CASCADE_MPI_MODULE, RTLD_NOW | RTLD_GLOBAL);
     if (module == nullptr) {
         const char* const reason = ::dlerror();

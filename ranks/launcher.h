@@ -17,7 +17,7 @@ namespace cascade {
 std::optional<int> launched_ranks();
 /// The number of this rank according to that environment; 0 without a launcher.
 int launched_rank();
-/// The number of these ranks that run on this machine; at least 1.
+/// The number of ranks of this run that are on this machine; at least 1.
 int ranks_on_this_machine();
 
 /// The messenger of this process. The first call loads the module and initialises MPI. Fails if

@@ -1,8 +1,8 @@
 // Messages between the ranks of a run: processes that share its steps, perhaps on several machines.
 //
-// Calls are collective: all ranks call the same functions in the same order. No arithmetic is done
-// on the way, because the order in which an MPI library adds numbers depends on the library and on
-// the number of ranks.
+// Calls are collective: all ranks call the same functions in the same order. Messages are only
+// copied and never added, because the order in which an MPI library adds numbers depends on the
+// library and on the number of ranks.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ public:
     /// A message to or from another rank.
     struct Message {
         int rank = 0;
-        std::span<std::byte> bytes;  ///< What is sent, or where the received bytes are stored.
+        std::span<std::byte> bytes;  ///< The bytes to send, or the memory for received bytes.
     };
 
     virtual ~Messenger() = default;

@@ -1,5 +1,5 @@
-// Messages are sent from planes and received into planes, without a copy between. This is possible
-// because successive rows are successive in memory.
+// Messages are sent from planes and received into planes, without a copy in between. This is
+// possible because adjacent rows are adjacent in memory.
 #include "ranks/rank_exchange.h"
 
 #include "core/check.h"
@@ -33,7 +33,7 @@ RankExchange::RankExchange(const Grid& grid, Messenger& messenger)
     CHECK(parts_.size() == static_cast<std::size_t>(messenger.count()), "a part for each rank");
 }
 
-/// Adds the transfers that fill some rows of a part's halo, which may lie beyond the grid.
+/// Adds the transfers that fill some rows of a part's halo. These rows may be beyond the grid.
 void RankExchange::add_transfers(int to, RowRange needed, std::vector<Transfer>& all) const {
     const std::int64_t rows = grid_.height * grid_.depth;
     for (std::int64_t row = needed.begin; row < needed.end; row += layer_) {
@@ -129,7 +129,7 @@ void RankExchange::gather(std::span<const Field* const> own, std::span<Field* co
 
 void RankExchange::scatter(std::span<const Field* const> whole, std::span<Field* const> own) {
     if (own.empty()) return;
-    // Parts of linked grids hold more rows than their own and a halo of one layer.
+    // On linked grids, a part stores more rows than its own and a halo of one layer.
     std::vector<RowRange> rows(count());
     rows[number_] = common(held(own[0]->layout()), held(PlaneLayout(grid_)));
     std::vector<std::span<std::byte>> blocks;

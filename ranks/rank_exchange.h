@@ -14,7 +14,8 @@ namespace cascade {
 class RankExchange final : public Exchange {
 public:
     /// Divides the grid among all ranks of the messenger, which must outlive the exchange. The grid
-    /// must have a row for each rank or, if there are several slices, a slice.
+    /// must have at least as many rows as there are ranks. If it has several slices, it must have
+    /// at least as many slices.
     RankExchange(const Grid& grid, Messenger& messenger);
 
     void fill_halos(std::span<const Shared> planes, std::int64_t width) override;
@@ -22,25 +23,26 @@ public:
     void gather(std::span<const Field* const> own, std::span<Field* const> whole) override;
     void scatter(std::span<const Field* const> whole, std::span<Field* const> own) override;
 
-    /// Collects all parts of planes in whole planes of every rank. They get the halo of the grid,
-    /// too.
+    /// Combines the parts of planes to whole planes on every rank. These include the halo of the
+    /// grid.
     void gather_everywhere(std::span<const Field> own, std::span<Field> whole);
 
     /// The bytes of halos that this rank has sent so far.
     std::int64_t halo_bytes_sent() const { return halo_bytes_sent_; }
 
 private:
-    /// Layers that a part computes and another part, or the same one, needs in its halo.
+    /// Layers that a part computes and that a part, perhaps the same one, needs in its halo.
     struct Transfer {
         int from = 0, to = 0;
-        RowRange rows;            ///< In the part that computes them.
+        RowRange rows;            ///< In the part that computes the layers.
         std::int64_t target = 0;  ///< The first row in the halo.
         bool is_across = false;   ///< Whether the halo lies beyond a side of the grid.
     };
 
     const std::vector<Transfer>& transfers(std::int64_t width);
     void add_transfers(int to, RowRange needed, std::vector<Transfer>& all) const;
-    /// The rows that a part gives to a whole plane: its own and, at the ends of the grid, the halo.
+    /// The rows that a part contributes to a whole plane: its own and, at the ends of the grid, the
+    /// halo.
     RowRange given_rows(std::size_t part) const;
 
     Messenger& messenger_;

@@ -1,4 +1,4 @@
-// Compares ranks with each other, and ends them together.
+// Compares the texts of ranks, and ends all ranks together.
 #include "ranks/ranks.h"
 
 #include "core/hash.h"

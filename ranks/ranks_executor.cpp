@@ -1,5 +1,5 @@
-// Takes the steps of one rank's part of the grid. The time loop sees whole planes, which all ranks
-// complete together when they are asked for.
+// Takes the steps of one rank's part of the grid. When the time loop asks for planes, all ranks
+// complete them together, so that it sees whole planes.
 #include "ranks/rank_exchange.h"
 #include "ranks/ranks.h"
 #include "solvers/pass_runner.h"
@@ -17,7 +17,7 @@ namespace {
 
 class RanksExecutor final : public Executor, public SharedSteps {
 public:
-    /// What the executors of all stages share.
+    /// The data that the executors of all stages share.
     struct Shared {
         Messenger& messenger;
         const std::atomic<bool>& is_to_end;
@@ -52,7 +52,7 @@ public:
     }
     void fill_halos(int copy, SideMoment moment) override { part_->fill_halos(copy, moment); }
 
-    // A step is never abandoned, because the ranks would have to do it at the same moment.
+    // A step is never abandoned, because all ranks would have to abandon it at the same moment.
 
     bool run(const StageClock& clock, StepPass first, std::size_t count, bool check,
              const std::atomic<bool>*) override {
