@@ -31,7 +31,7 @@ var Engine = class {
   turn() {
     return this.exports.turn() !== 0;
   }
-  // Views of memory become invalid when it grows.
+  // When the memory grows, earlier views of it become invalid.
   get bytes() {
     return new Uint8Array(this.exports.memory.buffer);
   }

@@ -4,13 +4,14 @@
 /// A plane: `rows` rows of `columns` numbers.
 export interface Values { columns: number; rows: number; numbers: Float32Array }
 
-const beyond = 3;  ///< The number of cells beyond a side that curves read.
+const beyond = 3;  ///< How many cells beyond a side the curves read.
 
-/// The cell that stands for one beyond a side: a cell at the opposite side if the plane repeats, else the last cell.
+/// The cell whose value is used for a position beyond a side: a cell at the opposite side if the plane repeats, else
+/// the last cell.
 export const inside = (place: number, count: number, repeats: boolean) =>
     repeats ? (place % count + count) % count : Math.min(Math.max(place, 0), count - 1);
 
-/// The slope at the middle of five cells, per cell.
+/// The slope at the middle of five cells: the change from one cell to the next.
 function slope_in(a: number, b: number, c: number, d: number, e: number): number {
     const before = c - b, after = d - c, bend = after - before, left = before - (b - a), right = e - d - after;
     let least = bend, largest = bend;
@@ -23,8 +24,8 @@ function slope_in(a: number, b: number, c: number, d: number, e: number): number
     return slope > most ? most : slope < -most ? -most : slope;
 }
 
-/// For each of `scale` parts of a cell: the last cell whose centre is before the centre of the part, relative to the
-/// part's own cell, and the weights of the rise to the next cell and of the slopes in both cells.
+/// Divides a cell into `scale` parts. For the centre of each part: the last cell whose centre is before it, relative to
+/// the divided cell, and the weights of the rise to the next cell and of the slopes in both cells.
 function parts_of_cell(scale: number) {
     return Array.from({ length: scale }, (_, k) => {
         const place = (k + 0.5) / scale - 0.5, before = Math.floor(place), part = place - before, rest = 1 - part;
@@ -32,8 +33,8 @@ function parts_of_cell(scale: number) {
     });
 }
 
-/// The values at the centres of `scale` × `scale` parts of each cell. All numbers must be finite. The last argument says
-/// whether rows and whether columns continue at their beginning.
+/// The values at the centres of `scale` × `scale` parts of each cell. All numbers must be finite. The last argument
+/// says whether rows repeat and whether columns repeat.
 export function divided({ columns, rows, numbers }: Values, scale: number, [across, down]: [boolean, boolean]): Values {
     const parts = parts_of_cell(scale), width = columns * scale, result = new Float32Array(width * rows * scale);
     const start = (row: number) => columns * inside(row, rows, down);

@@ -14,17 +14,17 @@ export class Brush {
     private readonly trail = new Trail(() => this.pattern.seen.parentElement!);
     private readonly stroke: Stroke;
 
-    /// `zoom` is that of what is seen.
+    /// `zoom` is the zoom of the visible view.
     constructor(private readonly pattern: Pattern, private readonly points: Points, private readonly measure: Measure,
         change: (what: string, fields: Record<string, unknown>) => Promise<Answer>, private readonly zoom: () => number) {
         this.stroke = new Stroke((fields) => change("paint", fields));
     }
 
-    /// The items that can be painted. Returns whether they are others than before.
+    /// Sets the items that can be painted. Returns whether they have changed.
     offer(items: string[]): boolean {
         const { choice } = this;
         if ([...choice.options].map(({ value }) => value).join() === items.join()) return false;
-        // The first one is the usual one; another was chosen.
+        // The first item is chosen by default. If another one was chosen, it stays chosen.
         const chosen = choice.selectedIndex > 0 ? choice.value : "";
         choice.replaceChildren(...items.map((name) => new Option(name)));
         if (items.includes(chosen)) choice.value = chosen;
@@ -40,7 +40,7 @@ export class Brush {
         const { pattern, choice } = this, place = pattern.place(at);
         if (this.measure.takes(event, place, is_first) || !choice.value || !place || !pattern.snapshot) return;
         const item = choice.value, value = this.amount.value || `${event.shiftKey ? "min" : "max"}(${item} over domain)`;
-        // As large on the screen at every zoom, but never so small that it misses all cells.
+        // The brush has the same size on the screen at every zoom, but it is never so small that it misses all cells.
         const { cells } = pattern.snapshot, is_model = pattern.snapshot.is_model && !cells, reach = 0.03 / this.zoom();
         const spacing = is_model ? pattern.solid.surface!.spacing : 1 / pattern.longest;
         const least = cells ? half_width(cells, place.cell) : (place.z === undefined || is_model ? 0.71 : 0.87) * spacing;

@@ -12,7 +12,7 @@ export class Camera {
     azimuth = 30;  ///< In degrees around the upward axis, from the front to the right.
     elevation = 25;
     zoom = 1;
-    /// By how much the enlarged picture is moved. The whole picture extends from −1 to 1 in both directions.
+    /// How far the enlarged picture is moved. The whole picture extends from −1 to 1 in both directions.
     right_by = 0;
     up_by = 0;
     right: Vector = [1, 0, 0];
@@ -54,7 +54,7 @@ export class Camera {
         this.far = away + farthest + size;
     }
 
-    /// Where a point in space appears in the picture (−1 … 1 to the right and upwards), and its distance.
+    /// The position of a point of space in the picture (−1 … 1 to the right and upwards), and its distance.
     project(place: Vector): Vector {
         const from = add(place, this.eye, -1), away = -dot(from, this.backward);
         return [

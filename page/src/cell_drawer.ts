@@ -1,10 +1,10 @@
-// Draws cells that crawl: copies of a few meshes, each copy with its position, axes, measures and colour. All copies of
-// a mesh take one call.
+// Draws cells that crawl: copies of a few meshes. Each copy has a position, axes, measures and a colour. All copies of
+// a mesh are drawn by one call.
 import type { Cells, Snapshot } from "./connection";
 import { hidden, shadow, surface } from "./light_shaders";
 import { Program, attributes } from "./program";
 
-/// Moves a point of a mesh to its place in a copy. Quaternions (`turn`) have the length 1.
+/// Moves a point of a mesh to its position in a copy. Quaternions (`turn`) have the length 1.
 const copy = `
 in vec3 position, normal, spot, stretch;
 in vec4 turn;

@@ -8,8 +8,7 @@ const place_at = ({ placements }: Cells, k: number): Vector => {
     return [placements[at], placements[at + 1], placements[at + 2]];
 };
 
-/// The positions in space of the vertices of each copy that are farthest out; fewer for each copy if there are many
-/// copies.
+/// The positions in space of the outermost vertices of each copy. If there are many copies, fewer vertices of each.
 export function corners_of(cells: Cells): Float32Array {
     const sides = [-1, 0, 1], { positions, triangles, placements } = cells;
     const directions = sides.flatMap((x) => sides.flatMap((y) => sides.map((z): Vector => [x, y, z])))
@@ -56,11 +55,11 @@ export function place_of_cell(cells: Cells, cell: number): Vector | undefined {
     return k < 0 ? undefined : place_at(cells, k);
 }
 
-/// The floor of a plane, or of a box of space, whose corners are only used to frame the picture. y of scripts points
-/// towards the viewer.
+/// The floor below cells on a plane or in a box of space. The corners of the box are only used to frame the picture. y
+/// of scripts points towards the viewer.
 export function floor_of([wide, deep, high]: Vector): Surface {
     const corners: Vector[] = [[0, 0, 0], [0, 0, deep], [wide, 0, deep], [wide, 0, 0]];
-    // The floor is a little above the ground, on which shadows fall.
+    // The floor is slightly above the ground, on which shadows fall.
     const others: Vector[] = high > 0 ? corners.map(([x, , z]) => [x, high, z]) : [[wide / 2, -0.01, deep / 2]];
     const positions = [...corners, ...others];
     return {

@@ -13,14 +13,15 @@ vec3 colour_of(float value) {
   int left = min(int(along), last - 1);
   return mix(stops[left], stops[left + 1], along - float(left));
 }
-/// How much of a pixel a contour line covers that is so many values away.
+/// The part of a pixel that a contour line covers, by the difference from the line's value and the change of the
+/// value from pixel to pixel.
 float line(float away, float change) { return change > 0.0 ? clamp(1.0 - away / change, 0.0, 1.0) : 0.0; }
-/// The part of a pixel that lines cover, where values change so much from pixel to pixel.
+/// The part of a pixel that all lines cover, by the change of the value from pixel to pixel.
 float line_part(float value, float change) {
   float covered = 0.0;
   if (every > 0.0 && change < every) covered = line(abs(fract(value / every + 0.5) - 0.5) * every, change);
   if (has_line) covered = max(covered, line(abs(value - at), change));
   return 0.8 * covered;
 }
-/// Lines are white on dark colours, else black.
+/// On dark colours lines are white, on others black.
 float line_level(float value) { return dot(colour_of(value), vec3(0.3, 0.6, 0.1)) < 0.4 ? 1.0 : 0.0; }`;

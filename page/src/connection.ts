@@ -5,7 +5,7 @@ import { EngineLine, type Line } from "./carried_engine";
 export interface Message { is_error: boolean; message: string; hint: string; from?: [number, number]; to?: [number, number]; notes?: string[] }
 export interface Answer { kind: "answer"; id: number; is_done: boolean; messages: Message[] }
 export interface KnownName { name: string; what: string; note: string }
-/// The meaning of a word. Without `name` if the word has no meaning.
+/// The meaning of a word. `name` is missing if the word has no meaning.
 export interface Explanation { name?: string; what?: string; note?: string; value?: number; range?: [number, number]; smallest?: number; largest?: number; equation?: string }
 export interface Control { name: string; label: string; stage: number; doc: string; low: number; high: number; step?: number; value: number }
 export interface Script { kind: "script"; name: string; text: string; messages: Message[]; controls: Control[]; species: string[]; brushes: string[] }
@@ -16,10 +16,10 @@ export interface Snapshot {
     number: number; script: number; is_going_on: boolean; stage: number; steps: number; stages: Stage[];
     steps_per_second: number; can_undo: boolean; can_redo: boolean; failure: string; remarks: string[];
     columns: number; rows: number; low: number; high: number; planes: Float32Array[];
-    repeats: [boolean, boolean];  ///< Whether the rows of the planes continue at their beginning, and the columns.
+    repeats: [boolean, boolean];  ///< Whether the planes repeat along x, and along y.
     surface: number;    ///< The number of the surface on which the cells lie; 0 for none.
     is_model: boolean;  ///< The cells are those of a model, and have no columns and rows.
-    cells?: Cells;      ///< Cells that crawl; the planes then have one row with a value for each cell.
+    cells?: Cells;  ///< Cells that crawl. Planes then have one row with a value for each cell.
     slice?: { axis: "x" | "y" | "z"; number: number; sides: [number, number, number] };  ///< Of a volume.
 }
 

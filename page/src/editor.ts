@@ -58,7 +58,8 @@ type Place = [line: number, column: number];
 export class Editor {
     readonly view: EditorView;
 
-    /// `typed` is called with every key, `changed` some time after the last key, `refuse` when a part is locked.
+    /// `typed` is called after every key, `changed` some time after the last key, and `refuse` when the user tries to
+    /// change a locked part.
     constructor(parent: HTMLElement, engine: EngineHelp & NameService, typed: () => void, changed: (text: string) => void, refuse: () => void) {
         // In a shadow tree the editor's styles are style sheets, which the page's Content-Security-Policy allows.
         const root = parent.attachShadow({ mode: "open" });
@@ -105,10 +106,11 @@ export class Editor {
         this.view.focus();
     }
 
-    /// Whether the caret has been put anywhere.
+    /// Whether the caret has been placed in the text.
     get was_entered() { return this.has_caret; }
 
-    /// Writes at the caret what `compose` makes of the text before and after it, and selects a part of that.
+    /// Writes at the caret the text that `compose` makes from the text before and after the caret, and selects a part
+    /// of the written text.
     write(compose: (before: string, after: string) => { text: string; from: number; to: number }) {
         const { text, view } = this, at = view.state.selection.main.to;
         const { text: insert, from, to } = compose(text.slice(0, at), text.slice(at));

@@ -9,7 +9,7 @@ export interface EngineHelp {
     explain(text: string): Promise<Explanation>;
 }
 
-/// The box with an explanation; undefined if it would say nothing beyond the word itself.
+/// The box with an explanation. Undefined if the box would contain nothing but the word itself.
 export function explanation_box(told: Explanation): HTMLElement | undefined {
     if (!told.name) return undefined;
     const box = document.createElement("div"), head = document.createElement("div");
@@ -47,7 +47,7 @@ export function editor_help(engine: EngineHelp) {
             from: word.from, validFor: /^[\wα-ωΓ-Ω₀-₉]*$/,
             options: names.map(({ name, what, note }) => ({
                 label: name, detail: note || what,
-                // Names of the script come first.
+                // Names that the script declares come first.
                 boost: ["species", "parameter", "definition", "stage"].includes(what) ? 1 : 0,
             })),
         };

@@ -5,7 +5,7 @@ export interface Carried {
     name: string;
     text: string;
     overrides: string;
-    is_exact: boolean;  ///< Same bits as the program even if numbers are denormal, which is slow.
+    is_exact: boolean;  ///< Whether results have the program's bits even if numbers are denormal, which is slow.
     files: [name: string, bytes: Uint8Array][];
 }
 
@@ -55,7 +55,7 @@ export class Engine {
     /// Takes a turn. Returns whether there is more to do before the next message.
     turn(): boolean { return this.exports.turn() !== 0; }
 
-    // Views of memory become invalid when it grows.
+    // When the memory grows, earlier views of it become invalid.
     private get bytes() { return new Uint8Array(this.exports.memory.buffer); }
 
     private put(what: string | Uint8Array): [number, number] {

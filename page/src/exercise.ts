@@ -2,7 +2,7 @@
 
 export interface Goal { feature: string; low: number; high: number }
 
-/// Texts are by language; "" is the one that is for all others.
+/// Texts by language. The text of "" is used for all languages that have none.
 export type Texts = Record<string, string>;
 export interface Exercise { title: Texts; task: Texts; hint: Texts; target: string; goals: Goal[]; wrong: string[] }
 
@@ -21,7 +21,7 @@ function goal_of(text: string): Goal | undefined {
 
 const begins = /^#\s*exercise(?:\s+([a-z]{2}))?\s*:/, entry = /^#\s*(exercise|task|hint|goal|target)(?:\s+([a-z]{2}))?\s*:\s*(.*?)\s*$/;
 
-/// The lines of the comment that holds an exercise, counted from 0: the first one, and the one after the last.
+/// The lines of the comment that contains an exercise, counted from 0: the first line, and the line after the last one.
 function lines_of(lines: string[]): [number, number] | undefined {
     const first = lines.findIndex((line) => begins.test(line));
     if (first < 0) return undefined;
@@ -29,7 +29,8 @@ function lines_of(lines: string[]): [number, number] | undefined {
     return [first, length < 0 ? lines.length : first + length];
 }
 
-/// Nothing if there is none. A line without a word and ':' goes on with the text of the line before it.
+/// Undefined if the script has no exercise. A line that has no word before a ':' continues the text of the line before
+/// it.
 export function exercise_of(script: string): Exercise | undefined {
     const lines = script.split("\n"), range = lines_of(lines);
     if (!range) return undefined;
@@ -59,8 +60,8 @@ export function exercise_of(script: string): Exercise | undefined {
 
 const is_lock = (line: string) => /^#\s*locked\s*$/.test(line), is_end_of_lock = (line: string) => /^#\s*open\s*$/.test(line);
 
-/// The offsets of what no user may change, each from the start of a line to the end of one: the exercise itself, and
-/// the lines from `# locked` to `# open` or the end. Nothing in other scripts.
+/// The parts that no user may change, as offsets from the start of a line to the end of a line: the exercise itself,
+/// and the lines from `# locked` to `# open` or the end. Empty for scripts without an exercise.
 export function locked_parts(script: string): [from: number, to: number][] {
     const lines = script.split("\n"), exercise = lines_of(lines);
     if (!exercise) return [];

@@ -1,10 +1,10 @@
-// Shows why and where the run stopped by itself, and offers to go back.
+// Shows why and where a run has failed, and offers to go back.
 import type { Snapshot } from "./connection";
 import { Mark } from "./mark";
 import type { Pattern } from "./pattern";
 
-/// The cell of the grid where the run stopped, from the message. Undefined on models, as messages number their cells in
-/// another order than planes.
+/// The cell of the grid where the run failed, from the message. Undefined on models, because messages and planes number
+/// the cells of models in different orders.
 function cell_of({ failure, columns, slice }: Snapshot): number | undefined {
     const place = failure.match(/ column (\d+), row (\d+)/);
     return place ? Number(place[1]) + (slice?.sides[0] ?? columns) * Number(place[2]) : undefined;

@@ -6,9 +6,9 @@ export type Held = "brush" | "plane" | "angle";
 
 /// A movable picture on a canvas. Movements are in pixels of the page.
 export interface View {
-    /// What the left button or a finger moves: the brush, the picture or the angle of view.
+    /// What is moved with the left button or a finger: the brush, the picture or the angle of view.
     held_at(event: PointerEvent): Held;
-    /// What the right button and two fingers move.
+    /// What is moved with the right button or two fingers.
     readonly held_by_two: Held;
     shift(right: number, down: number): void;
     turn(right: number, down: number): void;
@@ -24,7 +24,7 @@ export class Gestures {
     private waiting?: PointerEvent;  ///< A finger's press that may become a stroke.
     private holds: Held | "nothing" = "nothing";
 
-    /// `paint` is called for each position of a stroke; `is_first` is true for the first.
+    /// `paint` is called for each position of a stroke. `is_first` is true for the first position.
     constructor(private readonly canvas: HTMLCanvasElement, private readonly view: View,
         private readonly paint: (event: PointerEvent, is_first: boolean) => void) {
         canvas.addEventListener("pointerdown", (event) => this.press(event));
@@ -66,7 +66,7 @@ export class Gestures {
         this.paint(event, false);
     }
 
-    /// Moves the view; with two fingers it follows both.
+    /// Moves the view. If there are two fingers, the view follows both.
     private drag(before: PointerEvent, event: PointerEvent) {
         const right = event.clientX - before.clientX, down = event.clientY - before.clientY;
         const other = [...this.pressed.values()].find(({ pointerId }) => pointerId !== event.pointerId);

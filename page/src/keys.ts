@@ -1,4 +1,4 @@
-// The keys of the page and their effects. The text, menus and inputs have keys of their own.
+// The keys of the page and their effects. In the text, in menus and in inputs, keys have other effects.
 export interface Key { key: string; also?: string[]; act: string; does: string }
 
 export const keys: Key[] = [

@@ -1,6 +1,6 @@
-// The page's own words: English, as the page's text and its other files have them, then German, French, Spanish and
-// Chinese. In a row '#' is a
-// number, '$' a word and '%' any text: they are kept. What the engine says stays English.
+// The texts of the page in several languages: first English, as in the HTML and in the other files, then German,
+// French, Spanish and Chinese. In a row '#' is a number, '$' a word and '%' any text. These parts are not translated.
+// The messages of the engine stay English.
 export const languages = { en: "English", de: "Deutsch", fr: "Français", es: "Español", zh: "中文" };
 export type Language = keyof typeof languages;
 
@@ -133,7 +133,7 @@ export const labels: Record<string, [de: string, fr: string, es: string, zh: str
     "A click on a stage goes to its start. Space runs and pauses, Ctrl+Z undoes anything, and ? shows all keys.": ["Ein Klick auf eine Stufe geht an ihren Anfang. Die Leertaste startet und hält an, Strg+Z macht alles rückgängig, und ? zeigt alle Tasten.", "Un clic sur une étape va à son début. Espace lance et suspend, Ctrl+Z annule tout, et ? montre toutes les touches.", "Un clic en una etapa va a su comienzo. Espacio ejecuta y pausa, Ctrl+Z deshace todo y ? muestra todas las teclas.", "单击阶段可回到其开始。空格运行与暂停，Ctrl+Z 撤销任何操作，? 显示所有按键。"],
     "Below the pattern: %": ["Unter dem Muster: %", "Sous le motif : %", "Debajo del patrón: %", "图案下方：%"],
     "# of #": ["# von #", "# sur #", "# de #", "# / #"],
-    // What it says
+    // Messages
     "paused": ["angehalten", "suspendu", "en pausa", "已暂停"],
     "step %": ["Schritt %", "pas %", "paso %", "第 % 步"],
     "step # of #": ["Schritt # von #", "pas # sur #", "paso # de #", "第 # 步，共 # 步"],

@@ -1,12 +1,12 @@
-// The page in the language of its user: whatever it says in words of the table of labels is shown in that language as
-// soon as it is said. Elements with translate="no" hold words of scripts and of the engine.
+// Shows the page in the language of its user: every text of the page that the table of labels contains is translated as
+// soon as it appears. Elements with translate="no" contain words of scripts and of the engine.
 import { type Language, labels, languages } from "./labels";
 
 const attributes = ["title", "aria-label", "placeholder", "alt"];
 const codes = Object.keys(languages) as Language[];
 const escaped = (text: string) => text.replace(/[.*+?^${}()|[\]\\]/g, "\\$&");
 const kept: Record<string, string> = { "#": "([-\\d.,]+)", "$": "(\\S+)", "%": "(.+?)" };
-/// Rows with a part that is kept, the longest first, since the shorter ones may be parts of them.
+/// Rows with a variable part, the longest first, because shorter rows may be parts of longer ones.
 const rows = Object.keys(labels).filter((english) => /[#$%]/.test(english)).sort((a, b) => b.length - a.length)
     .map((english) => ({ english, pattern: new RegExp(`^${english.split(/([#$%])/).map((part) => kept[part] ?? escaped(part)).join("")}$`) }));
 
@@ -14,7 +14,7 @@ const row_of = (english: string) => Object.hasOwn(labels, english) ? labels[engl
 
 let now: Language = "en";
 
-/// A text of the page in the present language; itself if it is in no row.
+/// A text of the page in the present language. If no row contains it, the text is returned unchanged.
 export function translated(english: string, language = now): string {
     const column = codes.indexOf(language) - 1;
     if (column < 0) return english;
@@ -31,7 +31,7 @@ export function translated(english: string, language = now): string {
     return english;
 }
 
-/// What stands on the page, as it was said: by its node, or by its element and attribute.
+/// The original text of each node, or of each attribute of an element.
 const said = new WeakMap<Node, string>();
 const said_of = new WeakMap<Element, Map<string, string>>();
 
@@ -66,7 +66,7 @@ function show_all(root: Node, is_new: boolean) {
 
 const watched = { subtree: true, childList: true, characterData: true, attributes: true, attributeFilter: attributes };
 
-/// The language of the browser, or the one chosen before, and a choice of another.
+/// Chooses the language that the user chose before, or else the language of the browser, and offers all languages.
 export function speak(choice: HTMLSelectElement) {
     const observer = new MutationObserver((changes) => {
         for (const { type, target, addedNodes, attributeName } of changes) {
@@ -74,14 +74,14 @@ export function speak(choice: HTMLSelectElement) {
             else if (type === "characterData") show_text(target as Text, true);
             else for (const node of addedNodes) show_all(node, true);
         }
-        observer.takeRecords();  // What was just translated.
+        observer.takeRecords();  // Discards the changes made by this translation.
     });
     const use = (language: Language) => {
         const was_english = now === "en";
         observer.disconnect();
         now = language;
         document.documentElement.lang = language === "zh" ? "zh-Hans" : language;
-        // English is what the page says by itself.
+        // The HTML of the page is in English.
         show_all(document.body, was_english);
         if (language !== "en") observer.observe(document.body, watched);
         choice.value = language;

@@ -8,13 +8,13 @@ type Ask = <Reply>(what: string, fields: Record<string, unknown>) => Promise<Ans
 interface Features { features?: Record<string, number>; seconds: number }
 
 const milliseconds_between_looks = 500;
-const share_of_run = 0.1;  ///< Of the run's time, for measuring.
+const share_of_run = 0.1;  ///< The largest fraction of the run's time that is spent on measuring.
 
 function in_words({ feature, low, high }: Goal) {
     return low === -Infinity ? `${feature} below ${digits(high)}` : high === Infinity ? `${feature} above ${digits(low)}` : `${feature} from ${digits(low)} to ${digits(high)}`;
 }
 
-/// A picture of the library or of an example by its name, or one that the script brings.
+/// The picture with this name: a picture of the library or of an example, or one that the script contains.
 function picture_of(target: string): string {
     if (/^data:image\/(png|webp|jpeg);base64,[\w+/=]+$/.test(target)) return target;
     const systems: Record<string, string> = beside.systems;
@@ -35,7 +35,7 @@ export class Lesson {
     private timer = 0;
     private last?: Snapshot;
 
-    /// `shown` is the expression that the page shows instead of the script's.
+    /// `shown` is the expression that the user has chosen to see, instead of the script's.
     constructor(private readonly ask: Ask, private readonly shown: () => string) {
         new MutationObserver(() => this.write()).observe(document.documentElement, { attributeFilter: ["lang"] });
     }
@@ -76,14 +76,14 @@ export class Lesson {
         if (this.last) this.look_at(this.last);
     }
 
-    /// Measures what is seen, but not more often than the run can bear.
+    /// Measures the visible pattern, but not so often that the run becomes slow.
     look_at(snapshot: Snapshot) {
         this.last = snapshot;
         if (!this.exercise || this.exercise.goals.length === 0 || this.is_asking) return;
         const moment = `${snapshot.number} ${this.shown()}`, wait = this.next_look - performance.now();
         if (moment === this.looked_at) return;
         clearTimeout(this.timer);
-        // The last moment is looked at, even if no other follows it.
+        // The last moment is measured, too, even if no other moment follows it.
         if (wait > 0) return void (this.timer = window.setTimeout(() => this.look_at(snapshot), wait));
         this.looked_at = moment;
         void this.measure(snapshot);
@@ -93,7 +93,7 @@ export class Lesson {
         this.is_asking = true;
         await this.judge(snapshot);
         this.is_asking = false;
-        // The newest moment may have come meanwhile.
+        // A newer moment may have arrived meanwhile.
         if (this.last) this.look_at(this.last);
     }
 

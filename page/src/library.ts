@@ -1,4 +1,4 @@
-// The start page of a session without a script: the systems that are built in and the examples, to choose one from.
+// The start page of a session without a script. The user chooses one of the built-in systems or an example.
 import type { LibrarySystem } from "./connection";
 import beside from "./library.json";
 import { favourites, group_names, group_of, likeness } from "./library_groups";
@@ -34,7 +34,7 @@ export class Library {
     private items: HTMLLIElement[] = [];  ///< The list items of the entries.
     private liked = new Set((localStorage.getItem("favourites") ?? "").split("\n").filter(Boolean));  ///< The titles of favourites.
 
-    /// `choose` gets the script that shows the chosen system.
+    /// `choose` is called with a script that shows the chosen system.
     constructor(private readonly choose: (script: string) => void) {
         this.search.addEventListener("input", () => this.find());
         this.search.addEventListener("keydown", (event) => {
@@ -76,7 +76,7 @@ export class Library {
         return item;
     }
 
-    /// Puts all items into their sections, favourites into the first section.
+    /// Moves all items into their sections, favourites into the first section.
     private sort() {
         const lists = this.sections.map((section) => section.querySelector("ul")!);
         for (const list of lists) list.replaceChildren();
@@ -98,7 +98,7 @@ export class Library {
         this.dialog.showModal();
     }
 
-    /// Shows what mentions all words.
+    /// Shows the items that contain all words.
     private find() {
         const words = this.search.value.toLowerCase().split(/\s+/);
         this.show((k) => words.every((word) => this.entries[k].words.includes(word)));

@@ -1,6 +1,7 @@
 // Groups of the library and similarity of its systems, by the words of their descriptions.
 
-/// A system belongs to the group whose words occur most often in its description; if equally often, to the first one.
+/// A system belongs to the group whose words occur most often in its description. If several groups are equal, it
+/// belongs to the first of them.
 const groups: [name: string, words: string][] = [
     ["Spots and stripes", "turing spot spots stripe stripes labyrinth labyrinths dot dots hexagon hexagons skin skins digit digits phyllotaxis nanocoating brusselator schnakenberg swift superlattice holes squares worms mitosis inhibition inhibitor coats"],
     ["Waves and spirals", "wave waves spiral spirals excitable heart front fronts pulse pulses clock gliders turbulence chaos glycolysis ginzburg lambda oscillations travelling epidemic"],
@@ -26,7 +27,7 @@ export function group_of(title: string, about: string, is_example: boolean): str
 /// The similarity of each text to text `to`, 0 … 1: the cosine of the angle between sets of words, in which rare words
 /// have more weight.
 export function likeness(texts: string[], to: number): number[] {
-    // Plurals are the same words.
+    // Plurals count as the same words.
     const sets = texts.map((text) => new Set(words_of(text).map((word) => word.replace(/s$/, "")))), count = new Map<string, number>();
     for (const set of sets) for (const word of set) count.set(word, (count.get(word) ?? 0) + 1);
     const weight = (word: string) => Math.log(texts.length / count.get(word)!) ** 2;

@@ -1,9 +1,9 @@
 // Shaders for objects in the light of a sun and a sky: the visible part of the sun, and the colours of lit surfaces.
 import { colours } from "./colours";
 
-/// The visible part of the sun's disc from a point. Objects that hide the sun are found first, since their distance
-/// determines how soft the shadow is. Depth maps contain coordinates of −1 … 1, larger away from the light, and 1
-/// without an object.
+/// The visible part of the sun's disc, as seen from a point. Objects that hide the sun are found first, because their
+/// distance determines how soft the shadow is. Depth maps contain coordinates of −1 … 1, which are larger farther away
+/// from the light, and 1 where there is no object.
 export const shadow = `#version 300 es
 precision highp float;
 precision highp sampler2D;
@@ -16,7 +16,7 @@ vec2 on_disc(int k, int count, float turn) {
   float angle = 2.39996 * float(k) + turn;
   return sqrt((float(k) + 0.5) / float(count)) * vec2(cos(angle), sin(angle));
 }
-/// How far below what the light sees first, and 0 where it sees nothing or this.
+/// How far a point is below the first surface that the light reaches. 0 if the light reaches nothing or this point.
 float below(vec3 here, vec2 by, float slack) {
   float there = textureLod(depth, here.xy + by, 0.0).r;
   return there < 1.0 && there < here.z - slack ? here.z - there : 0.0;
@@ -38,7 +38,7 @@ float sun_part(vec3 place, vec3 normal, float turn) {
 
 export const shade = `${shadow}
 in vec3 place, toward, seen;
-in vec2 sky_parts;  // Of the side that the normal points to, and of the other one.
+in vec2 sky_parts;  // The light of the side to which the normal points, and of the other side.
 in float sun_light;
 uniform vec3 eye, middle;
 out vec4 colour;
@@ -60,7 +60,7 @@ void main() {
   vec3 light = look();
   if (isnan(seen.r)) discard;
   vec3 to_eye = normalize(eye - place), outward = normalize(toward);
-  // At the rim a triangle may turn away though the surface does not yet.
+  // At the rim a triangle may face away from the viewer although the surface does not yet.
   bool is_outside = gl_FrontFacing || dot(outward, to_eye) > -0.08;
   vec3 normal = is_outside ? outward : -outward;
   float gleam = 0.06 * pow(max(0.0, dot(normal, normalize(sun + to_eye))), 40.0);

@@ -8,7 +8,7 @@ import { Program } from "./program";
 const vertex = `#version 300 es
 void main() { gl_Position = vec4(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3 : -1, 0, 1); }`;
 
-/// The light is that of render/tracer.cpp, without shadows.
+/// The same light as in render/tracer.cpp, but without shadows.
 const fragment = `#version 300 es
 precision highp float;
 precision highp sampler2D;

@@ -1,14 +1,15 @@
-// The locked parts of an exercise in the text: they are marked, and changes by users that reach into them are refused.
+// The locked parts of an exercise. They are marked in the text, and a change by the user that touches one of them is
+// refused.
 import { EditorState, type Extension, type Range, StateField } from "@codemirror/state";
 import { Decoration, type DecorationSet, EditorView, WidgetType } from "@codemirror/view";
 import { locked_parts, touches } from "./exercise";
 
-/// Stands for the data of a picture.
+/// Shown in place of the data of a picture.
 class Ellipsis extends WidgetType {
     toDOM() { return Object.assign(document.createElement("span"), { textContent: "…" }); }
 }
 
-const longest_shown = 40;  ///< Of data in a line.
+const longest_shown = 40;  ///< The longest data that are shown in a line.
 
 function marks_of(state: EditorState): DecorationSet {
     const text = state.doc.toString(), marks: Range<Decoration>[] = [];

@@ -3,10 +3,10 @@ import type { Palette, Snapshot } from "./connection";
 import { digits } from "./words";
 
 export interface Look {
-    low?: number;    ///< Fixed end of the range; if undefined, the smallest value that is shown.
+    low?: number;  ///< The fixed lower end of the range. If undefined, the smallest visible value is used.
     high?: number;
-    every?: number;  ///< The distance of contour lines in values.
-    at?: number;     ///< A contour line at this value.
+    every?: number;  ///< The difference between the values of adjacent contour lines.
+    at?: number;  ///< The value of a single contour line.
     relief: number;  ///< The strength of the relief, 0 … 1.
     squares: boolean;  ///< Whether cells of planes are squares at every zoom.
 }
@@ -45,7 +45,7 @@ export class LookControls {
 
     private input<T extends HTMLElement = HTMLInputElement>(id: string) { return document.getElementById(id) as T; }
 
-    /// Fixes the present range, or lets it follow the values again.
+    /// Fixes the present range, or makes it follow the values again.
     toggle_hold() {
         const was_held = is_held(this.look);
         [this.look.low, this.look.high] = was_held ? [undefined, undefined] : this.range;

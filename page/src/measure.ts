@@ -29,7 +29,7 @@ export class Measure {
     private next_values = 0;
     private next_measures = 0;
     private is_stale = false;
-    private is_picking = false;  ///< The button that chose a cell is still pressed.
+    private is_picking = false;  ///< Whether the button that chose a cell is still pressed.
 
     constructor(private readonly pattern: Pattern, private readonly ask: Ask) {
         this.probe = new Mark(pattern, "probe");
@@ -59,7 +59,8 @@ export class Measure {
         this.pick.ariaPressed = String(is_waiting);
     }
 
-    /// Returns whether a press on the pattern chooses a cell: a press with Alt, or the first after the button.
+    /// Returns whether a press on the pattern chooses a cell: a press with Alt, or the first press after a click on the
+    /// button.
     takes({ altKey }: PointerEvent, place: Place | undefined, is_first: boolean): boolean {
         if (is_first) this.is_picking = altKey || this.pick.ariaPressed === "true";
         if (!this.is_picking || !place || !is_first) return this.is_picking;
@@ -95,7 +96,7 @@ export class Measure {
     async look_at(snapshot: Snapshot) {
         if (!this.panel.open || this.is_asking || !this.x.value) return;
         this.is_asking = true;
-        // Measuring takes the run at most a tenth of its time.
+        // At most a tenth of the run's time is spent on measuring.
         const after = ({ seconds }: Cost) => performance.now() + 9000 * seconds;
         const is_due = (moment: number) => !snapshot.is_going_on || performance.now() >= moment;
         if (is_due(this.next_values)) {
@@ -121,7 +122,7 @@ export class Measure {
         this.moments = this.moments.filter((old) => old.at[0] < stage || (old.at[0] === stage && old.at[1] < steps));
         const last = this.moments.at(-1);
         this.moments.push({ t: t ?? (last ? last.t + 1 : 0), at, species });
-        // Drops every other point of the older half.
+        // Removes every second point of the older half.
         if (this.moments.length > most_moments) this.moments = this.moments.filter((_, k) => k % 2 === 0 || k > most_moments / 2);
         const ts = this.moments.map(({ t }) => t), names = species!.map(({ name }) => name);
         const of = (name: string, part: "mean" | "smallest" | "largest" | "value") =>
@@ -146,7 +147,7 @@ export class Measure {
         this.plots.histogram.show([{ name: "cells" }], [histogram!.map((_, k) => x![0] + (k + 0.5) * width), histogram!]);
         this.figure("spectrum").hidden = !spectrum;
         if (spectrum) {
-            // Rings after the last with a thousandth of the largest power are not shown.
+            // After the last ring that has at least a thousandth of the largest power, nothing is shown.
             const least = Math.max(...spectrum.slice(1)) / 1000, last = spectrum.findLastIndex((power, k) => k > 0 && power >= least);
             const powers = spectrum.slice(1, Math.max(last + 2, 9)), rings = powers.map((_, k) => (k + 1) * ring_width!);
             const is_wave = typeof wavelength === "number";

@@ -7,8 +7,8 @@ const usual_cells = 20000;
 
 type Ask = <Reply>(what: string, fields: Record<string, unknown>) => Promise<Answer & Reply>;
 
-/// Sends a model. Returns the name by which scripts read it; undefined if it was refused. `tell` gets the fraction
-/// sent.
+/// Sends a model. Returns the name by which scripts read it, or undefined if it was refused. `tell` is called with the
+/// fraction sent so far.
 export async function send_model(file: File, ask: Ask, tell: (sent: number) => void): Promise<string | undefined> {
     for (let at = 0; at === 0 || at < file.size; at += part) {
         tell(at / Math.max(file.size, 1));
@@ -22,9 +22,9 @@ export async function send_model(file: File, ask: Ask, tell: (sent: number) => v
 /// A change of a text: the part from `from` to `to` is replaced by `text`.
 export interface TextChange { from: number; to: number; text: string }
 
-/// Makes a model the domain of a script, in place of its grid, its surface or another model.
+/// Replaces the domain of a script (a grid, a surface or another model) by this model.
 export function with_model(script: string, name: string): TextChange {
-    // Removes comments and texts, whose brackets and names do not count.
+    // Removes comments and strings, because brackets and names in them do not count.
     const plain = script.replace(/#.*|"[^"\n]*"/g, (part) => part.replace(/[^"]/g, " "));
     const model = `mesh: "${name}"`, block = /^[ \t]*domain\s*\{/m.exec(plain);
     if (!block) return { from: 0, to: 0, text: `domain { ${model}; cells: ${usual_cells} }\n` };
@@ -47,7 +47,8 @@ function end_of(text: string, start: number, sign = /\}/) {
     return text.length;
 }
 
-/// Calls `take` for files that are dropped anywhere on the page. The editor takes scripts itself.
+/// Calls `take` for files that are dropped anywhere on the page. Scripts are dropped into the editor, which reads them
+/// itself.
 export function take_drops(take: (file: File) => void) {
     const has_files = ({ dataTransfer }: DragEvent) => dataTransfer?.types.includes("Files") === true;
     addEventListener("dragover", (event) => has_files(event) && event.preventDefault());

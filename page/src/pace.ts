@@ -3,7 +3,7 @@
 import type { Answer, Snapshot, Stage } from "./connection";
 import { is_row, rows_of_time } from "./time_rows";
 
-const usual_seconds = 20;    ///< The duration of all stages, with the slider in the middle.
+const usual_seconds = 20;  ///< The duration of all stages if the slider is in the middle.
 const longest_pause = 0.1;   ///< In seconds: after a longer pause, steps that were due are left out.
 const very_fast = 1e12;      ///< In steps a second: as fast as possible.
 
@@ -18,13 +18,13 @@ export class Pace {
     private readonly slider = document.getElementById("speed") as HTMLInputElement;
     private seen?: Snapshot;
     private stages = "";
-    private usual = 60;      ///< Steps a second, with the slider in the middle.
+    private usual = 60;  ///< Steps a second if the slider is in the middle.
     private is_asking = false;  ///< The page requests the steps for each frame.
-    private is_starting = false;  ///< The run has been started, but no snapshot shows it yet.
-    private is_wanted = false;  ///< The pattern was not paused, though it may have ended.
+    private is_starting = false;  ///< Whether the run has been started, but no snapshot shows this yet.
+    private is_wanted = false;  ///< Whether the pattern was not paused. It may have ended.
     private is_changed = false;  ///< A number or the pattern was changed after the last snapshot.
     private is_lengthened = false;   ///< The last stage is being lengthened.
-    private goes_on_after?: number;  ///< Continue if another script than this one has stages left.
+    private goes_on_after?: number;  ///< Continue if a script other than this one has stages left.
     private asked = "";      ///< The stage and step of the last request for steps.
     private due = 0;         ///< The number of steps that are due.
     private then = 0;
@@ -147,7 +147,8 @@ export class Pace {
         this.due += Math.min((now - this.then) / 1000, longest_pause) * this.rate;
         this.then = now;
         const moment = `${stage} ${steps}`;
-        // The steps between rows of a one-row grid's picture, with which a stage fills the picture.
+        // The number of steps between rows of the picture of a one-row grid. It is chosen so that a stage fills the
+        // picture.
         const least = is_row(this.seen!) ? Math.max(1, Math.ceil(stages[stage - 1].iterations / (rows_of_time(this.seen!) - 1))) : 1;
         if (is_going_on || moment === this.asked || this.due < least) return;
         const count = is_row(this.seen!) ? least : Math.floor(Math.min(this.due, longest_pause * this.rate + 1));

@@ -51,10 +51,10 @@ pattern.drawn = (shown) => {
 const palette_choice = element<HTMLSelectElement>("palette");
 let palettes: Palette[] = [];
 let is_text_open = false;  ///< The text in the editor is not the session's script.
-let replaced_script: number | undefined;  ///< The script before an accepted text whose pattern is not shown yet.
+let replaced_script: number | undefined;  ///< The script before a text whose pattern is not shown yet.
 let is_drawing = false;
 let was_opened = false;
-let is_to_start = false;  ///< Start the run with the next snapshot of a start.
+let is_to_start = false;  ///< Whether the run is to be started at the next snapshot of a beginning.
 let noticed_until = 0;
 const preparing = new Preparing();
 
@@ -312,7 +312,7 @@ const saver = new ModelSaver(pattern, ask, (words) => notice(words, false, words
 const save_model = (what: "model" | "maps") => saver.save(what, name_of_file(), { show: shown.value, palette: palette_choice.value });
 
 const actions: Record<string, () => void> = {
-    // What the button says: the run may just have ended.
+    // Does what the label of the button says, because the run may just have ended.
     run: () => void (button("run").hasAttribute("data-going") ? pace.stop() : start_run()),
     step: () => void ask("step", { count: 1 }),
     restart: () => void ask("restart"),

@@ -1,4 +1,5 @@
-// The pattern on a canvas: a plane, smooth or with a pixel for each cell, or a surface in space on a canvas of its own.
+// The pattern on a canvas: a plane, smooth or with a pixel for each cell, or a surface in space, which has a separate
+// canvas.
 import { divided, filled } from "./between_cells";
 import type { Palette, Snapshot } from "./connection";
 import { LineDrawer, has_lines } from "./line_drawer";
@@ -7,8 +8,8 @@ import { PlanePainter } from "./plane_painter";
 import type { SolidView } from "./solid_view";
 import { TimeRows, is_row } from "./time_rows";
 
-const sharp_from = 24;        ///< The width of cells, in pixels of the page, from which a zoomed plane shows squares.
-const most_pixels = 1 << 20;  ///< The most pixels of a smooth plane. The browser stretches them.
+const sharp_from = 24;  ///< The width of cells, in pixels of the page, above which an enlarged plane shows squares.
+const most_pixels = 1 << 20;  ///< The largest number of pixels of a smooth plane. The browser enlarges them.
 
 /// A position on the pattern: coordinates of scripts, z only in a volume, and the index of the cell in the planes of
 /// snapshots.
@@ -27,7 +28,7 @@ export class Pattern {
     look: Look = { relief: 0, squares: false };
     columns = 1;  ///< The columns of cells on the canvas.
     rows = 1;
-    is_laid_flat = false;  ///< Is a surface given by formulas shown as a plane?
+    is_laid_flat = false;  ///< Whether a surface given by formulas is shown as a plane.
     /// Called with the snapshot that is drawn and the range of its values.
     drawn: (shown: Snapshot) => void = () => {};
 
@@ -85,7 +86,8 @@ export class Pattern {
 
     private has_lines({ planes }: Snapshot) { return this.lines.is_possible && has_lines(this.look) && planes.length === 1; }
 
-    /// A smooth plane has about as many pixels as the screen. Squares have one pixel, and more below lines and relief.
+    /// A smooth plane has about as many pixels as the screen. If cells are squares, each has one pixel, or several
+    /// pixels below lines and relief.
     private form_of(columns: number, rows: number): Form {
         const { canvas, snapshot } = this, wide = canvas.getBoundingClientRect().width, seen = wide * devicePixelRatio / columns;
         const is_near = wide > canvas.offsetWidth * 1.01 && wide >= sharp_from * columns;
@@ -94,10 +96,10 @@ export class Pattern {
         return { is_smooth, scale: is_smooth ? Math.max(1, Math.min(Math.round(seen), Math.floor(Math.sqrt(most_pixels / (columns * rows))))) : 1 };
     }
 
-    /// Draws again if the plane has another form now.
+    /// Draws again if the form of the plane has changed.
     redraw() { if (this.snapshot && JSON.stringify(this.form_of(this.columns, this.rows)) !== this.drawn_as) this.draw(); }
 
-    /// The values at the palette's ends: fixed, or those of the snapshot.
+    /// The values at the palette's ends: fixed values, or those of the snapshot.
     range_of({ low, high }: Snapshot) { return { low: this.look.low ?? low, high: this.look.high ?? high }; }
 
     /// The number of cells along the longest side of the grid.

@@ -2,7 +2,7 @@
 import type { Values } from "./between_cells";
 import type { Palette } from "./connection";
 
-const places = 1 << 14;  ///< The entries of the table of colours: enough that no level is off by more than 1.
+const places = 1 << 14;  ///< The entries of the table of colours: no level has an error above 1.
 
 const byte_of = (part: number) => Math.round(255 * Math.min(Math.max(part, 0), 1));
 const opaque = 0xff000000;
@@ -37,7 +37,7 @@ export class PlanePainter {
         for (let k = 0; k < red.length; ++k) pixels[k] = colour_of(red[k], green[k], blue[k]);
     }
 
-    /// Fills the table of colours. The arithmetic is that of core/palette.cpp.
+    /// Fills the table of colours. The arithmetic is the same as in core/palette.cpp.
     private take(palette: Palette) {
         const { stops } = palette, last = stops.length - 1;
         for (let k = 0; k < places; ++k) {

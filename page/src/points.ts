@@ -1,15 +1,15 @@
-// Positions and directions for the text: a click on the pattern writes a position where the caret is, a drag a position
-// and a direction, in the form that the call around the caret takes.
+// Writes positions and directions into the text. A click on the pattern writes a position at the caret. A drag writes a
+// position and a direction. Their form is the one that the call around the caret expects.
 import { add, dot } from "./camera";
 import type { Editor } from "./editor";
 import type { Pattern } from "./pattern";
 
-const shortest_drag = 6;  ///< In pixels of the page; less is a click.
-const least_slope = 0.2;  ///< Of a surface that is seen almost from its side.
+const shortest_drag = 6;  ///< In pixels of the page. A shorter drag is a click.
+const least_slope = 0.2;  ///< The least slope of a surface that is seen almost from its side.
 
 const decimals = (numbers: number[]) => numbers.map((number) => String(Number(number.toFixed(3)))).join(", ");
 
-/// The calls that the end of a text lies in, from the innermost outwards, and the word before the statement's ':'.
+/// The calls that contain the end of a text, from the innermost outwards, and the word before the statement's ':'.
 export function calls_around(text: string): { calls: string[]; statement: string } {
     const calls: string[] = [];
     let statement = "", word = "";
@@ -24,7 +24,7 @@ export function calls_around(text: string): { calls: string[]; statement: string
     return { calls, statement };
 }
 
-/// What is written where the caret stands, and the part of it that the next key replaces.
+/// The text that is written at the caret, and the part of it that the next key replaces.
 export function text_of_point(before: string, after: string, place: number[], direction: number[] | undefined, is_model: boolean) {
     const { calls, statement } = calls_around(before), [call, outer] = calls;
     const upwards = place.length === 3 ? [0, 1, 0] : [0, -1];
@@ -48,9 +48,10 @@ export class Points {
     private readonly line = document.getElementById("drag")!.querySelector("line")!;
     private start?: PointerEvent;
 
-    /// `tell` says why nothing is written.
+    /// `tell` is called with the reason if nothing is written.
     constructor(private readonly pattern: Pattern, private readonly editor: Editor, private readonly tell: (why: string) => void) {
-        // The canvases have seen it before: of a finger that is lifted at once, the press comes only then.
+        // The canvases receive the event before this object. If a finger is lifted at once, they report its press only
+        // then.
         addEventListener("pointerup", (event) => this.end(event));
         addEventListener("pointercancel", () => this.stop());
         addEventListener("pointermove", (event) => this.start && this.show(event));
@@ -97,7 +98,7 @@ export class Points {
         editor.write((before, after) => text_of_point(before, after, at, direction, pattern.snapshot!.is_model));
     }
 
-    /// Of a drag, of length 1, in coordinates of scripts: along the surface, where there is one.
+    /// The direction of a drag, of length 1, in coordinates of scripts. If there is a surface, it is along the surface.
     private direction(start: PointerEvent, end: PointerEvent, at: number[]): number[] | undefined {
         const { pattern } = this, right = end.clientX - start.clientX, down = end.clientY - start.clientY;
         const normal = at.length === 3 && pattern.is_solid ? pattern.solid.normal(start) : undefined;

@@ -1,4 +1,4 @@
-// Closes small boxes over the page by Escape, which returns the focus, and by a press beside the box.
+// Closes small boxes over the page when the user presses Escape, which returns the focus, or clicks beside the box.
 export function close_popups(ids: string[]) {
     const close = (is_kept: (box: HTMLDetailsElement) => boolean) => {
         for (const id of ids) {

@@ -1,17 +1,17 @@
-// Text in place of a pattern that is not ready: the engine's task, or that the model is being prepared.
+// The text that is shown as long as the pattern is not ready: the engine's task, or that the model is being prepared.
 
 export class Preparing {
     private readonly words = document.getElementById("preparing")!;
     private doing = "";
     private is_blank = false;  ///< The model has not been drawn yet.
 
-    /// Sets the engine's long task and how much of it is done. `doing` is empty after the task.
+    /// Sets the engine's long task and the fraction that is done. `doing` is empty after the task.
     tell(doing: string, part?: number) {
         this.doing = doing && `${doing} …${part === undefined ? "" : ` ${Math.floor(100 * part)} %`}`;
         this.show();
     }
 
-    /// Says whether there is no pattern yet, because its surface is being made or drawn for the first time.
+    /// Sets whether there is no pattern yet, because its surface is being made or drawn for the first time.
     set blank(is_blank: boolean) {
         this.is_blank = is_blank;
         this.show();

@@ -1,10 +1,10 @@
-// The text beside the buttons of the run: the step, the speed, or that it is paused.
+// The text beside the buttons of the run: the step, the speed, or "paused".
 import type { Snapshot } from "./connection";
 import type { Pace } from "./pace";
 import { in_numbers } from "./stages";
 
 const compact = new Intl.NumberFormat("en", { notation: "compact", maximumSignificantDigits: 2 });
-const milliseconds_of_rest = 500;  ///< Without a step for so long, the run counts as paused.
+const milliseconds_of_rest = 500;  ///< If no step is taken for this time, the run counts as paused.
 
 export class Progress {
     private readonly place = document.getElementById("place")!;

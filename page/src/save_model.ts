@@ -11,7 +11,7 @@ export class ModelSaver {
 
     constructor(private readonly pattern: Pattern, private readonly ask: Ask, private readonly tell: (words: string) => void) {}
 
-    /// `looks` are the shown expression and the palette.
+    /// `looks` contains the shown expression and the palette.
     async save(what: "model" | "maps", name: string, looks: { show: string; palette: string }) {
         if (this.is_busy) return;
         this.is_busy = true;

@@ -11,7 +11,7 @@ export class Slices {
     private wanted = "";  ///< The last requested slice.
     private is_asking = false;
 
-    /// `ask` requests an axis and a position, 0 … 1, and answers when snapshots show this slice.
+    /// `ask` requests an axis and a position, 0 … 1. Its promise is fulfilled when snapshots show this slice.
     constructor(private readonly ask: (fields: { axis: string; place: number }) => Promise<unknown>) {
         this.axis.addEventListener("change", () => {
             this.number.max = String(this.count - 1);
@@ -33,7 +33,7 @@ export class Slices {
         this.number.title = `slice ${slice.number + 1} of ${this.count}`;
     }
 
-    /// Moves by this number of slices.
+    /// Moves the slice by this number of slices.
     move(count: number) {
         if (this.box.hidden) return;
         this.number.valueAsNumber += count;

@@ -7,8 +7,7 @@ import { CellDrawer } from "./cell_drawer";
 import { hidden, shade, shadow, surface } from "./light_shaders";
 import { Program, attributes } from "./program";
 
-/// Numbers of directions for testing which part of the sky is visible: the usual total, the total if drawing is slow,
-/// and the number for each picture.
+/// The number of directions in which the visibility of the sky is tested: usually, if drawing is slow, and per picture.
 const sky_directions = 160, few_sky_directions = 64, many_at_once = 8;
 const long = 100;  ///< In milliseconds: pictures that take longer are slow.
 const shadow_side = 1024;
@@ -80,9 +79,9 @@ export class SolidDrawer {
     private readonly buffers: Record<string, WebGLBuffer> = {};
     private readonly frame: WebGLFramebuffer;
     private readonly feedback: WebGLTransformFeedback;
-    private readonly points: WebGLVertexArrayObject;  ///< The vertices for which the light of the sky is computed.
+    private readonly points: WebGLVertexArrayObject;  ///< The vertices for which the light from the sky is computed.
     private shown?: Surface;
-    private vertices = 0;  ///< The number of vertices of the surface; those of the ground follow.
+    private vertices = 0;  ///< The number of vertices of the surface. The vertices of the ground follow.
     private middle: Vector = [0, 0, 0];
     private size = 1;      ///< The diagonal of the surface's box.
     private began = 0;     ///< The time of the first tested direction.

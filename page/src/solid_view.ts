@@ -8,7 +8,7 @@ import type { Place } from "./pattern";
 import { SolidDrawer } from "./solid_drawer";
 
 const most_zoom = 64;
-const degrees = 0.4;    ///< The angle for a movement by one pixel.
+const degrees = 0.4;  ///< The rotation for a movement by one pixel.
 const key_pixels = 20;  ///< The movement for a key.
 
 export class SolidView implements View {
@@ -41,11 +41,11 @@ export class SolidView implements View {
             const at = event.target as HTMLElement;
             if (!arrow || canvas.hidden || at.id === "editor" || at.closest("dialog, input, select")) return;
             event.preventDefault();
-            // The camera moves in the direction of the arrow, so the picture moves the other way.
+            // An arrow key moves the camera in its direction, so the picture moves in the opposite direction.
             if (event.shiftKey) this.shift(-key_pixels * arrow[0], -key_pixels * arrow[1]);
             else this.turn(-key_pixels * arrow[0], -key_pixels * arrow[1]);
         });
-        // The form of the pointer shows what a press would do.
+        // The shape of the pointer shows the effect of a press.
         canvas.addEventListener("pointermove", (event) => {
             if (event.buttons === 0) canvas.style.cursor = this.place(event) ? "" : "grab";
         });
@@ -139,7 +139,7 @@ export class SolidView implements View {
         const cells = this.shown?.snapshot.cells;
         if (cells) return { ...(cells.extent ? { x, y: z } : cells.is_flat ? { x, y: z, z: y } : { x, y, z }), cell: nearest_cell(cells, hit.place) };
         const where = surface.places ? { x: mixed(surface.places, 2, 0), y: mixed(surface.places, 2, 1) } : { x, y, z };
-        // The cell with the largest weight at this point counts as the nearest.
+        // The cell with the largest weight at this point is taken as the nearest.
         const weights = new Map<number, number>();
         corners.forEach((corner, c) => {
             for (let k = corner === 0 ? 0 : surface.ends[corner - 1]; k < surface.ends[corner]; ++k) {
@@ -150,7 +150,7 @@ export class SolidView implements View {
         return { ...where, cell };
     }
 
-    /// Outwards, of length 1, where a pointer is on the surface.
+    /// The normal of the surface at a pointer, outwards, of length 1.
     normal(event: { clientX: number; clientY: number }): Vector | undefined {
         const hit = this.hit(...this.seen_at(event.clientX, event.clientY)), { surface } = this;
         if (!hit || !surface) return undefined;

@@ -1,4 +1,5 @@
-// The strip of stages: name, progress, and a small picture of how each stage last looked.
+// The row of stages: the name, the progress and a small picture of each stage. The picture shows the last moment of the
+// stage that was seen.
 import type { Snapshot, Stage } from "./connection";
 
 const milliseconds_between_pictures = 400;
@@ -12,7 +13,7 @@ export function in_numbers({ count, births, deaths }: NonNullable<Stage["cells"]
 export class Stages {
     private readonly list = document.getElementById("stages")!;
     private drawn_at = 0;
-    private drawn = 0;  ///< The last stage whose picture was drawn.
+    private drawn = 0;  ///< The stage whose picture was drawn last.
 
     /// `go_to` is called with the number of a stage, from 1.
     constructor(private readonly go_to: (stage: number) => void) {}

@@ -14,7 +14,7 @@ export class Stroke {
 
     constructor(private readonly ask: (fields: Record<string, unknown>) => Promise<Answer>) {}
 
-    /// Adds a disc. `is_first` begins a new stroke, which is undone separately.
+    /// Adds a disc. If `is_first`, it begins a new stroke, which is undone separately.
     go_on(dab: Dab, is_first: boolean) {
         this.waiting.push({ dab, is_first });
         if (!this.is_painting) void this.paint();
@@ -38,7 +38,7 @@ export class Stroke {
 
 interface Spot { clientX: number; clientY: number }
 
-/// Positions of a pointer between two events, so close to each other that discs leave no gaps.
+/// Positions between two events of a pointer. They are so close to each other that discs leave no gaps.
 export class Trail {
     private last?: Spot;
 

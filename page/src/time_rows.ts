@@ -1,4 +1,4 @@
-// The picture of a grid of one row: time runs downwards, with a row for each snapshot of another step.
+// The picture of a grid of one row. Time runs downwards: there is a row for each snapshot of a different step.
 import type { Snapshot } from "./connection";
 
 /// The number of rows of such a picture: the number of cells, within limits.

@@ -1,12 +1,12 @@
-// The worker of an exported page. Its first message is the compiled engine and the script to begin with. All further
-// messages, in both directions, are those of spec/page.md.
+// The worker of an exported page. Its first message contains the compiled engine and the script of the page. All
+// further messages, in both directions, are described in spec/page.md.
 import { type Carried, Engine } from "./engine";
 
 /// A linked script replaces the script of the page if it has no errors.
 export interface Beginning { engine: WebAssembly.Module; carried: Carried; linked?: Carried }
 
 const page = self as unknown as { postMessage(message: unknown, transfer?: Transferable[]): void; onmessage: unknown };
-// Each turn is a task of its own, so that messages are received between turns.
+// Each turn is a separate task, so that messages are received between turns.
 const turns = new MessageChannel();
 let engine: Engine | undefined;
 let is_turning = false;
