@@ -41,7 +41,8 @@ write() { # a box of 10 x 20 x 30 with this instance
 }
 box() {
   for i in 2 3 4; do
-    sed -n 's/^ *vertex/vertex/p' out.stl | cut -d ' ' -f $i | sort -g | sed -n '1p;$p' | paste -sd ' ' | sed 's/ / to /'
+    sed -n 's/^ *vertex/vertex/p' out.stl | cut -d ' ' -f $i | sort -g | sed -n '1p;$p' | paste -sd ' ' |
+      sed 's/ / to /'
   done | paste -sd ',' | sed 's/,/, /g'
 }
 try() {
