@@ -41,7 +41,7 @@ draw_one() {
             draw "$1" --detail 2 --palette coral --range 0,0.4 -o "examples/$1.svg" \
                 --panel one.v --panel two.v --panel four.v --panel eight.v --panel many.v --panel all.v
             ;;
-        # These two recipes want the grid of the thesis.
+        # These two recipes need the grid of the thesis.
         squirrel) draw "$1" --detail 6 --palette tan ;;
         mixed_spots) draw "$1" --detail 6 --palette viridis ;;
         cheetah | small_spots) draw_recipe "$1" cheetah ;;

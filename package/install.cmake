@@ -11,7 +11,7 @@ install(FILES ${manual_folder}/zsh/_cascade DESTINATION ${share}/zsh/vendor-comp
 install(FILES ${manual_folder}/fish/cascade.fish DESTINATION ${share}/fish/vendor_completions.d COMPONENT program)
 
 # Files that the program finds when it needs them (core/shared_files.h). The pictures of the gallery
-# stay out, since each is drawn again by a command.
+# are not installed, because a command draws each of them again.
 install(FILES ${PROJECT_BINARY_DIR}/engine.wasm DESTINATION ${share}/cascade COMPONENT program OPTIONAL)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${share}/cascade COMPONENT program
   FILES_MATCHING PATTERN *.cascade PATTERN *.c PATTERN *.cpp PATTERN CMakeLists.txt PATTERN maps/*.png

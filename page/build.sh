@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# page/build.sh [FOLDER]: bundles page/src into FOLDER, without it page/built. Needs node; node_modules is looked
-# for in the current folder and, with what page/package-lock.json names, installed there if it is missing.
+# page/build.sh [FOLDER]: bundles page/src into FOLDER (by default page/built). Needs node. Uses node_modules of the
+# current folder, and installs the packages of page/package-lock.json there if they are missing.
 set -eu
 page=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 into=${1:-$page/built}
 
-# What was installed once stays while it is what the lock file asks for.
+# Packages that are installed are used again as long as the lock file is the same.
 if ! cmp -s "$page/package-lock.json" node_modules/installed; then
     rm -rf node_modules
     cp "$page/package.json" "$page/package-lock.json" .

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# page/site.sh FOLDER [CASCADE]: writes a static site: gallery, library, tutorial and specification, in which every
-# script can be grown. It needs no server; docs/site.md describes it. Needs node and cmark-gfm.
+# page/site.sh FOLDER [CASCADE]: writes a static site: gallery, library, tutorial and specification, in which
+# every script can be run. It needs no server; docs/site.md describes it. Needs node and cmark-gfm.
 set -eu
 [ $# -ge 1 ] || { echo "usage: page/site.sh FOLDER [CASCADE]" >&2; exit 2; }
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)

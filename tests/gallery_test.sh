@@ -1,5 +1,5 @@
 #!/bin/bash
-# Every picture of the gallery, and that of the C program, is grown again and compared: all bytes must be equal, except
+# Every picture of the gallery, and the picture of the C program, is made again and compared: all bytes must be equal, except
 # the version of the program that drew it (tests/same_picture.py). Pictures of surfaces may differ in the last bits of
 # Embree's rays. Without native code only small pictures are drawn, since large ones would take minutes.
 set -u

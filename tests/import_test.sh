@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# `cascade import`: scripts of models of other programs that run, and refusals of what cannot be said.
+# `cascade import`: scripts of models of other programs that run, and refusals of models that no script can express.
 set -u
 rm -rf ./*
 unset NO_COLOR

@@ -74,7 +74,7 @@ wait "$process"
 says err "cascade: ended at once"
 no_file weights.png
 
-# An output that is quick is written as ever.
+# An output that takes little time is written as usual.
 echo "$plane" >quick.cascade
 timeout --preserve-status -s TERM 2 "$CASCADE" run quick.cascade -o quick.png -o quick.gif >out 2>err
 [ $? = 143 ] && [ -s quick.png ] && [ -s quick.gif ] || fail "quick outputs are lost"

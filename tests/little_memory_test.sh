@@ -1,5 +1,5 @@
 #!/bin/bash
-# Whatever memory there is: a run ends well, or says that there is not enough, whatever it writes. It is saved first.
+# With any amount of memory and any output, a run succeeds or reports that memory is exhausted. It is saved first.
 set -u
 failed=0
 [ -z "${SANITIZE-}" ] || exit 77  # Sanitizers reserve more memory than the limits here.

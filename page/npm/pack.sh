@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # page/npm/pack.sh ENGINE [FOLDER]: packs the npm package cascade-patterns with the engine ENGINE (engine.wasm of a
-# build) into FOLDER, without it the current folder, and prints the name of the file. Needs npm, but no network.
+# build) into FOLDER (by default the current folder), and prints the name of the file. Needs npm, but no network.
 set -eu
 npm=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 engine=$1

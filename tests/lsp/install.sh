@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs the packages of tests/lsp/package.json into node_modules of the current folder. What was installed once
-# stays. Exit code 77 means that they cannot be had.
+# Installs the packages of tests/lsp/package.json into node_modules of the current folder. Installed packages
+# are used again. Exit code 77 means that they cannot be installed.
 set -eu
 tests=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 cmp -s "$tests/package-lock.json" node_modules/installed && exit 0
