@@ -22,7 +22,7 @@ namespace {
 constexpr double usual_seconds = 2, clock_seconds = 5;
 constexpr double part_of_limit = 0.1;
 constexpr std::string_view farewell =
-    "cascade: ended at once, as the outputs that are missing take longer than may be waited for\n";
+    "cascade: ended at once, because the missing outputs would take too long\n";
 
 /// What the signal handlers read and change, so it is global.
 struct Moments {

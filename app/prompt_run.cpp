@@ -224,7 +224,8 @@ bool PromptSession::advance(std::int64_t steps) {
 }
 
 void PromptSession::tell_over() {
-    console_.say("every stage has taken its steps: ':init' begins again, another stage goes on\n");
+    console_.say(
+        "every stage has taken its steps: ':init' begins again, and a new stage continues\n");
 }
 
 void PromptSession::remark(const std::string& words) {

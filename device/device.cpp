@@ -88,7 +88,7 @@ const DeviceProgram& Device::program(const std::string& source, const TextTarget
 ExecutorFailure failure_of(const DeviceFacts& facts, const OpenclError& error) {
     return ExecutorFailure(
         {fmt::format("{} failed: {}", facts.name, error.message),
-         "--checkpoint 10m keeps what a run has done, and threads can go on from there"});
+         "--checkpoint 10m saves what a run has done, and threads can continue from there"});
 }
 
 ExecutorFailure failure_of(const DeviceFacts& facts, const ProgramRefused& refusal) {

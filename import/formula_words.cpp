@@ -158,7 +158,7 @@ std::optional<std::vector<FormulaWord>> formula_words(Span span, const Sources& 
             return std::nullopt;
         }
         if (last.text.empty()) return words;
-        diagnostics.error(last.span, "this letter belongs to no formula");
+        diagnostics.error(last.span, "this character cannot be part of a formula");
         return std::nullopt;
     }
 }

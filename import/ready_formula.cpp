@@ -143,7 +143,9 @@ void ReadyFormula::check_conditions(const Expression& value, bool is_condition) 
                               std::end(comparisons) ||
                           (value.kind == Expression::Kind::call && value.text.starts_with("is"));
     if (compares && !is_condition) {
-        fail(value.span, "a comparison is a number here, which vectors of OpenCL make -1");
+        fail(value.span,
+             "a comparison is used as a number here, and in OpenCL a true comparison of vectors is "
+             "-1");
     }
     const bool combines = value.text == "and" || value.text == "or" || value.text == "not";
     for (std::size_t k = 0; k < value.of.size(); ++k) {

@@ -337,7 +337,8 @@ private:
             return {};
         }
         const std::string remark =
-            "Ready's Perlin noise becomes noise(…), which has other hills of the same width.";
+            "Ready's Perlin noise becomes noise(…), whose hills have the same width but other "
+            "positions.";
         if (std::find(draft_.remarks.begin(), draft_.remarks.end(), remark) ==
             draft_.remarks.end()) {
             draft_.remarks.push_back(remark);

@@ -154,7 +154,7 @@ std::string solver_of_pde(VisualPdeNames& names, Import& import, const VisualPde
         if (scheme != theirs) continue;
         if (own == "rk2") {
             draft.remarks.push_back(fmt::format(
-                "VisualPDE's steps are of the scheme '{}', these of another one of second order.",
+                "VisualPDE uses the scheme '{}', and this script another scheme of second order.",
                 scheme));
         }
         return std::string(own);

@@ -155,7 +155,7 @@ bool VisualPdeNames::declare_parameters() {
                                  return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
                              });
         if (!is_name || std::isdigit(static_cast<unsigned char>(made.foreign[0]))) {
-            fail(place(0, sign), "this is no name of a parameter");
+            fail(place(0, sign), "this is not the name of a parameter");
             return false;
         }
         made.own = names_.declare(made.foreign);

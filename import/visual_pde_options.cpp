@@ -139,7 +139,8 @@ std::optional<VisualPdeOptions> VisualPdeOptions::read(Import& import) {
     if (!text) return std::nullopt;
     if (text->size() > largest_visual_pde) return refuse("this JSON has more than 4 MiB");
     const auto json = nlohmann::json::parse(*text, nullptr, false);
-    if (json.is_discarded() || !json.is_object()) return refuse("this is no JSON of a simulation");
+    if (json.is_discarded() || !json.is_object())
+        return refuse("this is not the JSON of a simulation");
     const bool has_short_keys = json.contains("p");
     VisualPdeOptions options;
     bool is_known = false;

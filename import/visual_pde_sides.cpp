@@ -120,7 +120,7 @@ private:
                 const auto* const found =
                     std::find(std::begin(names_of_sides), std::end(names_of_sides), side);
                 if (found == std::end(names_of_sides)) {
-                    names_.fail(whole, fmt::format("'{}' is no side", side));
+                    names_.fail(whole, fmt::format("'{}' is not a side", side));
                     return false;
                 }
                 const auto index = static_cast<std::size_t>(found - std::begin(names_of_sides));

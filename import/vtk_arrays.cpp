@@ -76,7 +76,7 @@ std::optional<VtkFile> VtkFile::read(Import& import, pugi::xml_document& documen
         import.diagnostics.error(place_of(import, file.root_), why);
         return std::nullopt;
     };
-    if (!file.root_) return refuse("this is no XML file of VTK");
+    if (!file.root_) return refuse("this is not an XML file of VTK");
     if (std::string_view(file.root_.attribute("byte_order").as_string("LittleEndian")) !=
         "LittleEndian") {
         return refuse("only byte_order=\"LittleEndian\" is read");
@@ -127,7 +127,7 @@ std::optional<std::vector<double>> VtkFile::read_array(const pugi::xml_node& arr
                                                        std::uint64_t most) const {
     std::vector<double> values;
     const auto wrong_count = [&] {
-        return fail(array, least == most ? fmt::format("has not {} numbers", most)
+        return fail(array, least == most ? fmt::format("does not have {} numbers", most)
                                          : fmt::format("has more than {} numbers", most));
     };
     if (std::string_view(array.attribute("format").value()) == "ascii") {
@@ -135,7 +135,7 @@ std::optional<std::vector<double>> VtkFile::read_array(const pugi::xml_node& arr
         while (!text.empty()) {
             double value = 0;
             const auto result = from_decimal(text.data(), text.data() + text.size(), value);
-            if (result.ec != std::errc()) return fail(array, "has a word that is no number");
+            if (result.ec != std::errc()) return fail(array, "has a word that is not a number");
             if (values.size() == most) return wrong_count();
             values.push_back(value);
             text = without_blanks(text.substr(static_cast<std::size_t>(result.ptr - text.data())));
@@ -180,7 +180,7 @@ std::optional<std::string> VtkFile::encoded(std::string_view text, bool is_base6
     if (size > most) return fail(array, "is larger than the domain");
     if (is_base64) {
         const auto all = first_of_base64(text, word_size_ + size);
-        if (!all) return fail(array, "is no valid Base64, or ends too early");
+        if (!all) return fail(array, "is not valid Base64, or ends too early");
         return all->substr(word_size_);
     }
     if (text.size() < word_size_ + size) return fail(array, "ends too early");
@@ -197,7 +197,7 @@ std::optional<std::string> VtkFile::inflated(std::string_view text, bool is_base
         if (text.size() < count * word_size_) return std::nullopt;
         return std::string(text.substr(0, count * word_size_));
     };
-    const auto ends = [&] { return fail(array, "is no valid Base64, or ends too early"); };
+    const auto ends = [&] { return fail(array, "is not valid Base64, or ends too early"); };
     const auto sizes = first(3);
     if (!sizes) return ends();
     const std::uint64_t blocks = word(*sizes, 0), block = word(*sizes, 1), last = word(*sizes, 2);

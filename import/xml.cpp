@@ -73,7 +73,7 @@ bool read_xml(Import& import, std::size_t end, pugi::xml_document& document) {
     if (result) return true;
     import.diagnostics.error(
         place(static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0))),
-        fmt::format("this is no valid XML: {}", result.description()));
+        fmt::format("this is not valid XML: {}", result.description()));
     return false;
 }
 

@@ -64,7 +64,7 @@ private:
         const std::string_view words = text(span);
         if (words.empty() || words.front() == '#' || words.front() == '"') return;
         if (words.back() == '\\') {
-            fail(span, "lines that go on after '\\' are not read", "join the lines");
+            fail(span, "lines that continue after '\\' are not read", "join the lines");
             return;
         }
         if (words.front() == '@') return options(part(span, 1, words.size()));

@@ -49,9 +49,9 @@ bool Pattern::Implementation::write_volume_file(const std::filesystem::path& pat
     const bool is_volume = run->script().program->domain.grid.depth > 1;
     const bool has_grid = !model() && run->simulation().state(stage()).tissue() == nullptr;
     if (!has_grid || (!is_volume && !can_hold(path, FormatTrait::planes))) {
-        note({fmt::format("a {} file holds a volume, which this pattern has not",
-                          lower_ending(path)),
-              "a model is written as .vtp, and crawling cells as .cells.vtp"});
+        note(
+            {fmt::format("a {} file holds a volume, and this pattern has none", lower_ending(path)),
+             "a model is written as .vtp, and crawling cells as .cells.vtp"});
         return false;
     }
     const auto written =
@@ -70,7 +70,7 @@ bool Pattern::write(const std::string& path, const std::string& options) {
     }
     if (is_of_kind(path, FormatKind::volume)) return self_->write_volume_file(path);
     if (!output_kind(path)) {
-        self_->note({fmt::format("'{}' has the ending of no format that write() knows", path),
+        self_->note({fmt::format("write() knows no format with the ending of '{}'", path),
                      fmt::format("it writes {}", endings_of_files())});
         return false;
     }

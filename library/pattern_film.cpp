@@ -38,7 +38,7 @@ std::int64_t usual_steps_between_frames(const LiveRun& run) {
 Result<void> check_film_of(const LiveRun& run, Painter& painter, const std::filesystem::path& path,
                            const FilmRequest& film) {
     if (!is_film(path)) {
-        return failure(fmt::format("'{}' has the ending of no film", path.string()),
+        return failure(fmt::format("'{}' does not have the ending of a film", path.string()),
                        fmt::format("films are {}", endings_of(FormatKind::film, "or")));
     }
     if (auto good = check_film(path); !good) return good;

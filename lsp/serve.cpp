@@ -69,7 +69,7 @@ Result<bool> serve(int in, int out) {
             if (server.has_ended()) return server.is_shut_down();
         }
         if (!frames.fault().empty()) {
-            return failure(fmt::format("the input is no stream of messages: {}", frames.fault()),
+            return failure(fmt::format("the input is not a stream of messages: {}", frames.fault()),
                            "editors start 'cascade lsp'; docs/editors.md says how");
         }
         if (!is_input_waiting(in)) {

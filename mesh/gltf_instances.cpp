@@ -26,7 +26,7 @@ Result<GltfInstances> GltfInstances::of(const tinygltf::Model& model, const tiny
     const auto wrong = [] {
         return failure(
             "the copies of a mesh (EXT_mesh_gpu_instancing) in the glTF file lie beyond its data, "
-            "or have different numbers of places, turns and sizes");
+            "or have different numbers of positions, rotations and sizes");
     };
     if (!found->second.IsObject() || !found->second.Get("attributes").IsObject()) return wrong();
     const tinygltf::Value& attributes = found->second.Get("attributes");

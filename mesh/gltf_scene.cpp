@@ -177,7 +177,7 @@ private:
             const auto [number, above] = waiting.back();
             waiting.pop_back();
             const tinygltf::Node* const node = part_of(model_.nodes, number);
-            if (!node) return failure(fmt::format("node {} of the glTF file is not there", number));
+            if (!node) return failure(fmt::format("the glTF file has no node {}", number));
             if (++visits > model_.nodes.size()) {
                 return failure("the nodes of the glTF file do not form a tree");
             }
@@ -193,7 +193,7 @@ private:
 
     Result<void> add_mesh_of(const tinygltf::Node& node, const GltfMatrix& matrix) {
         const tinygltf::Mesh* const mesh = part_of(model_.meshes, node.mesh);
-        if (!mesh) return failure(fmt::format("mesh {} of the glTF file is not there", node.mesh));
+        if (!mesh) return failure(fmt::format("the glTF file has no mesh {}", node.mesh));
         const std::span<const double> weights = node.weights.empty() ? mesh->weights : node.weights;
         const auto copies = GltfInstances::of(model_, node);
         if (!copies) return tl::unexpected(copies.error());
@@ -246,7 +246,7 @@ private:
         if (!morphed) return tl::unexpected(morphed.error());
         const std::optional<MorphedAttribute>& places = *morphed;
         if (!places || places->components() != 3) {
-            return failure("the glTF file has triangles without places or beyond its data");
+            return failure("the glTF file has triangles without positions or beyond its data");
         }
         const std::size_t first = soup_.points.size(), count = places->count();
         if (count > bounds_.points - first) {

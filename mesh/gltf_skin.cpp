@@ -26,7 +26,7 @@ Result<GltfMatrix> GltfNodePlaces::of(int node) {
     for (int at = node; at >= 0; at = parents_[static_cast<std::size_t>(at)]) {
         const auto number = static_cast<std::size_t>(at);
         if (number >= places_.size()) {
-            return failure(fmt::format("node {} of the glTF file is not there", at));
+            return failure(fmt::format("the glTF file has no node {}", at));
         }
         if (places_[number]) {
             place = *places_[number];
@@ -55,20 +55,21 @@ GltfMatrix matrix_of_node(const tinygltf::Node& node) {
 Result<std::vector<GltfMatrix>> joints_of_skin(const tinygltf::Model& model, int number,
                                                GltfNodePlaces& places) {
     const tinygltf::Skin* const skin = part_of(model.skins, number);
-    if (!skin) return failure(fmt::format("skin {} of the glTF file is not there", number));
+    if (!skin) return failure(fmt::format("the glTF file has no skin {}", number));
     std::optional<GltfNumbers> bound;  // Without this accessor: identity matrices.
     if (skin->inverseBindMatrices >= 0) {
         bound = GltfNumbers::of(model, skin->inverseBindMatrices);
         if (!bound || bound->components() != 16 || bound->count() < skin->joints.size()) {
             return failure(fmt::format(
-                "skin {} of the glTF file has fewer matrices than joints, or beyond its data",
+                "skin {} of the glTF file has fewer matrices than joints, or has matrices beyond "
+                "its data",
                 number));
         }
     }
     std::vector<GltfMatrix> joints;
     for (std::size_t k = 0; k < skin->joints.size(); ++k) {
         const int node = skin->joints[k];
-        if (node < 0) return failure(fmt::format("node {} of the glTF file is not there", node));
+        if (node < 0) return failure(fmt::format("the glTF file has no node {}", node));
         Result<GltfMatrix> place = places.of(node);
         if (!place) return tl::unexpected(place.error());
         if (bound) {
@@ -121,7 +122,7 @@ Result<GltfMatrix> GltfWeights::matrix_at(std::size_t point,
             const GltfMatrix* const matrix = joint(set, k);
             if (!matrix) {
                 return failure(
-                    fmt::format("a point of the glTF file hangs from joint {}, but its "
+                    fmt::format("a point of the glTF file follows joint {}, but its "
                                 "skin has only {}",
                                 set.joints.at(point, k), joints.size()));
             }

@@ -210,7 +210,7 @@ public:
             if (triangles_.size() > most_cut_triangles) {
                 return failure("the surface has too many triangles", "choose longer edges");
             }
-            if (cancel_) return failure("the surface was given up");
+            if (cancel_) return failure("the computation of the surface was stopped");
             if (progress_) progress_(0.5 * (layer + 1) / (layers + 1));
         }
         if (triangles_.empty()) {
@@ -326,7 +326,7 @@ Result<SurfaceMesh> implicit_surface(const ImplicitFunction& function,
     if (Result<void> fine = isotropic_remesh(*mesh, request.edge, bring_back, cancel); !fine) {
         return tl::unexpected(fine.error());
     }
-    if (cancel) return failure("the surface was given up");
+    if (cancel) return failure("the computation of the surface was stopped");
     if (progress) progress(1);
     return mesh;
 }

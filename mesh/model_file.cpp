@@ -67,7 +67,7 @@ Result<PolygonSoup> parse_model(const std::string& name, std::string_view ending
     if (soup->ends.empty()) {
         return failure(fmt::format("'{}' has {} points but no faces", short_name(name),
                                    soup->points.size()),
-                       "a surface is wanted, not a cloud of points");
+                       "a model must be a surface, not a cloud of points");
     }
     return soup;
 }

@@ -42,9 +42,9 @@ public:
         for (;;) {
             const Words& words = lines_.next();
             if (words.empty()) break;
-            if (words[0] == "v" && !read_point(words)) return wrong_line("the place of a point");
+            if (words[0] == "v" && !read_point(words)) return wrong_line("the position of a point");
             if (words[0] == "vt" && !read_texture_place(words)) {
-                return wrong_line("a place in a texture");
+                return wrong_line("a position in a texture");
             }
             if (words[0] == "f" && !read_face(words)) return wrong_line("a face of points");
         }
@@ -127,14 +127,13 @@ private:
             for (std::size_t c = soup_.first_corner(face); c < soup_.ends[face]; ++c) {
                 if (soup_.corners[c] >= soup_.points.size()) {
                     return failure(fmt::format(
-                        "face {} of the OBJ file names a point that is not there", face + 1));
+                        "face {} of the OBJ file names a point that does not exist", face + 1));
                 }
                 if (!all_have_texture_) continue;
                 if (corner_texture_[c] >= texture_.size()) {
-                    return failure(
-                        fmt::format("face {} of the OBJ file names a texture coordinate that "
-                                    "is not there",
-                                    face + 1));
+                    return failure(fmt::format(
+                        "face {} of the OBJ file names a texture coordinate that does not exist",
+                        face + 1));
                 }
                 soup_.texture.push_back(texture_[corner_texture_[c]]);
             }

@@ -51,7 +51,7 @@ public:
                            "it may be truncated");
         }
         for (std::uint64_t k = 0; k < points_; ++k) {
-            if (!read_point(lines_.next())) return wrong_line("the place of a point");
+            if (!read_point(lines_.next())) return wrong_line("the position of a point");
         }
         for (std::uint64_t k = 0; k < faces_; ++k) {
             if (!read_face(lines_.next())) return wrong_line("a face of these points");

@@ -202,10 +202,10 @@ private:
             if (is_one_of(name, {"vertex_indices", "vertex_index"})) {
                 const bool is_strip = element.name == "tristrips";
                 if (!(is_strip ? add_strips(lists_[k]) : add_polygon(lists_[k]))) {
-                    return failure(
-                        fmt::format("element '{}' {} of the PLY file has a corner that is "
-                                    "no number of a point",
-                                    element.name, number));
+                    return failure(fmt::format(
+                        "element '{}' {} of the PLY file has a corner that is not the number of a "
+                        "point",
+                        element.name, number));
                 }
             }
             if (name == "texcoord") add_texture(lists_[k]);

@@ -25,7 +25,7 @@ Result<GreyPicture> parse_pixel_file(std::string_view bytes, PictureChannel chan
     Result<GreyPicture> found = failure("it lacks a channel of the picture");
     do {
         if (!bytes.starts_with(file_mark) || bytes.size() < header_bytes) {
-            return failure("it is no file of pixels");
+            return failure("it is not a file of pixels");
         }
         Header header;
         std::memcpy(header.data(), bytes.data() + file_mark.size(), sizeof header);

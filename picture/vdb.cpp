@@ -26,7 +26,8 @@ Result<VdbEncoder*> load_encoder() {
     const auto entry = reinterpret_cast<VdbEncoderEntry*>(::dlsym(module, vdb_encoder_symbol));
     VdbEncoder* const encoder = entry ? entry(version()) : nullptr;
     if (encoder) return encoder;
-    return failure(fmt::format("{} is of another build than this program", CASCADE_OPENVDB_MODULE),
+    return failure(fmt::format("{} belongs to another build than this program",
+                               CASCADE_OPENVDB_MODULE),
                    "install both again");
 #else
     return failure("this build has no OpenVDB",

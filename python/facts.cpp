@@ -36,7 +36,7 @@ void define_parameter(py::module_& module) {
         .def_readonly("name", &PatternParameter::name, "Its name in the script.")
         .def_readonly("doc", &PatternParameter::doc, "The doc comment in the script; may be empty.")
         .def_readonly("is_uniform", &PatternParameter::is_uniform,
-                      "True if one number holds for all cells.")
+                      "True if the value is the same in all cells.")
         .def_readonly("value", &PatternParameter::value,
                       "The present number; NaN if it varies, or if the stage has not begun.")
         .def_property_readonly("low", of_range(&PatternParameter::Range::low),
@@ -59,7 +59,7 @@ void define_parameter(py::module_& module) {
 }
 
 void define_progress(py::module_& module) {
-    py::class_<PatternProgress>(module, "Progress", "How far a stage has come.")
+    py::class_<PatternProgress>(module, "Progress", "The progress of a stage.")
         .def_readonly("stage", &PatternProgress::stage, "The name of the stage.")
         .def_readonly("stage_number", &PatternProgress::stage_number, "Its number, from 1.")
         .def_readonly("stage_count", &PatternProgress::stage_count, "How many stages there are.")

@@ -48,7 +48,7 @@ Result<Messenger*> load_messenger() {
     const auto entry = reinterpret_cast<MessengerEntry*>(::dlsym(module, messenger_symbol));
     Messenger* const messenger = entry ? entry(std::string(version()).c_str()) : nullptr;
     if (messenger != nullptr) return messenger;
-    return failure(fmt::format("{} is of another build than this program", CASCADE_MPI_MODULE),
+    return failure(fmt::format("{} belongs to another build than this program", CASCADE_MPI_MODULE),
                    "install both again");
 #else
     return failure("this build has no MPI", what_to_install);

@@ -94,7 +94,7 @@ Result<Header> parse_header(std::string_view bytes, const CellKey& key) {
     std::memcpy(&header, bytes.data(), std::min(bytes.size(), sizeof header));
     if (bytes.size() < sizeof header ||
         std::string_view(header.magic.data(), header.magic.size()) != magic) {
-        return failure("is no file of cells");
+        return failure("is not a file of cells");
     }
     if (header.byte_order != byte_order_mark) {
         return failure("comes from a machine with another byte order");
@@ -103,7 +103,7 @@ Result<Header> parse_header(std::string_view bytes, const CellKey& key) {
         return failure(fmt::format("is of version {}, not {}", header.version, cell_file_version));
     }
     if (header.key != key.words) {
-        return failure("holds cells of another surface or made in another way");
+        return failure("holds cells of another surface, or cells that were made in another way");
     }
     if (header.cells > most_entries || header.edges > most_entries) {
         return failure("is damaged: it cannot be as large as it says");

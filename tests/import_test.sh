@@ -138,8 +138,8 @@ refuses() {
     says err "$2"
     [ ! -e refused.cascade ] && [ ! -e refused_a.npy ] || fail "$1 was refused, but something was written"
 }
-refuses short.vti "is no valid Base64, or ends too early"
-refuses wrong.vti "is no valid Base64, or ends too early"
+refuses short.vti "is not valid Base64, or ends too early"
+refuses wrong.vti "is not valid Base64, or ends too early"
 refuses bomb.vti "is not compressed by zlib as its header says"
 refuses large.vti "is larger than the domain"
 refuses many.vti "is larger than the domain"
@@ -149,7 +149,7 @@ refuses none.vti "a domain of 1 to 67108864 cells is expected"
 refuses beyond.vti "begins beyond the end of the file"
 refuses entity.vti "document types and entities of XML are not read"
 refuses deep.vti "nested more than 100 deep"
-refuses open.vti "this is no valid XML"
+refuses open.vti "this is not valid XML"
 refuses loop.vti "'while' of OpenCL has no counterpart"
 refuses function.vti "the function 'erf' of 1 arguments has no counterpart"
 refuses name.vti "'sesame' has no meaning here"
@@ -176,7 +176,7 @@ refuses nine.json "1 to 4 species are expected"
 printf '{"parent": "Turing"}' >child.json
 refuses child.json "that is not here"
 printf '{"numSpecies": ' >cut.json
-refuses cut.json "this is no JSON of a simulation"
+refuses cut.json "this is not the JSON of a simulation"
 refuses "https://visualpde.com/sim/?options=N4IgDiBcIMIK4" "damaged or incomplete"
 refuses "https://visualpde.com/sim/" "has no 'options='"
 printf "u'=-u\ntable f f.dat\n" >table.ode

@@ -72,7 +72,7 @@ Result<std::string> LoadedModels::add(const LoadPart& part) {
     if (bytes_.size() < size_) return std::string();
     const std::string bytes = std::exchange(bytes_, {});
     if (bytes.size() > size_) {
-        return failure(fmt::format("'{}' is longer than was said", short_name(name_)));
+        return failure(fmt::format("'{}' is longer than announced", short_name(name_)));
     }
     auto kept = keep(name_, bytes);
     if (kept) kept_as_ = *kept;

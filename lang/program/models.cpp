@@ -41,7 +41,7 @@ bool arrays_have_places(const Program& program, const Formula& formula, Diagnost
         if (!program.literals->reading(node.as<Call>()->detail).place.empty()) continue;
         have_places = false;
         diagnostics.error(node.span,
-                          "on a model, which has no rows and columns, field needs a place",
+                          "on a model, which has no rows and columns, field needs a position",
                           "field(\"a.npy\", sx, sy, sz) says where in the file; attr(\"name\") "
                           "reads a number of the model's points");
     }
@@ -110,7 +110,7 @@ bool has_meaning_on_model(const Program& program, const LooseVectors& loose, con
         }
         if (node.type == ValueType::tensor &&
             info(node.function).kind == FunctionKind::arithmetic) {
-            refuse(node.span, "a tensor on a model is no part of a sum or a product of tensors",
+            refuse(node.span, "sums and products of tensors cannot be used on a model",
                    "its rates may be formulas: tensor(a1, a2, theta)");
         }
         const std::string_view reason = reason_against(node.function);

@@ -52,7 +52,7 @@ public:
                             fmt::format("{} has no lengths: no rate compares a cell with its "
                                         "neighbours",
                                         system.name),
-                            "a size is that of a pattern that neighbours make");
+                            "a size is the wavelength of a pattern that neighbours make");
         }
         if (holds_in_rates(system, is_of_place) || holds_in_rates(system, is_of_domain_alone)) {
             return obstacle(
@@ -164,13 +164,15 @@ private:
                 formula = system.quantities[item].start;
                 if (formula.nodes.empty()) formula = number(0);
                 if (can_start(formula)) continue;
-                return obstacle(stage.size->span,
-                                fmt::format("size needs a start of '{}' that can be had on a plane "
-                                            "of its own",
-                                            name),
-                                fmt::format("the start of '{}' in {} would do if it read neither "
-                                            "files nor operators",
-                                            name, system.name));
+                return obstacle(
+                    stage.size->span,
+                    fmt::format(
+                        "size needs a start of '{}' that can be computed on a separate plane",
+                        name),
+                    fmt::format(
+                        "the start of '{}' in {} could be used if it read neither files nor "
+                        "operators",
+                        name, system.name));
             } else if (const Node* why = hindrance(formula)) {
                 return obstacle(why->span.source == stage.size->span.source ? why->span
                                                                             : stage.size->span,

@@ -261,7 +261,7 @@ Result<std::string> NameIndex::renamed(std::uint32_t byte, std::string_view name
         if (use.source != text_) {
             return failure(fmt::format("'{}' is also a name in {}", before,
                                        sources_[use.source].name()),
-                           "it can be changed in texts that hold all of it");
+                           "it can be changed only in a text that contains all of its uses");
         }
         changed.append(text.substr(done, use.begin - done)).append(name);
         done = use.end;

@@ -19,7 +19,7 @@ struct LatexCommand {
     std::string_view name, advice;
 };
 constexpr LatexCommand latex_commands[] = {
-    {"", "a line goes on inside ( ) and after an operator"},
+    {"", "a statement continues on the next line inside ( ) and after an operator"},
     {"partial",
      "this is LaTeX; write u' = … for \\partial u/\\partial t, dx(u) for \\partial u/\\partial x"},
     {"nabla", "this is LaTeX; write lap(u), grad(u) or div(…)"},

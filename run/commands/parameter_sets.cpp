@@ -77,7 +77,7 @@ private:
                              "write F,k in place of F;k");
             }
             if (name.text.find_first_of("=,()\n") != std::string::npos || read_number(name.text)) {
-                return wrong(name, fmt::format("'{}' is no name", printable(name.text)),
+                return wrong(name, fmt::format("'{}' is not a name", printable(name.text)),
                              "the first line has names as for --set, such as feed or spots.ka");
             }
             if (std::ranges::count(names_, name.text) > 0) {

@@ -83,10 +83,10 @@ Result<void> check_against_script(const std::filesystem::path& folder, const nlo
                                   const Script& script, const Simulation& simulation) {
     const Grid& grid = simulation.domain().grid;
     if (json.at("grid") != nlohmann::json{grid.width, grid.height, grid.depth}) {
-        return tl::unexpected(damaged(folder, "its grid is not that of its script"));
+        return tl::unexpected(damaged(folder, "its grid differs from the grid of its script"));
     }
     if (json.at("seed") != script.program->domain.seed) {
-        return tl::unexpected(damaged(folder, "its seed is not that of its script"));
+        return tl::unexpected(damaged(folder, "its seed differs from the seed of its script"));
     }
     return {};
 }
@@ -101,8 +101,8 @@ Result<Script> load_saved_script(const std::filesystem::path& folder, const Over
         changes.precision || changes.fast || changes.cells || changes.up || changes.facing) {
         return failure(
             "a resumed run keeps its grid, seed, precision, rounding, parameters and solver",
-            "--steps, --until-stage and --allow-read can change, and --mesh where the "
-            "same model lies elsewhere now");
+            "--steps, --until-stage and --allow-read can change, and --mesh can give the new "
+            "location of the same model");
     }
     try {
         auto overrides = overrides_from_json(json->at("overrides").dump());

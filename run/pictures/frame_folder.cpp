@@ -59,13 +59,12 @@ Result<std::vector<std::filesystem::path>> earlier_frames(const std::filesystem:
     if (is_resumed && !frames.empty()) {
         return failure(fmt::format("the folder '{}' holds frames of an earlier run",
                                    folder.string()),
-                       "name another folder with --frames: a resumed run needs one of its own "
-                       "numbers");
+                       "name another folder with --frames: a resumed run begins its own numbers");
     }
     for (const auto& frame : frames) {
         const auto drawn = read_embedded_script(frame);
         if (drawn && file_name(drawn->name) == file_name(script.name)) continue;
-        return failure(fmt::format("the folder '{}' holds frames that {} did not draw, as {}",
+        return failure(fmt::format("the folder '{}' holds frames that {} did not draw, such as {}",
                                    folder.string(), script.name, frame.filename().string()),
                        "name another folder with --frames, or remove them");
     }

@@ -53,9 +53,8 @@ std::string describe_clamped(const Canvas& canvas) {
                        1 / levels;
         });
     if (!is_uniform) return {};
-    return fmt::format(
-        "{}: what differs in red, green and blue lies beyond 0 … 1, or within one level of it",
-        is_one_colour);
+    return fmt::format("{}: between 0 and 1, red, green and blue differ by less than one level",
+                       is_one_colour);
 }
 
 std::string describe_uniform(const Canvas& canvas) {

@@ -78,15 +78,15 @@ std::string describe_unsolved(const Doubted& stage, const Unsolved& report) {
     const SolveReport& solve = report.solve;
     if (!(solve.largest_rest <= largest_rest)) {
         return fmt::format(
-            "stage '{}': the constraint of {} was not solved: after {} iterations its residual was "
-            "{:.2g} of that without {}; its operator may have no inverse, or its coefficients may "
-            "differ too much",
+            "stage '{}': the constraint of {} was not solved: after {} iterations its residual "
+            "was still {:.2g} of the residual without {}; its operator may have no inverse, or its "
+            "coefficients may differ too much",
             stage.name(), report.unknown, solve.most_iterations, solve.largest_rest,
             report.unknown);
     }
     return fmt::format(
-        "stage '{}': no {} balances the mean of its constraint, {:.2g} of the whole, as any "
-        "constant may be added to it; it was found for the rest, and its own mean is 0",
+        "stage '{0}': the mean of the constraint of {1}, {2:.2g} of the whole, cannot be balanced, "
+        "because any constant may be added to {1}; the rest was solved, and the mean of {1} is 0",
         stage.name(), report.unknown, solve.largest_mean);
 }
 

@@ -137,7 +137,7 @@ private:
         const auto is_left_out = [&](double chance, std::size_t cell) {
             return !(uniform_of(here_.program->domain.seed, k_, tissue().numbers()[cell]) < chance);
         };
-        return leave_out(founders.chance, is_left_out, "no founder takes its chance");
+        return leave_out(founders.chance, is_left_out, "the chance accepts no founder");
     }
 
     /// Makes a cell at each position.

@@ -224,12 +224,14 @@ private:
                 return side.kind == SideKind::fixed;
             });
             if (is_in_turn || !is_held) continue;
-            diagnostics_.error(time.solver_span,
-                               fmt::format("stage '{}': {} cannot hold {} at a side, whose waves "
-                                           "are not those of a species",
-                                           program_.stages[stage_].name, name_of(time.solver),
-                                           system().definitions[each.definition].name),
-                               "rkl2 can");
+            diagnostics_.error(
+                time.solver_span,
+                fmt::format(
+                    "stage '{}': {} cannot hold {} at a side, because its waves differ from the "
+                    "waves of a species",
+                    program_.stages[stage_].name, name_of(time.solver),
+                    system().definitions[each.definition].name),
+                "rkl2 can");
             return;
         }
         const auto settings = side_settings(program_, stage_);

@@ -155,7 +155,8 @@ TEST(Lexer, SpellsLettersOfOtherAlphabets) {
         {"\U0001d462", "GARBAGE",
          "1:1 '\U0001d462' (U+1D462) is not a letter of a name | write 'u'"},
         {"u\u0307", "GARBAGE",
-         "1:1 the mark U+0307 above or below a letter cannot be part of a name | write u' for a rate"},
+         "1:1 the mark U+0307 above or below a letter cannot be part of a name | write u' for a "
+         "rate"},
         {"k\u0430", "GARBAGE", "1:1 '\u0430' (U+0430) is not a letter of a name | write 'ka'"},
         {"\u6f22", "GARBAGE",
          "1:1 '\u6f22' (U+6F22) is not a letter of a name | names are of a to z, A to Z, 0 to 9, "
@@ -174,8 +175,8 @@ TEST(Lexer, ReportsStrayCharactersOncePerRun) {
         {"a ? b", "a GARBAGE b",
          "1:3 '?' has no meaning in the language | a choice is written if(condition, a, b)"},
         {"a \\\nb", "a GARBAGE NL b",
-         "1:3 '\\' has no meaning in the language | a line goes on inside ( ) and after an "
-         "operator"},
+         "1:3 '\\' has no meaning in the language | a statement continues on the next line inside "
+         "( ) and after an operator"},
         {"a \x07 b", "a GARBAGE b",
          "1:3 U+0007 is an invisible character without a meaning here | take it out"},
         {"\"open\nb", "GARBAGE NL b",

@@ -79,7 +79,7 @@ TEST(GltfSparse, BrokenOnes) {
         return file.fault();
     };
     const auto nothing = [](Json&) {};
-    const char* const wrong = "the glTF file has triangles without places or beyond its data";
+    const char* const wrong = "the glTF file has triangles without positions or beyond its data";
     EXPECT_EQ(fault({0, 1}, nothing), "read");
     EXPECT_EQ(fault({1, 1}, nothing), wrong);
     EXPECT_EQ(fault({2, 1}, nothing), wrong);

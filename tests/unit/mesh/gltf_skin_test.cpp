@@ -90,7 +90,7 @@ TEST(GltfSkin, BrokenSkins) {
     EXPECT_EQ(fault([](BuiltGltf& file) { file.json["skins"][0]["joints"] = {9}; }),
               "node 9 of the glTF file is not there");
     EXPECT_EQ(fault([](BuiltGltf& file) { file.json["skins"][0]["joints"] = Json::array(); }),
-              "a point of the glTF file hangs from joint 0, but its skin has only 0");
+              "a point of the glTF file follows joint 0, but its skin has only 0");
     EXPECT_EQ(fault([](BuiltGltf& file) { file.node(2)["children"] = {1}; }),
               "the nodes of the glTF file do not form a tree");
     EXPECT_THAT(

@@ -175,7 +175,7 @@ TEST(HostileModels, NumbersThatAreNoPlaces) {
     EXPECT_EQ(outcome_of_bytes(replaced(bytes_called("OBJ"), "v 1 0 0", "v NaN 0 0"), "obj"),
               "point 1 of the model, counted from 0, has the position (nan, 0, 0)");
     EXPECT_EQ(outcome_of_bytes(replaced(bytes_called("OBJ"), "v 1 0 0", "v one 0 0"), "obj"),
-              "line 3 of the OBJ file is not the place of a point");
+              "line 3 of the OBJ file is not the position of a point");
     EXPECT_EQ(outcome_of_bytes(replaced(bytes_called("STL text"), "vertex 1 0 0", "vertex 1 0"),
                                "stl"),
               "line 5 of the STL file is not a corner of a triangle");

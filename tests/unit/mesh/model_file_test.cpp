@@ -146,7 +146,7 @@ TEST(ModelFile, AnOffFileAndAnStlFile) {
     EXPECT_THAT(off->attributes[1].values, ElementsAre(0, 0, 0, 0.2F));
     EXPECT_TRUE(read_off("OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2"));
     EXPECT_EQ(fault_of(read_off("OFF\n3 1 0\n0 0 0\n1 0 0\n0 x 0\n3 0 1 2\n")),
-              "line 5 of the OFF file is not the place of a point");
+              "line 5 of the OFF file is not the position of a point");
     EXPECT_EQ(fault_of(read_off("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n")),
               "line 6 of the OFF file is not a face of these points");
     EXPECT_THAT(fault_of(read_off("OFF\n4000000000 1 0\n0 0 0\n")), HasSubstr("too short for"));
@@ -231,9 +231,9 @@ TEST(ModelFile, LinesEndInEveryWay) {
                   "read");
     }
     EXPECT_EQ(fault_of(read_obj("v 0 0 0\r\nv 1 0 0\r\nv 0 x 0\r\n")),
-              "line 3 of the OBJ file is not the place of a point");
+              "line 3 of the OBJ file is not the position of a point");
     EXPECT_EQ(fault_of(read_obj("v 0 0 0\rv 1 0 0\rv 0 x 0\r")),
-              "line 3 of the OBJ file is not the place of a point");
+              "line 3 of the OBJ file is not the position of a point");
 }
 
 TEST(ModelFile, TextOfOtherUnits) {
@@ -276,7 +276,7 @@ TEST(ModelFile, BrokenGltfFiles) {
               "node 7 of the glTF file is not there");
     EXPECT_EQ(fault_with(R"("mesh":0)", R"("mesh":3)"), "mesh 3 of the glTF file is not there");
     EXPECT_EQ(fault_with(R"("count":3,"type":"VEC3")", R"("count":300000,"type":"VEC3")"),
-              "the glTF file has triangles without places or beyond its data");
+              "the glTF file has triangles without positions or beyond its data");
     EXPECT_EQ(fault_with(R"("byteOffset":36)", R"("byteOffset":40)"),
               "the triangles of the glTF file lie beyond its data");
 }

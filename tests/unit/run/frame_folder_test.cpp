@@ -52,7 +52,8 @@ TEST_F(FrameFolder, OfAnotherScriptIsLeftAlone) {
     run_well(script, frames_in("film"));
     Script other = load_script("other.cascade", filmed_spots, folder_);
     EXPECT_THAT(run_badly(other, frames_in("film")),
-                HasSubstr("holds frames that other.cascade did not draw, as 0000-s-0000000.png"));
+                HasSubstr(
+                    "holds frames that other.cascade did not draw, such as 0000-s-0000000.png"));
     EXPECT_THAT(names("film"), testing::SizeIs(3));
     // A picture that the program did not write is not removed either.
     std::filesystem::create_directories(path("mine"));

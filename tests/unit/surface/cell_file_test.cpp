@@ -127,7 +127,7 @@ TEST_F(CellFile, SaysWhyItIsNotUsed) {
     EXPECT_NE(stale.error().message.find("of another surface or made in another way"),
               std::string::npos);
     change(false, [](std::string& b) { b[0] = 'K'; });
-    EXPECT_NE(reason().find("is no file of cells"), std::string::npos);
+    EXPECT_NE(reason().find("is not a file of cells"), std::string::npos);
     change(false, [](std::string& b) { b[8] = 99; });
     EXPECT_NE(reason().find("is of version 99, not 4"), std::string::npos);
     change(false, [](std::string& b) { std::swap(b[12], b[15]); });
@@ -135,7 +135,7 @@ TEST_F(CellFile, SaysWhyItIsNotUsed) {
     change(false, [](std::string& b) { b[100] ^= 1; });
     EXPECT_NE(reason().find("its checksum is wrong"), std::string::npos);
     ASSERT_TRUE(write_file(path, ""));
-    EXPECT_NE(reason().find("is no file of cells"), std::string::npos);
+    EXPECT_NE(reason().find("is not a file of cells"), std::string::npos);
     std::filesystem::remove(path);
     std::filesystem::create_directory(path);
     EXPECT_NE(reason(), "");
