@@ -14,7 +14,7 @@
 #
 # Seen with openimageio-tools 2.4.7.1, imagemagick 6.9.11.60 and python3-astropy 5.2.1 of Debian 12.
 set -eu
-for p in openimageio-tools=2.4.7.1 imagemagick=6.9.11.60 netpbm=11.01.00 python3-astropy=5.2.1; do
+for p in openimageio-tools=2.4.7.1 imagemagick=6.9.11.60 python3-astropy=5.2.1 python3-pil=9.4.0; do
   name=${p%%=*}
   if ! dpkg-query -W "$name" >/dev/null 2>&1; then
     apt-get update -qq >/dev/null 2>&1 || true
@@ -34,16 +34,17 @@ cat > try.py <<'EOF_PY'
 import subprocess
 import warnings
 import numpy
+from PIL import Image
 from astropy.io import fits
 warnings.simplefilter("ignore")  # astropy's, of a file that is too short
 def run(*command):
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 def show(name, file):
-    run("oiiotool", file, "-d", "uint16" if file == "words.fits" else "uint8", "-o", "out.pnm")
-    by_tool = run("pnmtoplainpnm", "out.pnm").split()[4:]
-    run("convert", file, "-compress", "none", "magick.pgm")
-    by_magick = run("pnmtoplainpnm", "magick.pgm").split()[4:]
-    print(f"{name}, from the top: OpenImageIO {' '.join(by_tool)}; ImageMagick {' '.join(by_magick)}")
+    depth = "16" if file == "words.fits" else "8"
+    run("oiiotool", file, "-d", "uint" + depth, "-o", "tool.png")
+    run("convert", file, "-depth", depth, "magick.png")
+    by_tool, by_magick = (" ".join(map(str, Image.open(f).getdata())) for f in ("tool.png", "magick.png"))
+    print(f"{name}, from the top: OpenImageIO {by_tool}; ImageMagick {by_magick}")
 def rows(file):
     with fits.open(file, ignore_missing_end=True) as opened:
         return opened[0].data[::-1, 0].tolist()  # astropy begins with the lowest row
@@ -63,7 +64,7 @@ EOF_PY
 /usr/bin/python3 try.py | tee seen
 cat > expected <<'EOF_TXT'
 bytes 10 20 30 40, from the top: OpenImageIO 0 10 20 30; ImageMagick 10 20 30 40
-16 bits 10000 20000 40000 60000, from the top: OpenImageIO 21760 21760 21760 21816; ImageMagick 10000 20000 40000 60000
+16 bits 10000 20000 40000 60000, from the top: OpenImageIO 0 0 0 14464; ImageMagick 10000 20000 40000 60000
 10 20 30 40 written by OpenImageIO: astropy reads [20, 30, 40, 0], 5 bytes in the last block
 10 20 30 40 written by ImageMagick: astropy reads [10, 20, 30, 40], 0 bytes in the last block
 bytes written by ImageMagick, from the top: OpenImageIO 0 10 20 30; ImageMagick 10 20 30 40
