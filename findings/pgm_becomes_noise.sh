@@ -4,9 +4,9 @@
 # Expected. oiiotool -d uint16 writes 16 bits per channel, into PNG, TIFF and also into PGM and PPM, whose header then
 # says that the largest number is 65535. A ramp stays a ramp.
 #
-# What happens. The header is right, but the pixels are first reduced to 8 bits, and then each pair of bytes is taken for
-# one number of 16 bits. So the left half of each row has two pixels in one, and the right half is whatever was in the
-# memory. oiiotool describes the file as "uint16 pnm" and reads the same noise. ASCII files, grey and RGB, are all
+# What happens. The header is right, but the pixels are first reduced to 8 bits, and then each pair of bytes is taken
+# for one number of 16 bits. So the left half of each row has two pixels in one, and the right half is whatever was in
+# the memory. oiiotool describes the file as "uint16 pnm" and reads the same noise. ASCII files, grey and RGB, are all
 # affected. A PNG by the same command is right. A PGM without -d uint16 is right too, but has only 8 bits, even if the
 # input has 16. Nothing warns.
 #
