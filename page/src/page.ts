@@ -109,7 +109,7 @@ const connection = new Connection({
                 want_surface(pattern.snapshot!);
                 preparing.blank = pattern.snapshot!.is_model && solid.is_possible && !pattern.is_solid;
                 show_state(pattern.snapshot!);
-                if (!pattern.is_solid) keep_what_is_seen();
+                if (!pattern.canvas.hidden) keep_what_is_seen();
             } finally {
                 // Requests the next snapshot even if this one fails.
                 connection.next_snapshot();
@@ -353,7 +353,7 @@ const actions: Record<string, () => void> = {
         void recording.toggle_frames();
         // Draws the present moment as the first frame.
         pattern.draw();
-        if (!pattern.is_solid) keep_what_is_seen();
+        if (!pattern.canvas.hidden) keep_what_is_seen();
     },
 };
 for (const [id, act] of Object.entries(actions)) document.querySelector(`button#${id}`)?.addEventListener("click", act);
