@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Exported pages: headless Chromium opens the file from the disk, without a network, and its canvas is compared with PNG
-# files of `cascade run`. Also what `cascade export` refuses.
+# files of `cascade run`. Every control works, here and on the page of `cascade view`. Also what `cascade export` refuses.
 set -u
 
 fail() { echo "exported_page: $*"; exit 1; }
@@ -82,7 +82,8 @@ sed -n "/^cat >lesson.cascade/,/^SCRIPT/p" "$SOURCE/tests/page_test.sh" | sed '1
 "$CASCADE" export lesson.cascade >/dev/null || fail "the page of an exercise was not written"
 sed 's/^domain.*/domain { surface: sphere; cells: 500 }/' dots.cascade | sed 's/disc(0.3, 0.3, 0.1)/x/' >points.cascade
 "$CASCADE" export points.cascade >/dev/null || fail "the page of a ball was not written"
-rm -rf profile profile_of_points_2 profile_of_lesson_2
+rm -rf profile profile_of_points_2 profile_of_lesson_2 profile_of_controls*
 node "$SOURCE/tests/page/exported.mjs" "$browser" || fail "see above"
+for page in '' cascade.html; do node "$SOURCE/tests/page/controls.mjs" "$browser" "$CASCADE" $page || fail "see above"; done
 node "$SOURCE/tests/page/points.mjs" "$browser" "$CASCADE" points.cascade points.html || fail "see above"
 node "$SOURCE/tests/page/lesson.mjs" "$browser" "$CASCADE" lesson.cascade lesson.html || fail "see above"
