@@ -14,6 +14,7 @@
 #include "run/pictures/material.h"
 #include "run/pictures/model_maps.h"
 #include "run/pictures/picture_size.h"
+#include "run/pictures/series.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,10 @@
 // The setting `directions` of a domain with a model (internal to the checker).
 #pragma once
 
+#include "lang/check/names/check_names.h"
+#include "lang/program/domain.h"
+#include "lang/syntax/ast.h"
+
 #include <optional>
 #include <span>
 #include <string_view>
