@@ -185,7 +185,7 @@ printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 9\n' > broken.obj
 run 3 mesh open.obj broken.obj cube.obj
 says out "1 boundary, Euler characteristic 1"
 says out "closed like a sphere"
-says err "'broken.obj': face 1 of the OBJ file names a point that is not there"
+says err "'broken.obj': face 1 of the OBJ file names a point that does not exist"
 
 : > empty.ply
 for name in empty.ply nothing.ply picture.png; do run 3 mesh $name; done

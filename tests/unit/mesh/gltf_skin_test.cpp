@@ -86,9 +86,9 @@ TEST(GltfSkin, BrokenSkins) {
         return file.fault();
     };
     EXPECT_EQ(fault([](BuiltGltf& file) { file.node(0)["skin"] = 3; }),
-              "skin 3 of the glTF file is not there");
+              "the glTF file has no skin 3");
     EXPECT_EQ(fault([](BuiltGltf& file) { file.json["skins"][0]["joints"] = {9}; }),
-              "node 9 of the glTF file is not there");
+              "the glTF file has no node 9");
     EXPECT_EQ(fault([](BuiltGltf& file) { file.json["skins"][0]["joints"] = Json::array(); }),
               "a point of the glTF file follows joint 0, but its skin has only 0");
     EXPECT_EQ(fault([](BuiltGltf& file) { file.node(2)["children"] = {1}; }),

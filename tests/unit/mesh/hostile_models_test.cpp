@@ -196,7 +196,7 @@ TEST(HostileModels, CornersThatAreNoPoints) {
         EXPECT_THAT(outcome, HasSubstr("of the OBJ file")) << corner;
     }
     EXPECT_THAT(outcome_of_bytes("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/2 3/1\n", "obj"),
-                HasSubstr("face 1 of the OBJ file names a texture coordinate that is not there"));
+                HasSubstr("face 1 of the OBJ file names a texture coordinate that does not exist"));
     EXPECT_THAT(outcome_of_bytes("v 0 0 0\nv 1 0 0\nv 0 1 0\nf /1 2 3\n", "obj"),
                 HasSubstr("line 4 of the OBJ file is not a face of points"));
     EXPECT_THAT(outcome_of_bytes(replaced(bytes_called("OFF"), "3 0 2 1", "3 0 2 -1"), "off"),

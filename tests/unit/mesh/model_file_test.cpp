@@ -132,7 +132,7 @@ TEST(ModelFile, AnObjFile) {
     EXPECT_EQ(soup->texture[6], (TexturePlace{0, 1}));
 
     EXPECT_EQ(fault_of(read_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 4\n")),
-              "face 2 of the OBJ file names a point that is not there");
+              "face 2 of the OBJ file names a point that does not exist");
 }
 
 TEST(ModelFile, AnOffFileAndAnStlFile) {
@@ -272,9 +272,8 @@ TEST(ModelFile, BrokenGltfFiles) {
     EXPECT_EQ(fault_with(R"({"asset")", "nonsense"), "this is not a glTF file that can be read");
     EXPECT_EQ(fault_with(R"("children":[1])", R"("children":[0])"),
               "the nodes of the glTF file do not form a tree");
-    EXPECT_EQ(fault_with(R"("children":[1])", R"("children":[7])"),
-              "node 7 of the glTF file is not there");
-    EXPECT_EQ(fault_with(R"("mesh":0)", R"("mesh":3)"), "mesh 3 of the glTF file is not there");
+    EXPECT_EQ(fault_with(R"("children":[1])", R"("children":[7])"), "the glTF file has no node 7");
+    EXPECT_EQ(fault_with(R"("mesh":0)", R"("mesh":3)"), "the glTF file has no mesh 3");
     EXPECT_EQ(fault_with(R"("count":3,"type":"VEC3")", R"("count":300000,"type":"VEC3")"),
               "the glTF file has triangles without positions or beyond its data");
     EXPECT_EQ(fault_with(R"("byteOffset":36)", R"("byteOffset":40)"),
