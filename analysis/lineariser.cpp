@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <string>
 
 namespace cascade::analysis {
@@ -147,6 +148,7 @@ Result<void> Lineariser::add_call(const Node& node, Part& part) {
         case Function::advect: add_advection(node, part); return {};
         case Function::transport: add_transport(node, part); return {};
         case Function::diffuse: add_diffusion(node, part); return {};
+        case Function::shifted: add_shift(node, part); return {};
         case Function::div:
             for (std::size_t each = 0; each < 3; ++each) {
                 add(part.slopes,
@@ -262,6 +264,22 @@ void Lineariser::add_diffusion(const Node& node, Part& part) {
     add(part.slopes, through(spread, Difference::second, 1), a22);
     add(part.slopes, through(through(spread, Difference::central, 0), Difference::central, 1),
         algebra_.product(algebra_.number(2), a12));
+}
+
+/// A step to the next cell adds the difference to this cell, step by step.
+void Lineariser::add_shift(const Node& node, Part& part) {
+    part.value[0] = this->part(node, 0).value[0];
+    part.slopes = this->part(node, 0).slopes;
+    const double spacing = model_.program->domain.grid.spacing;
+    for (std::size_t axis = 0; axis + 1 < node.operand_count; ++axis) {
+        const NodeId number = this->part(node, axis + 1).value[0];
+        const auto cells = static_cast<int>(*algebra_[number].as<double>());
+        const NodeId step = algebra_.number(cells > 0 ? spacing : -spacing);
+        const Difference difference = cells > 0 ? Difference::forward : Difference::backward;
+        for (int k = 0; k < std::abs(cells); ++k) {
+            add(part.slopes, through(Slopes(part.slopes), difference, axis), step);
+        }
+    }
 }
 
 Result<void> Lineariser::add_function(const Node& node, Part& part) {

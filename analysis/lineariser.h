@@ -58,6 +58,7 @@ private:
     Result<std::size_t> kernel_of(const Node& node);
     void add_advection(const Node& node, Part& part);
     void add_transport(const Node& node, Part& part);
+    void add_shift(const Node& node, Part& part);
     void add_diffusion(const Node& node, Part& part);
     Result<void> add_function(const Node& node, Part& part);
     Result<void> without_rule(const Node& node) const;

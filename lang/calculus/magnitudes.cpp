@@ -133,7 +133,9 @@ private:
             part.size = leaf(node);
             return part;
         }
-        if (differentiates(node.function)) {
+        if (node.calls(Function::shifted)) {
+            part.size = parts_[node.operands[0]].size;
+        } else if (differentiates(node.function)) {
             part.size = {0, 0, false};  // Terms of operators are left out.
         } else if (node.operand_count > 0) {
             const auto operand = [&](std::size_t n) -> const Part& {

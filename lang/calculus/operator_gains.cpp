@@ -87,6 +87,7 @@ std::optional<Term> OperatorGains::of_other(const Node& node) {
         const double along = largest(Difference::central);
         return zero_.number(along * along / (h * h));
     }
+    if (node.calls(Function::shifted)) return zero_.number(1);
     if (!info(node.function).is_aggregate) return std::nullopt;
     const bool adds = reduction_of(node.function) == ReductionKind::sum;
     return zero_.number(adds ? static_cast<double>(grid_.cell_count()) : 1);

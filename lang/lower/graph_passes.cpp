@@ -2,9 +2,11 @@
 #include "lang/lower/graph_passes.h"
 
 #include "lang/program/models.h"
+#include "lang/program/stencils.h"
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <limits>
 
 namespace cascade::lowering {
@@ -67,6 +69,35 @@ class Limiters : public GraphPass {
             sum = sum + SparseTerm{first + half * second};
         }
         return sum.term;
+    }
+};
+
+/// Writes out shifted(e, i, j) as steps to adjacent cells: first along x, then along y and z. Along
+/// an axis of one cell there is no step.
+class Shifts : public GraphPass {
+    using GraphPass::GraphPass;
+
+    Term beside(Term of, Offset at) {
+        Node node;
+        node.kind = Call{at.number()};
+        node.function = Function::beside;
+        node.operands = {of};
+        node.operand_count = 1;
+        return term(graph().add(node));
+    }
+
+    NodeId image_of(const Node& node) override {
+        if (!node.calls(Function::shifted)) return keep(node);
+        const GridAxes axes(context().grid().stencil());
+        Term value = term(node.operands[0]);
+        for (int axis = 0; axis + 1 < node.operand_count; ++axis) {
+            const Node& shift = graph()[node.operands[static_cast<std::size_t>(axis) + 1]];
+            const auto cells = static_cast<int>(*shift.as<double>());
+            for (int k = 0; axes.has(axis) && k < std::abs(cells); ++k) {
+                value = beside(value, Offset::along(axis, cells > 0 ? 1 : -1));
+            }
+        }
+        return value;
     }
 };
 
@@ -190,6 +221,10 @@ Expressions write_out_tensors(const Expressions& from, const PassContext& contex
 
 Expressions write_out_limiters(const Expressions& from, const PassContext& context) {
     return Limiters(from, context).run();
+}
+
+Expressions write_out_shifts(const Expressions& from, const PassContext& context) {
+    return Shifts(from, context).run();
 }
 
 Expressions take_out_even_weights(const Expressions& from, const PassContext& context) {

@@ -104,6 +104,7 @@ Expressions write_out_tensors(const Expressions& from, const PassContext& contex
 Expressions lay_on_surface(const Expressions& from, const PassContext& context);
 Expressions write_out_stencils(const Expressions& from, const PassContext& context);
 Expressions write_out_limiters(const Expressions& from, const PassContext& context);
+Expressions write_out_shifts(const Expressions& from, const PassContext& context);
 Expressions find_beyond_border(const Expressions& from, const PassContext& context);
 Expressions spread_over_links(const Expressions& from, const PassContext& context);
 Expressions take_out_even_weights(const Expressions& from, const PassContext& context);

@@ -31,6 +31,7 @@ bool is_tensor(const Node& node) {
            node.calls(Function::diffuse);
 }
 bool is_transport(const Node& node) { return node.calls(Function::transport); }
+bool is_shift(const Node& node) { return node.calls(Function::shifted); }
 bool is_operator(const Node& node) { return node.is<Call>() && differentiates(node.function); }
 bool is_of_whole_planes(const Node& node) { return is_aggregate(node) || is_nonlocal(node); }
 bool is_sum_or_quotient(const Node& node) {
@@ -59,6 +60,8 @@ constexpr std::array passes{
     PassInfo{"stencils", has_other_stencil, is_operator, write_out_stencils},
     // After this pass the only limiters are slopes along an axis, which are in separate planes.
     PassInfo{"limiters", has_faces, is_transport, write_out_limiters},
+    // After this pass values in other cells are values in adjacent cells, step by step.
+    PassInfo{"shifts", has_faces, is_shift, write_out_shifts},
     // After this pass an operand that operators read at neighbours is a node (bordered) if its
     // values beyond the border of the mask differ from its value in the cell beside the border.
     PassInfo{"border", has_border, is_operator, find_beyond_border},

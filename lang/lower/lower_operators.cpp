@@ -49,12 +49,18 @@ private:
 
 ValueId Stencils::stencil(const Node& node) {
     const NodeId operand = node.reads().back();
-    const bool is_theirs = node.calls(Function::theirs);
-    if (graph_.is_uniform(operand)) return is_theirs ? own(operand) : builder_.number(0);
+    const bool is_theirs = node.calls(Function::theirs), is_beside = node.calls(Function::beside);
+    if (graph_.is_uniform(operand)) {
+        return is_theirs || is_beside ? own(operand) : builder_.number(0);
+    }
     if (is_theirs) return builder_.theirs(slot_of_plane(operand));
     if (graph_.is_linked()) return over_links(node);
     if (const auto applied = difference_of(node.function)) {
         return difference(operand, applied->difference, applied->first, applied->second);
+    }
+    if (is_beside) {
+        const Offset at = Offset::of(node.as<Call>()->detail);
+        return *values_.weighted(operand, Taps{{{at, 1}}, 1, 0});
     }
     const int axis = node.as<Call>()->detail;
     switch (node.function) {

@@ -115,8 +115,9 @@ struct Unknown {
 /// A function with operands.
 struct Call {
     /// A number whose meaning depends on the function. For noise it is the number of octaves, for
-    /// parts of `transport` the axis. For `convolve`, `solved` and functions of files it is the
-    /// index in Literals of the kernel, the constraint or the FileReading.
+    /// parts of `transport` the axis, for `beside` the number of an Offset. For `convolve`,
+    /// `solved` and functions of files it is the index in Literals of the kernel, the constraint or
+    /// the FileReading.
     std::uint32_t detail = 0;
     bool operator==(const Call&) const = default;
 };

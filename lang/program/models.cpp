@@ -27,6 +27,7 @@ std::string_view reason_against(Function function) {
             return "tensor(a1, a2, theta) works there, with theta along(grad(v)) or "
                    "along(axis(0, 1, 0))";
         case Function::convolve: return "it works on grids; lap(e) reaches the cells beside one";
+        case Function::shifted:
         case Function::curl: return "it needs columns and rows, which a model does not have";
         default: return "a model has no named second derivatives; lap(e) works there";
     }

@@ -159,6 +159,7 @@ Offsets offsets_of(const Node& operation, const GridAxes& axes) {
     if (operation.calls(Function::limited) || operation.calls(Function::upwind)) {
         return read(Difference::second, operation.as<Call>()->detail);
     }
+    if (operation.calls(Function::beside)) return only(Offset::of(operation.as<Call>()->detail));
     if (!operation.calls(Function::diffuse)) return crosswise(axes);
     return own_cell | read(Difference::second, 0) | read(Difference::second, 1) |
            read(Difference::mixed, 0, 1);

@@ -13,6 +13,9 @@
 
 namespace cascade {
 
+/// The farthest cell that shifted(e, i, j) reads, along each axis.
+inline constexpr int farthest_shift = 8;
+
 /// The position of a cell relative to another one. Each offset is −1, 0 or 1.
 struct Offset {
     int dx = 0, dy = 0, dz = 0;

@@ -164,9 +164,9 @@ private:
     }
 
     static bool is_stencil(std::string_view spelling) {
-        static constexpr std::array<std::string_view, 14> stencils = {
-            "lap", "dx",  "dy",  "dz",    "dxx",    "dyy",     "dzz",
-            "dxy", "dxz", "dyz", "grad2", "advect", "diffuse", "transport"};
+        static constexpr std::array<std::string_view, 15> stencils = {
+            "lap", "dx",  "dy",    "dz",     "dxx",     "dyy",       "dzz",    "dxy",
+            "dxz", "dyz", "grad2", "advect", "diffuse", "transport", "shifted"};
         return std::find(stencils.begin(), stencils.end(), spelling) != stencils.end();
     }
 
@@ -179,6 +179,11 @@ private:
         if (row.spelling == "diffuse") {
             return fmt::format("diffuse({}, {}, {}, {})", varying(place, depth - 1), leaf(place),
                                leaf(place), expression(place, depth - 2));
+        }
+        if (row.spelling == "shifted") {
+            return fmt::format("shifted({}, {}, {})", varying(place, depth - 1),
+                               static_cast<int>(stream_.below(5)) - 2,
+                               static_cast<int>(stream_.below(5)) - 2);
         }
         const bool carries = row.spelling == "advect" || row.spelling == "transport";
         if (!carries) {

@@ -60,6 +60,9 @@ bool ExpressionChecker::belongs_here(Function function, Span span) {
     if (work_.on_surface && is_derivative && !includes(row.domains, Domains::surface)) {
         return refuse("named second derivatives cannot be used on a surface; lap and div can");
     }
+    if (work_.on_surface && function == Function::shifted) {
+        return refuse("the rows of a surface are not straight; lap, dx and dy work there");
+    }
     if (context == Context::constant && varies) {
         error(span, fmt::format("{} must be one number, but {} {}", scope_.subject, row.spelling,
                                 row.is_aggregate ? "is known only in a run" : "varies by cell"));

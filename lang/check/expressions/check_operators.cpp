@@ -4,10 +4,12 @@
 // numbers, and a tensor multiplies a vector. In a system of fields, div takes vectors at the faces
 // of cells. In a system of cells that crawl, vectors are positions and directions in space.
 #include "lang/check/expressions/expression_checker.h"
+#include "lang/program/stencils.h"
 
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 
 namespace cascade::checking {
 
@@ -177,6 +179,24 @@ void ExpressionChecker::check_curl(const Node& node) {
     result.type = ValueType::vector;
 }
 
+/// Checks the numbers of cells of shifted(e, i, j).
+void ExpressionChecker::check_shift(const Node& node) {
+    for (std::size_t k = 1; k < node.operand_count; ++k) {
+        const Part& cells = parts_[node.operands[k]];
+        const bool is_near = cells.constant && cells.value == std::floor(cells.value) &&
+                             std::abs(cells.value) <= farthest_shift;
+        if (is_near) {
+            // Minus signs of numbers are operators.
+            formula_.nodes[node.operands[k]] = {cells.value, formula_.nodes[node.operands[k]].span};
+            continue;
+        }
+        return error(
+            formula_.nodes[node.operands[k]].span,
+            fmt::format("shifted takes whole numbers of cells from -{0} to {0}", farthest_shift),
+            "they must be known before the run; the first counts columns, the second rows");
+    }
+}
+
 void ExpressionChecker::check_operator(const Node& node) {
     if (node.function == Function::div) {
         const Node& flux = formula_.nodes[node.operands[0]];
@@ -194,6 +214,7 @@ void ExpressionChecker::check_operator(const Node& node) {
         return error(node.span, "on a surface a tensor has three entries",
                      "symmetric(axx, axy, ayy)");
     }
+    if (node.function == Function::shifted) return check_shift(node);
     const bool is_derivative = info(node.function).lengths > 0;
     const bool is_first = node.function == Function::diffuse;
     const NodeId of = node.operands[is_first ? 0 : node.operand_count - 1u];

@@ -107,6 +107,7 @@ private:
     bool has_places(NodeId root);
     void need_vector(NodeId part);
     void check_operator(const Node& node);
+    void check_shift(const Node& node);
     void refuse_product(Function function, Span span, ValueType left, ValueType right);
     void check_carrying(const Node& node);
     void check_curl(const Node& node);

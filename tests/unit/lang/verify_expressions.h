@@ -58,6 +58,8 @@ private:
         if (!node.is<Call>()) return true;
         if (node.calls(Function::symmetric)) return !is_past("tensors");
         if (node.calls(Function::transport)) return !is_past("limiters");
+        if (node.calls(Function::shifted)) return !is_past("shifts");
+        if (node.calls(Function::beside)) return is_past("shifts");
         if (node.calls(Function::limited) || node.calls(Function::upwind)) {
             return is_past("limiters");
         }
