@@ -130,6 +130,15 @@ void import_model(CLI::App& command, Options& options) {
                     "For formats that describe reactions only")
         ->type_name("NAME=D")
         ->allow_extra_args(false);
+    command
+        .add_option("--preset", options.preset,
+                    "The preset to import, if MODEL is a file of several")
+        ->type_name("NAME");
+    command
+        .add_option("--presets", options.presets,
+                    "A file of presets of VisualPDE, for presets that change one of these,\n"
+                    "and for links that name one")
+        ->type_name("FILE");
     add_output(command, options.new_script,
                "The script, a new file; without it MODEL.cascade in this folder");
 }

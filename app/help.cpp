@@ -123,6 +123,7 @@ const std::string_view import_model_examples = R"(Examples:
   cascade import Brusselator.vti                     a formula pattern of Ready
   cascade import spots.vti -o spots2.cascade
   cascade import 'https://visualpde.com/sim/?options=…' -o spirals.cascade
+  cascade import presets.js --preset KdV             a preset of VisualPDE
   cascade import neuron.ode --diffusion v=1
 What cannot be said in Cascade is an error at its line. What differs is said, and written as comments.)";
 

@@ -65,6 +65,7 @@ std::optional<double> longest_stable_step(importing::Draft draft, const fs::path
 
 /// Shortens a step that would not be stable, and adds a comment about it to the script.
 void shorten_step(importing::Draft& draft, const fs::path& folder) {
+    if (!draft.has_other_differences) return;
     const auto limit = longest_stable_step(draft, folder);
     if (!limit || draft.speed <= *limit) return;
     if (!draft.may_shorten) {
@@ -91,9 +92,11 @@ public:
         : options_(options), console_(console), given_(options.scripts[0]) {}
 
     int run() {
-        const fs::path output = options_.new_script.empty()
-                                    ? fs::path(imported_name(given_) + ".cascade")
-                                    : options_.new_script;
+        const fs::path output =
+            options_.new_script.empty()
+                ? fs::path(imported_name(options_.preset.empty() ? given_ : options_.preset + ".") +
+                           ".cascade")
+                : options_.new_script;
         const auto text = is_link(given_) ? Result<std::string>(given_)
                                           : read_file(given_, importing::largest_import);
         if (!text) return refuse(text.error(), exit_status::wrong_script);
@@ -105,6 +108,15 @@ public:
         import.stem = output.stem().string();
         if (const auto diffusion = read_diffusion(*format, import); !diffusion) {
             return refuse(diffusion.error(), exit_status::wrong_use);
+        }
+        if (const auto presets = check_presets(*format); !presets) {
+            return refuse(presets.error(), exit_status::wrong_use);
+        }
+        import.preset = options_.preset;
+        if (!options_.presets.empty()) {
+            auto more = read_file(options_.presets, importing::largest_import);
+            if (!more) return refuse(more.error(), exit_status::wrong_script);
+            import.presets = sources_.add(options_.presets.string(), std::move(*more));
         }
         auto draft = format->read(import);
         say_diagnostics();
@@ -141,6 +153,17 @@ private:
         if (!import.diffusion.empty() && !format.takes_diffusion) {
             return failure(fmt::format("a {} has its own diffusion, so --diffusion has no meaning",
                                        format.name));
+        }
+        return {};
+    }
+
+    Result<void> check_presets(const importing::ImportFormat& format) const {
+        if (format.takes_presets) return {};
+        for (const auto& [option, is_given] : {std::pair("--preset", !options_.preset.empty()),
+                                               std::pair("--presets", !options_.presets.empty())}) {
+            if (!is_given) continue;
+            return failure(
+                fmt::format("a {} is no preset, so {} has no meaning", format.name, option));
         }
         return {};
     }

@@ -84,6 +84,8 @@ struct Options {
     std::filesystem::path new_script;                      ///< `new -o`, `examples -o`, `import -o`
     bool prints_path = false;                              ///< `examples --path`
     std::vector<std::string> diffusion;                    ///< `import --diffusion`
+    std::string preset;                                    ///< `import --preset`
+    std::filesystem::path presets;                         ///< `import --presets`
     std::filesystem::path sheet;                           ///< `palettes -o`
     bool check_only = false;                               ///< `fmt --check`
     ScriptNotation notation = ScriptNotation::as_written;  ///< `fmt --unicode`, `--ascii`

@@ -25,6 +25,9 @@ struct Draft {
     std::vector<std::string> domain;
     std::vector<std::string> stage;  ///< Its statements except `speed`.
     double speed = 1;
+    /// Whether differences between cells are not those of the source, so that its steps may be too
+    /// long here.
+    bool has_other_differences = false;
     /// Whether a shorter step gives the same equations. False if a formula computes values of the
     /// next step.
     bool may_shorten = true;

@@ -58,8 +58,32 @@ Expression negated(Expression operand) {
     return with_operands(std::move(node));
 }
 
+namespace {
+
+/// `formula` without the minus sign at its beginning, such as a / b for -a / b. Nothing if it has
+/// none.
+std::optional<Expression> without_sign(const Expression& formula) {
+    if (formula.kind == Expression::Kind::unary && formula.text == "-") return formula.of[0];
+    const bool is_product =
+        formula.kind == Expression::Kind::binary && (formula.text == "*" || formula.text == "/");
+    if (!is_product) return std::nullopt;
+    auto first = without_sign(formula.of[0]);
+    if (!first) return std::nullopt;
+    Expression made = formula;
+    made.of[0] = std::move(*first);
+    return made;
+}
+
+}  // namespace
+
 Expression operation(Expression left, std::string_view sign, Expression right) {
     const bool is_sum = sign == "+" || sign == "-";
+    if (is_sum && !left.is_number("0")) {
+        if (auto opposite = without_sign(right)) {
+            right = std::move(*opposite);
+            sign = sign == "+" ? "-" : "+";
+        }
+    }
     const bool is_product = sign == "*";
     if (is_sum && right.is_number("0")) return left;
     if (sign == "+" && left.is_number("0")) return right;

@@ -14,8 +14,9 @@ bool is_ready(std::string_view file, std::string_view bytes) {
            bytes.substr(0, 4096).find("<VTKFile") != std::string_view::npos;
 }
 
-bool is_visual_pde(std::string_view file, std::string_view) {
-    return file.starts_with("http") || file.ends_with(".json");
+bool is_visual_pde(std::string_view file, std::string_view bytes) {
+    return file.starts_with("http") || file.ends_with(".json") ||
+           (file.ends_with(".js") && bytes.find("presets[") != std::string_view::npos);
 }
 
 bool is_xpp(std::string_view file, std::string_view) { return file.ends_with(".ode"); }
@@ -24,9 +25,10 @@ bool is_xpp(std::string_view file, std::string_view) { return file.ends_with(".o
 
 std::span<const ImportFormat> import_formats() {
     static constexpr std::array<ImportFormat, 3> all = {{
-        {"pattern of Ready", ".vti", false, is_ready, read_ready},
-        {"simulation of VisualPDE", "a link, or .json", false, is_visual_pde, read_visual_pde},
-        {"model of XPPAUT", ".ode", true, is_xpp, read_xpp},
+        {"pattern of Ready", ".vti", false, false, is_ready, read_ready},
+        {"simulation of VisualPDE", "a link, .json or .js", false, true, is_visual_pde,
+         read_visual_pde},
+        {"model of XPPAUT", ".ode", true, false, is_xpp, read_xpp},
     }};
     return all;
 }

@@ -28,6 +28,8 @@ struct Import {
     /// Diffusion coefficients that the user gives, by the names of species. For formats that do not
     /// contain any.
     std::map<std::string, std::string> diffusion = {};
+    std::string preset = {};  ///< The preset that the user chooses by name, if any.
+    std::optional<SourceId> presets = std::nullopt;  ///< A file of further presets.
 
     std::string_view bytes() const { return sources[source].text(); }
 };
@@ -37,6 +39,7 @@ struct ImportFormat {
     std::string_view name;     ///< For example "pattern of Ready".
     std::string_view endings;  ///< For example ".vti", as messages show it.
     bool takes_diffusion;      ///< Whether `--diffusion` has a meaning.
+    bool takes_presets;        ///< Whether `--preset` and `--presets` have a meaning.
     bool (*recognises)(std::string_view file, std::string_view bytes);
     /// If the file cannot be imported unchanged, reports errors with their positions and returns an
     /// empty optional.

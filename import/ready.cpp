@@ -165,6 +165,7 @@ std::string stencil_of(const ReadyPattern& pattern, const pugi::xml_node& formul
     const bool has_laplacian = text.find("laplacian_") != std::string::npos;
     if (pattern.axes() == 1) return accuracy == "high" ? "fourth" : "";
     if (pattern.axes() == 2 && accuracy == "low") return "";
+    const std::size_t before = draft.remarks.size();
     if (has_laplacian && pattern.axes() == 3) {
         draft.remarks.push_back(
             "Ready's Laplacian reads 27 cells, this one 19; both have the same order and no "
@@ -174,7 +175,11 @@ std::string stencil_of(const ReadyPattern& pattern, const pugi::xml_node& formul
     }
     if (text.find("bilaplacian_") != std::string::npos) {
         draft.remarks.push_back("Ready's bilaplacian has its own stencil; here it is lap(lap(…)).");
+    } else if (text.find("trilaplacian_") != std::string::npos) {
+        draft.remarks.push_back(
+            "Ready's trilaplacian has its own stencil; here it is lap(lap(lap(…))).");
     }
+    draft.has_other_differences = draft.remarks.size() > before;
     return "isotropic";
 }
 

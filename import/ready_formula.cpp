@@ -170,6 +170,12 @@ std::optional<Expression> ReadyFormula::meaning(const Expression& part) {
         if (function.text.starts_with(prefix)) function.text.erase(0, prefix.size());
     }
     if (function.text == "if") return std::nullopt;
+    if (function.text == "clamp" && function.of.size() == 3) {
+        // In OpenCL an undefined value becomes the lower limit.
+        add_function("fn clamped(a, low, high) = if(a > low, min(a, high), low)");
+        function.text = "clamped";
+        return function;
+    }
     auto found = meaning_of(function, opencl_functions);
     if (!found) {
         fail(part.span, fmt::format("the function '{}' of {} arguments has no counterpart",
@@ -250,12 +256,7 @@ std::optional<Expression> ReadyFormula::neighbour(const std::string& species,
             place.remove_prefix(1);
         }
         for (int k = 0; k < times; ++k) value = call(std::string(found->function), {value});
-        const std::string first = pattern_.has_spacing() ? "domain.spacing * " : "";
-        const std::string second = pattern_.has_spacing() ? "domain.spacing^2 * " : "";
-        const std::string text =
-            fmt::format("fn {0}(u) = u {1} {3}d{2}(u) + {4}d{2}{2}(u) / 2", found->function,
-                        found->sign, found->axis, first, second);
-        add_function(text);
+        add_function(fmt::format("fn {}(u) = shifted(u, {})", found->function, found->cells));
     }
     return value;
 }

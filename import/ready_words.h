@@ -44,7 +44,6 @@ inline constexpr ForeignFunction opencl_functions[] = {
     {"atan2", 2, "atan2(A, B)"},
     {"step", 2, "step(A, B)"},
     {"fmod", 2, "sign(A)*mod(abs(A), abs(B))"},
-    {"clamp", 3, "clamp(A, B, C)"},
     {"mix", 3, "mix(A, B, C)"},
     {"smoothstep", 3, "smoothstep(A, B, C)"},
     {"mad", 3, "A*B + C"},
@@ -97,12 +96,11 @@ inline constexpr ForeignFunction ready_operators[] = {
 struct Neighbour {
     char letter;
     std::string_view function;
-    std::string_view axis;
-    std::string_view sign;
+    std::string_view cells;  ///< The numbers of `shifted`.
 };
 inline constexpr Neighbour ready_neighbours[] = {
-    {'e', "east", "x", "+"},  {'w', "west", "x", "-"},  {'n', "north", "y", "-"},
-    {'s', "south", "y", "+"}, {'u', "above", "z", "+"}, {'d', "below", "z", "-"},
+    {'e', "east", "1, 0"},  {'w', "west", "-1, 0"},    {'n', "north", "0, -1"},
+    {'s', "south", "0, 1"}, {'u', "above", "0, 0, 1"}, {'d', "below", "0, 0, -1"},
 };
 
 }  // namespace cascade::importing

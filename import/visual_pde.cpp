@@ -17,6 +17,17 @@ namespace {
 
 using Where = VisualPdeNames::Where;
 
+/// The condition that a cell is inside the domain: VisualPDE's function is above 0 there.
+std::optional<Expression> condition_of_mask(VisualPdeNames& names, Where where) {
+    auto inside = names.option("domainIndicatorFun", where);
+    if (!inside) return std::nullopt;
+    constexpr std::string_view conditions[] = {"<",  "<=",  ">",  ">=", "==",
+                                               "!=", "and", "or", "not"};
+    const bool is_condition = std::find(std::begin(conditions), std::end(conditions),
+                                        inside->text) != std::end(conditions);
+    return is_condition ? *inside : operation(*inside, ">", number(0));
+}
+
 class SystemOfPde {
 public:
     SystemOfPde(VisualPdeNames& names, Import& import, const VisualPdeOptions& options,
@@ -26,26 +37,88 @@ public:
     bool add() {
         const auto& species = names_.species();
         bool is_flat = true;
+        if (!names_.inside().empty() && !add_moving_mask()) return false;
         for (std::size_t k = 0; k < species.size(); ++k) {
             const bool is_algebraic = k >= species.size() - names_.algebraic();
-            const auto rate = rate_of(k, is_algebraic);
+            const bool is_map = k >= species.size() - names_.maps();
+            auto rate = rate_of(k, is_algebraic || is_map);
             if (!rate) return false;
             if (is_algebraic) {
                 draft_.definitions.push_back(
                     fmt::format("{} = {}", species[k], write_formula(*rate)));
                 continue;
             }
-            draft_.rates.push_back(fmt::format("{}' = {}", species[k], write_formula(*rate)));
-            const auto start = names_.option(fmt::format("initCond_{}", k + 1), Where::start);
+            if (is_map) rate = towards(*rate, species[k]);
+            auto start = names_.option(fmt::format("initCond_{}", k + 1), Where::start);
             if (!start) return false;
             is_flat &= names_.is_uniform(*start);
+            if (!names_.inside().empty() && !confine(k, *rate, *start)) return false;
+            draft_.rates.push_back(fmt::format("{}' = {}", species[k], write_formula(*rate)));
             draft_.starts.push_back(fmt::format("{}: {}", species[k], write_formula(*start)));
         }
+        draft_.may_shorten = names_.maps() == 0;
         draft_.waits_for_click = is_flat;
         return true;
     }
 
 private:
+    /// The rate with which a species has the value after one step.
+    static Expression towards(const Expression& value, const std::string& species) {
+        return operation(operation(value, "-", name(species)), "/", name("speed"));
+    }
+
+    /// Declares the condition of a mask that changes as a definition.
+    bool add_moving_mask() {
+        const auto inside = condition_of_mask(names_, Where::rate);
+        if (!inside) return false;
+        draft_.definitions.push_back(
+            fmt::format("{} = {}", names_.inside(), write_formula(*inside)));
+        Diagnostics ignored;
+        Import quiet{import_.sources, ignored};
+        Draft scratch;
+        VisualPdeNames other(quiet, options_, scratch);
+        // If it reads a species, the cells outside get their values in the first step.
+        if (other.declare() && condition_of_mask(other, Where::start)) {
+            begins_ = names_.fresh_name("begins");
+            draft_.starts.push_back(fmt::format(
+                "{}: {}", begins_, write_formula(*condition_of_mask(names_, Where::start))));
+        }
+        draft_.remarks.push_back(fmt::format(
+            "The domain changes, so its mask is the definition '{}'; cells outside have the value "
+            "that VisualPDE gives them.",
+            names_.inside()));
+        return true;
+    }
+
+    /// Gives a species its value outside of a mask that changes: 0, or that of 'dirichlet'.
+    bool confine(std::size_t k, Expression& rate, Expression& start) {
+        const std::string& u = names_.species()[k];
+        const bool has_value = names_.kind_of_sides(k) == "dirichlet";
+        const std::string key = fmt::format("dirichletStr_{}", k + 1);
+        const auto outside = has_value ? names_.option(key, Where::rate) : number(0);
+        if (!outside) return false;
+        const std::string slope = names_.kind_of_sides(k) + "Str_" + std::to_string(k + 1);
+        if (names_.is_closed(u)) {
+            const auto value = names_.option(slope, Where::side);
+            if (!value) return false;
+            if (!value->is_number("0")) {
+                names_.fail(options_.source(import_, slope),
+                            "a slope at a border that moves has no counterpart");
+                return false;
+            }
+        }
+        const Expression rest = outside->is_name(u) ? number(0) : towards(*outside, u);
+        const bool is_still = rate.is_number("0") && rest.is_number("0");
+        if (!is_still) rate = call("if", {name(names_.inside()), rate, rest});
+        if (begins_.empty() || outside->is_name(u)) return true;
+        const auto value = has_value ? names_.option(key, Where::start) : number(0);
+        if (!value) return false;
+        if (write_formula(start) != write_formula(*value)) {
+            start = call("if", {name(begins_), start, *value});
+        }
+        return true;
+    }
+
     /// The diffusion coefficients of the term D grad(u) as a factor of grad(u), or of lap(u) if
     /// they are the same in all cells.
     bool add_diffusion(std::size_t row, std::size_t column, Expression& uniform,
@@ -67,9 +140,8 @@ private:
         const bool has_two =
             !names_.is_line() && !plain_line(text.substr(begin, end - begin)).empty();
         if (!has_two && along_x->is_number("0")) return true;
-        names_.differentiate(u);
         if (!has_two && names_.is_uniform(*along_x)) {
-            uniform = operation(uniform, "+", operation(*along_x, "*", call("lap", {name(u)})));
+            uniform = operation(uniform, "+", operation(*along_x, "*", names_.operate("lap", u)));
             return true;
         }
         Expression factor = *along_x;
@@ -78,7 +150,19 @@ private:
             if (!along_y) return false;
             factor = call("symmetric", {*along_x, number(0), *along_y});
         }
-        fluxes = operation(fluxes, "+", operation(factor, "*", call("grad", {name(u)})));
+        if (!names_.is_closed(u)) {
+            names_.differentiate(u);
+            fluxes = operation(fluxes, "+", operation(factor, "*", call("grad", {name(u)})));
+            return true;
+        }
+        const auto flow = names_.flow(std::move(factor), u);
+        if (!flow) {
+            names_.fail(whole,
+                        "two coefficients of diffusion in a domain that changes have no "
+                        "counterpart");
+            return false;
+        }
+        uniform = operation(uniform, "+", *flow);
         return true;
     }
 
@@ -95,7 +179,7 @@ private:
         Expression rate = uniform;
         if (!fluxes.is_number("0")) rate = operation(rate, "+", call("div", {fluxes}));
         rate = operation(rate, "+", *reaction);
-        if (!is_algebraic && options_.is_true("timescales")) {
+        if (options_.is_true("timescales")) {
             const auto scale = names_.option(fmt::format("timescale_{}", row + 1), Where::rate);
             if (!scale) return std::nullopt;
             rate = operation(rate, "/", *scale);
@@ -107,18 +191,13 @@ private:
     Import& import_;
     const VisualPdeOptions& options_;
     Draft& draft_;
+    std::string begins_;  ///< The parameter that is 1 inside the first mask, if that is known.
 };
 
-/// The condition that a cell is inside the domain: VisualPDE's function is above 0 there.
 bool add_mask(VisualPdeNames& names, const VisualPdeOptions& options, Draft& draft) {
-    if (!options.is_true("domainViaIndicatorFun")) return true;
-    auto inside = names.option("domainIndicatorFun", Where::mask);
+    if (!options.is_true("domainViaIndicatorFun") || !names.inside().empty()) return true;
+    const auto inside = condition_of_mask(names, Where::mask);
     if (!inside) return false;
-    constexpr std::string_view conditions[] = {"<",  "<=",  ">",  ">=", "==",
-                                               "!=", "and", "or", "not"};
-    const bool is_condition = std::find(std::begin(conditions), std::end(conditions),
-                                        inside->text) != std::end(conditions);
-    if (!is_condition) inside = operation(*inside, ">", number(0));
     draft.domain.push_back("mask: " + write_formula(*inside));
     return true;
 }
@@ -201,9 +280,9 @@ std::optional<Draft> read_visual_pde(Import& import) {
     if (!options) return std::nullopt;
     Draft draft;
     VisualPdeNames names(import, *options, draft);
-    for (const char* const key : {"automataMode", "initialState"}) {
-        if (options->text(key).empty() || options->text(key) == "false") continue;
-        names.fail(options->source(import, key), fmt::format("'{}' has no counterpart", key));
+    if (!options->text("initialState").empty()) {
+        names.fail(options->source(import, "initialState"),
+                   "a state that VisualPDE reads from a file has no counterpart");
         return std::nullopt;
     }
     std::string title = plain_line(options->text("simTitle"));

@@ -53,9 +53,20 @@ public:
     const std::vector<std::string>& species() const { return species_; }
     std::size_t algebraic() const { return algebraic_; }
     bool is_line() const { return is_line_; }
+    /// The number of species, before the algebraic ones, whose formula is their next value.
+    std::size_t maps() const { return maps_; }
+    /// The definition that is 1 inside a mask that changes. Empty if the mask does not.
+    const std::string& inside() const { return inside_; }
+    /// The boundary condition of a species in small letters.
+    std::string kind_of_sides(std::size_t species) const;
+    bool is_closed(const std::string& species) const;
+    Expression operate(const std::string& function, const std::string& species);
+    /// Nothing if a tensor crosses a border that changes.
+    std::optional<Expression> flow(Expression factor, const std::string& species);
     bool is_differentiated(const std::string& species) const {
         return differentiated_.contains(species);
     }
+    std::string fresh_name(const char* wanted) { return names_.fresh(wanted); }
     void differentiate(const std::string& species) { differentiated_.insert(species); }
     /// Adds the parameters that formulas have read so far.
     void add_parameters();
@@ -74,12 +85,16 @@ private:
 
     bool declare_parameters();
     bool measure();
+    bool find_moving_mask();
     std::optional<Expression> meaning(const Expression& part, Where where);
     std::optional<Expression> named(const Expression& part, Where where);
     std::optional<Expression> derivative(const std::string& word);
     std::optional<Expression> at_other_cell(const Expression& part);
     std::optional<Expression> picture(const Expression& part, Where where);
-    Expression shifted(Expression value, char axis, int cells);
+    Expression on_edge(bool is_outer);
+    std::optional<Expression> number_for(const Expression& part, double x, double y) const;
+    std::optional<std::string> place_in_picture(const Expression& at, char axis);
+    Expression shifted(const std::string& species, int right, int up);
     Expression with_safe_powers(const Expression& formula);
     Expression place(char axis);
     void add_function(const std::string& text);
@@ -94,7 +109,8 @@ private:
     std::map<std::string, double> values_;  ///< Of parameters that are numbers.
     std::set<std::string> differentiated_;
     std::map<std::string, std::string> pictures_;
-    std::size_t algebraic_ = 0;
+    std::size_t algebraic_ = 0, maps_ = 0;
+    std::string inside_;
     bool is_line_ = false;
     bool has_failed_ = false;
     int depth_ = 0;

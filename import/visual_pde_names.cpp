@@ -104,7 +104,33 @@ bool VisualPdeNames::declare() {
         fail(options_.source(import_, "dimension"), "1 or 2 dimensions are expected");
         return false;
     }
-    return declare_parameters() && measure();
+    if (!options_.is_true("crossDiffusion")) algebraic_ = 0;
+    if (options_.is_true("automataMode")) std::swap(maps_, algebraic_);
+    return declare_parameters() && measure() && find_moving_mask();
+}
+
+/// Finds out whether the mask reads t or a species. If so, the script has a definition for it.
+bool VisualPdeNames::find_moving_mask() {
+    if (!options_.is_true("domainViaIndicatorFun")) return true;
+    Diagnostics ignored;
+    const Span span = options_.source(import_, "domainIndicatorFun");
+    const auto read = read_formula(span, import_.sources, ignored, visual_pde_dialect);
+    if (!read) return true;  // The reader of the mask reports it.
+    const auto moves = [&](const Expression& part, const auto& again) -> bool {
+        if (part.is_name("t") || own_species_.contains(part.text)) return true;
+        return std::any_of(part.of.begin(), part.of.end(),
+                           [&](const Expression& each) { return again(each, again); });
+    };
+    if (moves(*read, moves)) inside_ = names_.fresh("inside");
+    return true;
+}
+
+std::string VisualPdeNames::kind_of_sides(std::size_t species) const {
+    std::string kind = plain_line(options_.text("boundaryConditions", species));
+    std::transform(kind.begin(), kind.end(), kind.begin(), [](char c) {
+        return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    });
+    return kind;
 }
 
 /// Reads "D = 1 in [0, 2]; k = 2*D".
@@ -176,8 +202,15 @@ bool VisualPdeNames::measure() {
     }
     columns = std::max<std::int64_t>(static_cast<std::int64_t>(*scale / *step + 1e-9), 2);
     rows = is_line_ ? 1 : columns;
-    width = height = *scale;
-    spacing = *scale / static_cast<double>(columns);
+    // The differences must be those of VisualPDE, so its step is kept and the width is rounded.
+    spacing = *step;
+    width = height = spacing * static_cast<double>(columns);
+    if (std::abs(width / *scale - 1) > 1e-6) {
+        draft_.remarks.push_back(
+            fmt::format("VisualPDE's domain is {} wide, which is no whole number of steps; here it "
+                        "is {} wide.",
+                        number_text(*scale), number_text(width)));
+    }
     return true;
 }
 
@@ -242,6 +275,9 @@ bool VisualPdeNames::is_uniform(const Expression& formula) const {
         return is_number || formula.text == "pi";
     }
     if (formula.kind == Expression::Kind::call && !value_of(formula)) return false;
+    const bool is_nothing =
+        formula.text == "*" && (formula.of[0].is_number("0") || formula.of[1].is_number("0"));
+    if (is_nothing) return true;
     return std::all_of(formula.of.begin(), formula.of.end(),
                        [&](const Expression& operand) { return is_uniform(operand); });
 }
@@ -258,19 +294,6 @@ Expression VisualPdeNames::place(char axis) {
     if (axis == 'y' && is_line_) return name("domain.y");
     const auto least = option(axis == 'x' ? "minX" : "minY", Where::mask);
     return least ? operation(from, "+", *least) : from;
-}
-
-/// The value `cells` to the right, or upwards.
-Expression VisualPdeNames::shifted(Expression value, char axis, int cells) {
-    const bool forward = (cells > 0) == (axis == 'x');
-    const std::string_view function =
-        axis == 'x' ? (forward ? "east" : "west") : (forward ? "south" : "north");
-    add_function(
-        fmt::format("fn {0}(u) = u {1} domain.spacing * d{2}(u) + domain.spacing^2 * "
-                    "d{2}{2}(u) / 2",
-                    function, forward ? "+" : "-", axis));
-    for (int k = 0; k < std::abs(cells); ++k) value = call(std::string(function), {value});
-    return value;
 }
 
 void VisualPdeNames::add_parameters() {

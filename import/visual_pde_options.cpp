@@ -2,6 +2,7 @@
 // compressed by lz-string, or from JSON.
 #include "import/lz_string.h"
 #include "import/visual_pde.h"
+#include "import/visual_pde_presets.h"
 
 #include <fmt/format.h>
 
@@ -10,8 +11,6 @@
 namespace cascade::importing {
 
 namespace {
-
-constexpr std::size_t largest_visual_pde = std::size_t{1} << 22;
 
 struct OptionOfVisualPde {
     std::string_view key;
@@ -127,37 +126,118 @@ std::string text_of_value(const nlohmann::json& value) {
     return value.is_null() ? "" : value.dump();
 }
 
-}  // namespace
+/// The options with whole keys. Links have short ones.
+nlohmann::json with_whole_keys(const nlohmann::json& json) {
+    if (!json.contains("p")) return json;
+    nlohmann::json made = json;
+    for (const auto& [key, short_key, value] : all_options()) {
+        const auto found = short_key.empty() ? json.end() : json.find(short_key);
+        if (found != json.end()) made[key] = *found;
+    }
+    return made;
+}
 
-std::optional<VisualPdeOptions> VisualPdeOptions::read(Import& import) {
+/// Gives `whatToPlot` the value of the view that VisualPDE opens.
+void open_view(nlohmann::json& options) {
+    const auto views = options.find("views");
+    if (views == options.end() || !views->is_array() || views->empty()) return;
+    const auto wanted = options.find("activeViewInd");
+    const bool is_number = wanted != options.end() && wanted->is_number_unsigned();
+    const std::size_t index = is_number ? wanted->get<std::size_t>() : 0;
+    const nlohmann::json& view = (*views)[std::min(index, views->size() - 1)];
+    if (!view.is_object() || !view.contains("whatToPlot")) return;
+    options["whatToPlot"] = view["whatToPlot"];
+}
+
+/// Presets that once had a flag for each algebraic species have as many as flags.
+void count_algebraic_species(nlohmann::json& options) {
+    const auto given = options.find("numAlgebraicSpecies");
+    if (given != options.end() && *given != 0 && *given != "0") return;
+    int count = 0;
+    for (const char* const flag : {"algebraicV", "algebraicW", "algebraicQ"}) {
+        count += options.contains(flag);
+    }
+    if (count > 0) options["numAlgebraicSpecies"] = count;
+}
+
+/// The preset to import: that of a link, the one of the file, or the one that the user names.
+/// `known` gets all presets that can be parents. Null after an error.
+std::optional<VisualPdePreset> chosen_preset(Import& import, std::vector<VisualPdePreset>& known) {
     const auto refuse = [&](const std::string& why, const std::string& hint = "") {
         import.diagnostics.error({import.source, 0, 0}, why, hint);
         return std::nullopt;
     };
-    const bool is_link = import.bytes().starts_with("http");
-    const auto text = is_link ? json_of_link(import) : std::string(import.bytes());
+    std::string name = import.preset;
+    const std::string_view link = import.bytes();
+    const bool is_link = link.starts_with("http");
+    if (is_link && link.find("options=") == std::string_view::npos) {
+        const std::size_t mark = link.find("preset=");
+        if (mark != std::string_view::npos) {
+            const std::string_view rest = link.substr(mark + 7);
+            name = rest.substr(0, rest.find_first_of("&# \r\n"));
+            if (!import.presets) {
+                return refuse(fmt::format("the link names the preset '{}', but does not have its "
+                                          "options",
+                                          plain_line(name)),
+                              "give VisualPDE's file of presets, as in --presets presets.js, or "
+                              "the link that 'Share' gives");
+            }
+        }
+    }
+    const auto text = !is_link                          ? std::optional(std::string(link))
+                      : name.empty() || !import.presets ? json_of_link(import)
+                                                        : std::string("{}");
     if (!text) return std::nullopt;
     if (text->size() > largest_visual_pde) return refuse("this JSON has more than 4 MiB");
-    const auto json = nlohmann::json::parse(*text, nullptr, false);
-    if (json.is_discarded() || !json.is_object())
-        return refuse("this is not the JSON of a simulation");
-    const bool has_short_keys = json.contains("p");
+    auto own = visual_pde_presets(*text);
+    if (!own) return refuse("this is not the JSON of a simulation");
+    const bool names_own = !is_link;
+    known = names_own ? *own : std::vector<VisualPdePreset>();
+    if (import.presets) {
+        auto more = visual_pde_presets(import.sources[*import.presets].text());
+        if (!more) {
+            import.diagnostics.error({*import.presets, 0, 0},
+                                     "this file has no presets of VisualPDE");
+            return std::nullopt;
+        }
+        known.insert(known.end(), more->begin(), more->end());
+    }
+    if (name.empty() && own->size() == 1) return own->front();
+    if (name.empty()) {
+        return refuse(fmt::format("the file has {} presets", own->size()),
+                      "choose one with --preset NAME; " + names_like(*own, ""));
+    }
+    const VisualPdePreset* const found = preset_named(known, name);
+    if (found == nullptr) {
+        return refuse(fmt::format("there is no preset '{}'", plain_line(name)),
+                      names_like(known, name));
+    }
+    return *found;
+}
+
+}  // namespace
+
+std::optional<VisualPdeOptions> VisualPdeOptions::read(Import& import) {
+    std::vector<VisualPdePreset> known;
+    auto chosen = chosen_preset(import, known);
+    if (!chosen) return std::nullopt;
+    chosen->options = with_whole_keys(chosen->options);
+    auto json = with_parents(import, *chosen, known);
+    if (!json) return std::nullopt;
+    open_view(*json);
+    count_algebraic_species(*json);
     VisualPdeOptions options;
     bool is_known = false;
     for (const auto& [key, short_key, value] : all_options()) {
         options.values_[key] = value;
-        const bool is_short = has_short_keys && !short_key.empty();
-        const auto found = json.find(is_short ? short_key : key);
-        if (found == json.end() || found->is_structured()) continue;
+        const auto found = json->find(key);
+        if (found == json->end() || found->is_structured()) continue;
         options.values_[key] = text_of_value(*found);
         is_known = true;
     }
-    if (!is_known) return refuse("this JSON has no option of VisualPDE");
-    const std::string parent = plain_line(options.text("parent"));
-    if (!parent.empty() && parent != "default") {
-        return refuse(fmt::format("this preset changes another preset, '{}', that is not here",
-                                  parent),
-                      "open it in VisualPDE and import the link that 'Share' gives");
+    if (!is_known) {
+        import.diagnostics.error({import.source, 0, 0}, "this JSON has no option of VisualPDE");
+        return std::nullopt;
     }
     return options;
 }

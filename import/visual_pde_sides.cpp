@@ -44,15 +44,23 @@ public:
             if (!read(k, all[k])) return false;
         }
         const std::size_t used = names_.is_line() ? 2 : 4;
-        const auto any = [&](SideOfPde kind) {
-            return std::any_of(all.begin(), all.end(), [&](const ConditionsOfPde& each) {
-                return std::any_of(each.begin(), each.begin() + static_cast<std::ptrdiff_t>(used),
-                                   [&](const auto& side) { return side.kind == kind; });
-            });
-        };
-        const bool is_periodic = any(SideOfPde::periodic);
-        draft_.domain.push_back(is_periodic ? "boundary: periodic" : "boundary: noflux");
-        if (any(SideOfPde::noflux) || any(SideOfPde::written)) {
+        bool has_walls = options_.is_true("domainViaIndicatorFun");
+        std::array<bool, 2> is_periodic{};
+        for (std::size_t k = 0; k < count; ++k) {
+            if (!reads_sides(k)) continue;
+            for (std::size_t side = 0; side < used; ++side) {
+                const bool goes_round = all[k][side].kind == SideOfPde::periodic;
+                is_periodic[side / 2] |= goes_round;
+                has_walls |= !goes_round;
+            }
+        }
+        if (used == 2) is_periodic[1] = is_periodic[0];
+        constexpr std::string_view words[] = {"noflux", "periodic"};
+        draft_.domain.push_back(
+            is_periodic[0] == is_periodic[1]
+                ? fmt::format("boundary: {}", words[is_periodic[0]])
+                : fmt::format("boundary: {}, {}", words[is_periodic[0]], words[is_periodic[1]]));
+        if (has_walls) {
             draft_.remarks.push_back(
                 "VisualPDE's sides pass through the middle of the outermost cells, here they are "
                 "the edges of these cells.");
@@ -145,23 +153,33 @@ private:
         return true;
     }
 
+    bool is_definition(std::size_t species) const {
+        return species >= names_.species().size() - names_.algebraic();
+    }
+    bool reads_sides(std::size_t species) const {
+        return !is_definition(species) || names_.is_differentiated(names_.species()[species]);
+    }
+
     void write(std::size_t species, const ConditionsOfPde& all, std::size_t used,
-               bool is_periodic) {
+               const std::array<bool, 2>& is_periodic) {
         const std::string& u = names_.species()[species];
-        const bool is_definition = species >= names_.species().size() - names_.algebraic();
-        const bool is_read = !is_definition || names_.is_differentiated(u);
-        const SideOfPde usual = is_periodic ? SideOfPde::periodic : SideOfPde::noflux;
         const bool are_same =
             std::all_of(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(used),
                         [&](const ConditionOfPde& each) { return each.text == all[0].text; });
-        if (!is_read) return;
-        const bool has_mask = options_.is_true("domainViaIndicatorFun");
-        if (has_mask && are_same && all[0].kind == SideOfPde::written) {
+        if (!reads_sides(species)) return;
+        const bool has_mask = options_.is_true("domainViaIndicatorFun") && names_.inside().empty();
+        const std::string kind = names_.kind_of_sides(species);
+        if (has_mask && are_same && all[0].kind == SideOfPde::written && kind != "combo") {
             draft_.sides.push_back(fmt::format("{}.border: {}", u, all[0].text));
+        } else if (has_mask && (kind == "combo" || kind == "periodic")) {
+            // VisualPDE reads the zeros outside.
+            draft_.sides.push_back(fmt::format("{}.border: fixed(0)", u));
         }
         for (std::size_t side = 0; side < (are_same ? 1 : used); ++side) {
-            if (all[side].kind == usual) continue;
-            if (is_definition && all[side].kind == SideOfPde::noflux) continue;
+            const bool is_same_on_both = !are_same || is_periodic[0] == is_periodic[1];
+            const SideOfPde usual = is_periodic[side / 2] ? SideOfPde::periodic : SideOfPde::noflux;
+            if (all[side].kind == usual && is_same_on_both) continue;
+            if (is_definition(species) && all[side].kind == SideOfPde::noflux) continue;
             draft_.sides.push_back(
                 fmt::format("{}.{}: {}", u, are_same ? "sides" : std::string(names_of_sides[side]),
                             all[side].text));

@@ -236,6 +236,7 @@ private:
 
     void add_domain() {
         const bool diffuses = !import_.diffusion.empty();
+        draft_.has_other_differences = diffuses;
         for (const auto& [wanted, value] : import_.diffusion) {
             if (!species_.contains(wanted)) {
                 return fail({import_.source, 0, 0},

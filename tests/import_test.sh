@@ -8,9 +8,9 @@ about="import"
 source "$SOURCE/tests/support/program_runs.bash"
 models=$SOURCE/tests/import
 
-# imports MODEL NAME: the script is the expected one, and takes 50 finite steps.
+# imports MODEL NAME [OPTION…]: the script is the expected one, and takes 50 finite steps.
 imports() {
-    run 0 import "$1" -o "$2.cascade"
+    run 0 import "$1" -o "$2.cascade" "${@:3}"
     says out "wrote $2.cascade"
     diff "$models/$2.expected" "$2.cascade" || fail "another script of $1"
     run 0 check "$2.cascade"
@@ -24,6 +24,32 @@ says_note() { grep -qF "$1" "$2.cascade" || fail "no comment '$1' in $2.cascade"
 says_note "Note: Ready's bilaplacian has its own stencil" operators
 imports "$models/waves.json" waves
 imports "$(cat "$models/link.txt")" link
+
+# Presets of a file, with their parents: domains that grow, that a species bounds, cells that read
+# others, and pictures read at other places.
+cp "$SOURCE/examples/leopard.png" painted_first.png
+cp "$SOURCE/examples/leopard.png" painted_second.png
+imports "$models/presets.js" growing --preset growing
+imports "$models/presets.js" dug --preset Dug
+imports "$models/presets.js" life --preset Life
+imports "$models/presets.js" painted --preset Painted
+run 0 import "$models/presets.js" --preset Spots
+run 0 check Spots.cascade
+printf '{"parent": "Growing", "minX": 0, "numSpecies": 1, "reactionStr_1": "0"}' >kept.json
+run 0 import kept.json --presets "$models/presets.js" -o kept.cascade
+run 0 import "https://visualpde.com/sim/?preset=Kept" --presets "$models/presets.js" -o kept_link.cascade
+diff <(grep -v '^#' kept.cascade) <(grep -v '^#' kept_link.cascade) || fail "another script of a link"
+# Nothing flows through the border of a domain that grows.
+sums() {
+    run 0 run kept.cascade --steps "$1" -q --precision double --save "kept$1" -o kept.png
+    python3 -c '
+import array, sys
+data = open(sys.argv[1], "rb").read()
+print(sum(array.array("d", data[-64 * 64 * 8:])))' "kept$1/grow.u.npy"
+}
+python3 -c 'import sys; a, b = map(float, sys.argv[1:]); assert a > 100 and abs(a / b - 1) < 1e-9, (a, b)' \
+    "$(sums 0)" "$(sums 400)" || fail "the sum in a growing domain changes"
+
 imports "$models/fronts.ode" fronts
 imports "$models/clock.ode" clock
 
@@ -167,14 +193,37 @@ sed 's/ImageData/UnstructuredGrid/g' "$models/spots.vti" >mesh.vtu
 refuses mesh.vtu "on meshes (.vtu) are not imported"
 
 # VisualPDE and XPPAUT.
-printf '{"numSpecies": 1, "reactionStr_1": "0", "domainViaIndicatorFun": true, "domainIndicatorFun": "x > t"}' >mask.json
-refuses mask.json "a mask that moves with t has no counterpart"
+border='"numSpecies": 1, "reactionStr_1": "0", "domainViaIndicatorFun": true, "domainIndicatorFun": "x > t"'
+printf '{%s, "boundaryConditions_1": "neumann", "neumannStr_1": "1"}' "$border" >mask.json
+refuses mask.json "a slope at a border that moves has no counterpart"
+printf '{%s, "boundaryConditions_1": "neumann", "diffusionStr_1_1": "1; 2"}' "$border" >tensor.json
+refuses tensor.json "two coefficients of diffusion in a domain that changes have no counterpart"
+printf '{"initCond_1": "I_S(x^2, y)"}' >bent.json
+refuses bent.json "at places that grow evenly with x and y only"
+printf '{"initialState": "state.bin"}' >state.json
+refuses state.json "a state that VisualPDE reads from a file has no counterpart"
+refuses "$models/presets.js" "the file has 8 presets"
+refuses_with() {
+    run 2 import "$1" "${@:3}" -o refused.cascade
+    says err "$2"
+    [ ! -e refused.cascade ] || fail "$1 was refused, but something was written"
+}
+refuses_with "$models/presets.js" "did you mean 'Painted'?" --preset Paintd
+refuses_with "$models/presets.js" "has too many parents" --preset Round
+printf '{"parent": "Turing"}' >child.json
+refuses child.json "that is not here"
+echo "let nothing = {};" >nothing.js
+refuses_with child.json "this file has no presets of VisualPDE" --presets nothing.js
+refuses "https://visualpde.com/sim/?preset=Kept" "does not have its options"
+sed 's/};$/}}/; s/"Growing"] = {/"Growing"] = {{/' "$models/presets.js" >broken.js
+refuses_with broken.js "this is not the JSON of a simulation" --preset Growing
+run 64 import "$models/spots.vti" --preset a
+says err "so --preset has no meaning"
+run 2 import child.json --presets missing.js
 printf '{"numSpecies": 1, "reactionStr_1": "sesame(u)"}' >word.json
 refuses word.json "'sesame'"
 printf '{"numSpecies": 9}' >nine.json
 refuses nine.json "1 to 4 species are expected"
-printf '{"parent": "Turing"}' >child.json
-refuses child.json "that is not here"
 printf '{"numSpecies": ' >cut.json
 refuses cut.json "this is not the JSON of a simulation"
 refuses "https://visualpde.com/sim/?options=N4IgDiBcIMIK4" "damaged or incomplete"

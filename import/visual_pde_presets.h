@@ -1,0 +1,40 @@
+// The presets of VisualPDE in a file (internal to the reader of its options).
+#pragma once
+
+#include "import/importer.h"
+
+#include <nlohmann/json.hpp>
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cascade::importing {
+
+/// The options of a simulation by VisualPDE's keys.
+struct VisualPdePreset {
+    std::string name;  ///< Empty if the file does not give it.
+    nlohmann::json options;
+};
+
+inline constexpr std::size_t largest_visual_pde = std::size_t{1} << 22;
+
+/// The presets of a text: the JSON of one preset, a JSON object of presets by name, or statements
+/// of JavaScript such as presets["NAME"] = {…}, as VisualPDE copies them and has them in its file
+/// presets.js. Nothing if the text is none of these.
+std::optional<std::vector<VisualPdePreset>> visual_pde_presets(std::string_view text);
+
+/// The options of the preset, and under them those of its parent and so on. Reports an error at the
+/// beginning of the import if a parent is missing from `known` or if parents form a ring.
+std::optional<nlohmann::json> with_parents(Import& import, const VisualPdePreset& preset,
+                                           const std::vector<VisualPdePreset>& known);
+
+/// The preset of this name, in any case, or else null.
+const VisualPdePreset* preset_named(const std::vector<VisualPdePreset>& presets,
+                                    std::string_view name);
+
+/// A hint that gives a name like `name`, or else the first names of presets.
+std::string names_like(const std::vector<VisualPdePreset>& presets, const std::string& name);
+
+}  // namespace cascade::importing
