@@ -70,7 +70,7 @@ std::string write_script(const Draft& draft) {
     }
     text += "}\n\n" + block("domain", draft.domain) + "\n";
     std::vector<std::string> stage = draft.stage;
-    stage.insert(stage.begin(), "speed: " + number_text(draft.speed));
+    if (draft.speed > 0) stage.insert(stage.begin(), "speed: " + number_text(draft.speed));
     text += block("stage grow: imported", stage);
     Sources sources;
     Diagnostics diagnostics;

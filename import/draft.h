@@ -24,7 +24,7 @@ struct Draft {
     std::vector<std::string> parameters, starts, definitions, rates, sides;
     std::vector<std::string> domain;
     std::vector<std::string> stage;  ///< Its statements except `speed`.
-    double speed = 1;
+    double speed = 1;                ///< 0 if the solver chooses its steps.
     /// Whether differences between cells are not those of the source, so that its steps may be too
     /// long here.
     bool has_other_differences = false;

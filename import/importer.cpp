@@ -21,14 +21,19 @@ bool is_visual_pde(std::string_view file, std::string_view bytes) {
 
 bool is_xpp(std::string_view file, std::string_view) { return file.ends_with(".ode"); }
 
+bool is_sbml(std::string_view, std::string_view bytes) {
+    return bytes.substr(0, 4096).find("<sbml") != std::string_view::npos;
+}
+
 }  // namespace
 
 std::span<const ImportFormat> import_formats() {
-    static constexpr std::array<ImportFormat, 3> all = {{
+    static constexpr std::array<ImportFormat, 4> all = {{
         {"pattern of Ready", ".vti", false, false, is_ready, read_ready},
         {"simulation of VisualPDE", "a link, .json or .js", false, true, is_visual_pde,
          read_visual_pde},
         {"model of XPPAUT", ".ode", true, false, is_xpp, read_xpp},
+        {"model in SBML", ".xml, .sbml", true, false, is_sbml, read_sbml},
     }};
     return all;
 }

@@ -53,5 +53,6 @@ const ImportFormat* format_of(std::string_view file, std::string_view bytes);
 std::optional<Draft> read_ready(Import& import);
 std::optional<Draft> read_visual_pde(Import& import);  // A link or a preset as JSON.
 std::optional<Draft> read_xpp(Import& import);
+std::optional<Draft> read_sbml(Import& import);  // By libSBML, if this build has it.
 
 }  // namespace cascade::importing

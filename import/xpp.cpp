@@ -152,7 +152,7 @@ private:
             shifted_.insert(chain);
             const std::string function = cells > 0 ? "east" : "west";
             const std::string text =
-                fmt::format("fn {}(u) = u {} dx(u) + dxx(u) / 2", function, cells > 0 ? "+" : "-");
+                fmt::format("fn {}(u) = shifted(u, {})", function, cells > 0 ? 1 : -1);
             auto& all = draft_.functions;
             if (std::find(all.begin(), all.end(), text) == all.end()) all.push_back(text);
             for (int k = 0; k < std::abs(cells); ++k) value = call(function, {value});

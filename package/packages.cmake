@@ -7,8 +7,8 @@
 
 # Everything that is installed.
 add_custom_target(cascade_installed)
-foreach(target cascade_program cascade_llvm cascade_openvdb cascade_library cascade_python cascade_manual_pages
-    cascade_engine)
+foreach(target cascade_program cascade_llvm cascade_openvdb cascade_sbml cascade_library cascade_python
+    cascade_manual_pages cascade_engine)
   if(TARGET ${target})
     add_dependencies(cascade_installed ${target})
   endif()

@@ -7,6 +7,7 @@ unset NO_COLOR
 about="import"
 source "$SOURCE/tests/support/program_runs.bash"
 models=$SOURCE/tests/import
+sbml_refusals=()
 
 # imports MODEL NAME [OPTION…]: the script is the expected one, and takes 50 finite steps.
 imports() {
@@ -52,6 +53,33 @@ python3 -c 'import sys; a, b = map(float, sys.argv[1:]); assert a > 100 and abs(
 
 imports "$models/fronts.ode" fronts
 imports "$models/clock.ode" clock
+
+# Reactions in SBML, if this build has libSBML.
+if [ -e "$BUILD/libcascade_sbml.so" ]; then
+    run 0 import "$models/enzyme.xml" -o enzyme.cascade
+    diff "$models/enzyme.expected" enzyme.cascade || fail "another script of enzyme.xml"
+    run 0 run enzyme.cascade -q --precision double --save enzyme -o enzyme.png
+    # Two of S make one of P. All of S reacts, and the integral of sin(t) is added.
+    python3 -c '
+import array, math
+value = lambda name: array.array("d", open(f"enzyme/grow.{name}.npy", "rb").read()[-16:])[0]
+s, p = value("S"), value("P")
+assert abs(s + 2 * p - 4) < 1e-9, (s, p)
+assert 0 < s < 0.01, s
+assert abs(value("heat") - (3 + 1 - math.cos(100))) < 1e-3, value("heat")
+assert 0 < value("x_") < 4, value("x_")' || fail "other numbers of enzyme.xml"
+    run 0 import "$models/enzyme.xml" --diffusion P=0.5 -o spread.cascade
+    says_note 'P'"'"' = 0.5 * lap(P)' spread
+    math='<math xmlns="http://www.w3.org/1998/Math/MathML"><true/></math>'
+    event="<event useValuesFromTriggerTime=\"true\"><trigger initialValue=\"true\" persistent=\"true\">$math</trigger></event>"
+    sed "s|</model>|<listOfEvents>$event</listOfEvents>&|" "$models/enzyme.xml" >event.xml
+    sed 's|<kineticLaw>|<!-- |; s|</kineticLaw>| -->|' "$models/enzyme.xml" >norate.xml
+    sed 's|<plus/><ci> k|<factorial/><ci> k|' "$models/enzyme.xml" >factorial.xml
+    sed 's|?>|?><!DOCTYPE sbml>|' "$models/enzyme.xml" >type.xml
+    head -30 "$models/enzyme.xml" >half.xml
+    sbml_refusals=(event.xml "have no counterpart" norate.xml "has no rate" factorial.xml "factorial"
+        type.xml "document types and entities of XML are not read" half.xml "this is not valid XML")
+fi
 
 # The name that -o gives, and no file is replaced.
 rm spots.cascade
@@ -169,7 +197,7 @@ refuses wrong.vti "is not valid Base64, or ends too early"
 refuses bomb.vti "is not compressed by zlib as its header says"
 refuses large.vti "is larger than the domain"
 refuses many.vti "is larger than the domain"
-refuses fewer.vti "has not 32 numbers"
+refuses fewer.vti "does not have 32 numbers"
 refuses huge.vti "a domain of 1 to 67108864 cells is expected"
 refuses none.vti "a domain of 1 to 67108864 cells is expected"
 refuses beyond.vti "begins beyond the end of the file"
@@ -181,12 +209,16 @@ refuses function.vti "the function 'erf' of 1 arguments has no counterpart"
 refuses name.vti "'sesame' has no meaning here"
 refuses vector.vti "a vector of different values has no counterpart"
 refuses bits.vti "'^' combines the bits"
-refuses compare.vti "a comparison is a number here"
+refuses compare.vti "a comparison is used as a number here"
 refuses brackets.vti "nested more than 200 deep"
 refuses rounds.vti "has no counterpart"
 refuses sum.vti "nested more than 1000 deep"
 refuses ends.vti "where a value is missing"
 refuses kernel.vti "is a program, not a formula"
+
+for ((k = 0; k < ${#sbml_refusals[@]}; k += 2)); do
+    refuses "${sbml_refusals[k]}" "${sbml_refusals[k + 1]}"
+done
 
 # Meshes are not listed among the formats, and refused by name.
 sed 's/ImageData/UnstructuredGrid/g' "$models/spots.vti" >mesh.vtu
