@@ -74,9 +74,9 @@ TEST_F(DamagedTest, ManifestsAreCheckedBeforeTheyAreBelieved) {
 
 TEST_F(DamagedTest, WhatAManifestRepeatsOfItsScriptMustAgreeWithIt) {
     EXPECT_THAT(resume_with([](auto& run) { run["seed"] = 77; }),
-                HasSubstr("its seed is not that"));
+                HasSubstr("its seed differs from"));
     EXPECT_THAT(resume_with([](auto& run) { run["grid"][0] = 4096; }),
-                HasSubstr("its grid is not that"));
+                HasSubstr("its grid differs from"));
     EXPECT_THAT(resume_with(
                     [](auto& run) { run["stages"][0]["steps"] = 1'000'000'000'000'000'000; }),
                 HasSubstr("stage 1 has too many steps"));

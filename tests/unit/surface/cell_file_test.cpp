@@ -124,7 +124,8 @@ TEST_F(CellFile, SaysWhyItIsNotUsed) {
     others.seed = 9;
     const auto stale = read_cells(path, mesh, key_of(mesh, others));
     ASSERT_FALSE(stale);
-    EXPECT_NE(stale.error().message.find("of another surface or made in another way"),
+    EXPECT_NE(stale.error().message.find(
+                  "of another surface, or cells that were made in another way"),
               std::string::npos);
     change(false, [](std::string& b) { b[0] = 'K'; });
     EXPECT_NE(reason().find("is not a file of cells"), std::string::npos);
