@@ -83,6 +83,8 @@ public:
         return std::move(outcome_);
     }
 
+    std::vector<Field> curve() const { return stepper_.curve(); }
+
     Stepping stepping() const { return tuner_.stepping(); }
 
 private:
@@ -216,6 +218,8 @@ StageOutcome TimeLoop::advance(std::int64_t last_step, std::int64_t interval, Ru
                                const Observer& observe) {
     return self_->advance(last_step, interval, control, observe);
 }
+
+std::vector<Field> TimeLoop::curve() const { return self_->curve(); }
 
 Stepping TimeLoop::stepping() const { return self_->stepping(); }
 

@@ -91,6 +91,9 @@ public:
     StageOutcome advance(std::int64_t last_step, std::int64_t interval, RunControl& control,
                          const Observer& observe);
 
+    /// Stepper::curve() of the last step. An observer may call this.
+    std::vector<Field> curve() const;
+
     /// How the last steps passed through memory; see Stepping.
     Stepping stepping() const;
 

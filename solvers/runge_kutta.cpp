@@ -218,6 +218,11 @@ private:
         scheme_.error_register = scheme_.add_register();
         sweep.outputs = {*scheme_.error_register};
         scheme_.rate_registers = {*rate_register_[0], keep_rate(form, sweep)};
+        rate_register_.emplace_back(scheme_.rate_registers->last);
+        for (std::size_t j = 0; j < tableau_.curve.size(); ++j) {
+            if (tableau_.curve[j] == 0) continue;
+            scheme_.curve.push_back({*rate_register_[j], tableau_.curve[j]});
+        }
         add(scheme_, std::move(form), std::move(sweep));
     }
 
@@ -251,8 +256,10 @@ ButcherTableau dormand_prince() {
              {19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729},
              {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656}},
             {35.0 / 384, 0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84},
-            {71.0 / 57600, 0, -71.0 / 16695, 71.0 / 1920, -17253.0 / 339200, 22.0 / 525,
-             -1.0 / 40}};
+            {71.0 / 57600, 0, -71.0 / 16695, 71.0 / 1920, -17253.0 / 339200, 22.0 / 525, -1.0 / 40},
+            {-12715105075.0 / 11282082432, 0, 87487479700.0 / 32700410799,
+             -10690763975.0 / 1880347072, 701980252875.0 / 199316789632, -1453857185.0 / 822651844,
+             69997945.0 / 29380423}};
 }
 
 Scheme explicit_runge_kutta(const ButcherTableau& tableau) {

@@ -15,6 +15,8 @@ struct ButcherTableau {
     /// The error is step · Σ error[j] k_j. This sum has one term more than the sum with `b`: the
     /// last k is the rate at the new step. Empty if the method has no estimate.
     std::vector<double> error;
+    /// The factors of Scheme::curve, by rate as in `error`. May be empty.
+    std::vector<double> curve = {};
 };
 
 /// The midpoint rule.
@@ -25,7 +27,9 @@ ButcherTableau classical();
 /// 2, 1989, 321-325.
 ButcherTableau bogacki_shampine();
 /// J. R. Dormand, P. J. Prince, "A family of embedded Runge-Kutta formulae", Journal of
-/// Computational and Applied Mathematics 6, 1980, 19-26.
+/// Computational and Applied Mathematics 6, 1980, 19-26. The curve is the method's continuous
+/// extension of order 4: E. Hairer, S. P. Nørsett, G. Wanner, "Solving Ordinary Differential
+/// Equations I", second edition, Springer 1993, section II.6, as in their program DOPRI5.
 ButcherTableau dormand_prince();
 
 /// The sweeps of a tableau: one for each stage, and one for the error.

@@ -23,6 +23,12 @@ struct RateRegisters {
     friend bool operator==(RateRegisters, RateRegisters) = default;
 };
 
+/// A rate that a step has stored in a register, and its factor in the curve through the step.
+struct CurveRate {
+    RegisterId rate;
+    double factor = 0;
+};
+
 struct Scheme {
     std::uint32_t registers = 2;
     std::vector<SweepForm> forms;
@@ -32,6 +38,10 @@ struct Scheme {
     /// If set, sweep 0 writes only the first rate, and the last sweep writes the last rate. In a
     /// step that follows another, the two registers are swapped and sweep 0 is left out.
     std::optional<RateRegisters> rate_registers;
+    /// What raises the order of the curve through a step above Hermite's: after the fraction θ of
+    /// the step, it adds θ² (1 − θ)² · step · Σ factor · rate. Empty if the method has no such
+    /// term.
+    std::vector<CurveRate> curve;
 
     RegisterId add_register() { return RegisterId(registers++); }
     /// The number of evaluations of the rates in a step that follows another.

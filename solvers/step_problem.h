@@ -133,6 +133,7 @@ struct StepProblem {
     /// registers are swapped and those passes are left out. 0 if the scheme has no rate registers.
     std::size_t first_rate_passes = 0;
     std::optional<RateRegisters> rate_registers;
+    std::vector<CurveRate> curve;  ///< See Scheme::curve.
     std::uint32_t temporaries = 0;
     std::uint32_t aggregates = 0;
     /// The diffusion of each species, for filters.

@@ -63,6 +63,33 @@ void Stepper::accept() {
     if (rates) executor_->exchange(rates->first, rates->last);
 }
 
+std::vector<Field> Stepper::curve() const {
+    std::vector<Field> sums;
+    const std::optional<RateRegisters>& exchanged = problem().rate_registers;
+    for (const CurveRate& term : problem().curve) {
+        RegisterId rate = term.rate;
+        if (exchanged && (rate == exchanged->first || rate == exchanged->last)) {
+            rate = rate == exchanged->first ? exchanged->last : exchanged->first;
+        }
+        const std::vector<Field>& rates = scratch(rate);
+        const bool is_first = sums.empty();
+        for (std::size_t k = 0; k < rates.size(); ++k) {
+            if (is_first) sums.emplace_back(rates[k].layout(), rates[k].precision());
+            sums[k].visit([&]<typename Number>(Plane<Number>& sum) {
+                const auto weight = static_cast<Number>(term.factor);
+                for (std::int64_t row = 0; row < sum.layout().row_count(); ++row) {
+                    Number* const to = sum.row(row);
+                    const Number* const from = rates[k].row<Number>(row);
+                    for (std::int64_t i = 0; i < sum.layout().width; ++i) {
+                        to[i] = (is_first ? Number{0} : to[i]) + weight * from[i];
+                    }
+                }
+            });
+        }
+    }
+    return sums;
+}
+
 void Stepper::pass_jump(SideMoment moment) {
     knows_first_rates_ = false;
     executor_->fill_halos(roles_.current, moment);

@@ -70,6 +70,9 @@ public:
     double attempt(std::int64_t complete, double tolerance);
     /// Accepts the step just tried. Its last rates become the first rates of the next step.
     void accept();
+    /// Scheme::curve of the step accepted last: Σ factor · rate, by species. Empty if the method
+    /// has no such term. Must be called before the next step.
+    std::vector<Field> curve() const;
     /// Must be called when current values have been changed from outside.
     void forget_rates() { knows_first_rates_ = false; }
     /// Continues with the same values at a later moment, after rates or sides have jumped. Fills

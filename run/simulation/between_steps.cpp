@@ -18,16 +18,26 @@ namespace {
 constexpr double rounding_of_moments = 1e-6;
 
 /// The weights of the values and slopes at both ends of a step in Hermite's cubic, at the fraction
-/// `s` of the step. Slopes are multiplied by the length of the step.
+/// `s` of the step, and the weight of the quartic term, which changes none of these four. Slopes
+/// and the quartic term are multiplied by the length of the step.
 struct HermiteWeights {
-    double before, after, slope_before, slope_after;
+    double before, after, slope_before, slope_after, quartic;
 
     explicit HermiteWeights(double s)
         : before((1 + 2 * s) * (1 - s) * (1 - s)),
           after(s * s * (3 - 2 * s)),
           slope_before(s * (1 - s) * (1 - s)),
-          slope_after(-s * s * (1 - s)) {}
+          slope_after(-s * s * (1 - s)),
+          quartic(s * s * (1 - s) * (1 - s)) {}
 };
+
+/// Whether a cubic is smooth within a step over which its value changes by `change`, if it changes
+/// by `at_start` and `at_end` with the slopes at the ends. For a smooth curve, the two differences
+/// from `change` are of second order in the length of the step, and their sum is of third order.
+bool is_smooth(double change, double at_start, double at_end) {
+    const double first = at_start - change, last = at_end - change;
+    return std::abs(first + last) <= (std::abs(first) + std::abs(last)) / 2;
+}
 
 /// Replaces `after` by `value(before, after, row, cell)` in every cell where `before` and `after`
 /// differ.
@@ -45,9 +55,12 @@ void read_between(const Plane<Number>& before, Plane<Number>& after, const Value
 
 }  // namespace
 
-BetweenSteps::BetweenSteps(const StageView& view, StageState& state)
+BetweenSteps::BetweenSteps(const StageView& view, StageState& state, bool has_long_steps,
+                           std::function<std::vector<Field>()> curve)
     : view_(view),
       state_(state),
+      has_long_steps_(has_long_steps),
+      curve_(std::move(curve)),
       has_slopes_(!holds_in_rates(view.system(), is_draw)),
       last_(state.t) {}
 
@@ -108,6 +121,7 @@ std::vector<Field> BetweenSteps::at(double t) {
     if (has_slopes_ && slopes_before_.empty()) {
         slopes_before_ = rates_before();
         slopes_after_ = view_.rates();
+        quartic_ = curve_();
     }
     const HermiteWeights weights(s);
     std::vector<Field> read;
@@ -116,18 +130,26 @@ std::vector<Field> BetweenSteps::at(double t) {
         read.back().visit([&](auto& plane) {
             using Number = std::remove_pointer_t<decltype(plane.origin())>;
             const auto& before = before_->species[k].plane<Number>();
+            const auto line = [&](double from, double to) { return from + s * (to - from); };
             if (!has_slopes_) {
                 return read_between(before, plane, [&](double from, double to, auto, auto) {
-                    return from + s * (to - from);
+                    return line(from, to);
                 });
             }
             const auto& slope_before = slopes_before_[k].plane<Number>();
             const auto& slope_after = slopes_after_[k].plane<Number>();
+            const auto* const quartic = quartic_.empty() ? nullptr : &quartic_[k].plane<Number>();
             read_between(before, plane,
                          [&](double from, double to, std::int64_t row, std::int64_t i) {
+                             const double first = length * slope_before.row(row)[i];
+                             const double last = length * slope_after.row(row)[i];
+                             if (has_long_steps_ && !is_smooth(to - from, first, last))
+                                 return line(from, to);
+                             const double more =
+                                 quartic == nullptr ? 0 : length * quartic->row(row)[i];
                              return weights.before * from + weights.after * to +
-                                    length * (weights.slope_before * slope_before.row(row)[i] +
-                                              weights.slope_after * slope_after.row(row)[i]);
+                                    (weights.slope_before * first + weights.slope_after * last +
+                                     weights.quartic * more);
                          });
         });
     }

@@ -16,14 +16,19 @@
 namespace cascade {
 
 /// Between the two ends of a step, each value follows Hermite's cubic curve through the values and
-/// rates at both ends. The error is of fourth order in the length of the step. If rates contain
-/// random numbers, values follow straight lines instead. A value that is the same at both ends is
-/// constant in between.
+/// rates at both ends, whose error is of fourth order in the length of the step. A solver may add a
+/// quartic term, with which the error is of fifth order (Scheme::curve). If rates contain random
+/// numbers, values follow straight lines instead. So does a value that changes too fast at an end
+/// of a long step for a cubic, which would swing far beyond both ends. A value that is the same at
+/// both ends is constant in between.
 class BetweenSteps {
 public:
-    /// Moments are counted from the present state, which must be a complete step. Both arguments
-    /// must outlive this object.
-    BetweenSteps(const StageView& view, StageState& state);
+    /// Moments are counted from the present state, which must be a complete step. `view` and
+    /// `state` must outlive this object. `has_long_steps`: whether steps may be longer than the
+    /// fastest change of a value. `curve` returns Stepper::curve() of the step that led to the
+    /// present state.
+    BetweenSteps(const StageView& view, StageState& state, bool has_long_steps,
+                 std::function<std::vector<Field>()> curve);
 
     /// Must be called at both ends of every step in which a moment may have to be observed. Calls
     /// `observe` for each moment since the previous step, while the stage temporarily has the state
@@ -44,6 +49,8 @@ private:
 
     const StageView& view_;
     StageState& state_;
+    bool has_long_steps_;
+    std::function<std::vector<Field>()> curve_;
     /// Whether the rates at the ends of steps can be used. Not if rates contain random numbers.
     bool has_slopes_;
     double last_;  ///< The moment observed last. At first the start of the stage.
@@ -51,6 +58,7 @@ private:
     std::optional<Moment> before_;
     /// The rates at both ends of the present step. Empty until a moment needs them.
     std::vector<Field> slopes_before_, slopes_after_;
+    std::vector<Field> quartic_;  ///< The quartic term of the present step. Empty if it has none.
 };
 
 }  // namespace cascade

@@ -233,7 +233,9 @@ Result<StageEnd> StageRun::take_steps(std::int64_t last_step, const Observation&
     const std::int64_t interval =
         observation.every > 0 ? observation.every : view_.stage().interval;
     if (next_moment_ && !between_) {
-        between_.emplace(view_, state_);
+        const bool has_long_steps =
+            takes_long_steps(view_.stage().time.solver) || timer_.substeps() > 1;
+        between_.emplace(view_, state_, has_long_steps, [this] { return loop_->curve(); });
         observe(observation);  // Copies the state before the first step.
     }
     const StageOutcome outcome =

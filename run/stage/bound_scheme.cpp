@@ -61,6 +61,7 @@ StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
     whole.precision = context.precision;
     whole.registers = scheme.registers;
     whole.error_register = scheme.error_register;
+    whole.curve = scheme.curve;
     take_sides(whole, context, system, stage);
     std::vector<const Sweep*> sweeps;
     const auto add = [&](const StepPlan& plan, const SweepForm* form, const Sweep* sweep,
