@@ -7,6 +7,7 @@
 #include "tissue/event_rounds.h"
 #include "tissue/part_cells.h"
 #include "tissue/stiffness.h"
+#include "tissue/tissue_moments.h"
 #include "tissue/tissue_stepper.h"
 
 #include <algorithm>
@@ -74,7 +75,8 @@ public:
           schedule_(std::move(schedule)),
           stepper_(rules, surroundings, tissue, std::move(triangles), species, schedule_),
           progress_(std::move(progress)),
-          pace_(std::chrono::steady_clock::now(), tissue.time.steps) {
+          pace_(std::chrono::steady_clock::now(), tissue.time.steps),
+          moments_(schedule_, surroundings, tissue, species_) {
         if (std::isfinite(schedule_.end_time)) progress_.duration = schedule_.end_time;
     }
 
@@ -88,6 +90,7 @@ public:
         bool going_on = is_started_ || start();
         while (going_on && !is_over() && time().steps < last_step) {
             if (is_cancelled(control) || !take_step(control) || !happen()) break;
+            moments_.observe_end(last_length_);
             if (pace_.report_due(std::chrono::steady_clock::now())) report(control, false);
             if (interval > 0 && time().steps % interval == 0 && observe && !observe(tissue_)) break;
             if (schedule_.check > 0 && time().steps % schedule_.check == 0 &&
@@ -253,8 +256,14 @@ private:
     bool finish_step(TriedStep tried, double length) {
         events_.clear();
         is_quiet_ = has_all_events_ = false;
-        if (rules_.conditions().values.problem != nullptr) {
-            const auto found = stepper_.events(tried, length);
+        last_length_ = length;
+        const bool has_conditions = rules_.conditions().values.problem != nullptr;
+        CurveUser use;
+        if (moments_.is_within(length)) {
+            use = [this](const StepCubic& curve, double part) { moments_.observe(curve, part); };
+        }
+        if (has_conditions || use) {
+            const auto found = stepper_.events(tried, length, use);
             if (!found) {
                 stepper_.undo(tried);
                 return fail(found.error());
@@ -269,7 +278,7 @@ private:
         stepper_.accept();
         time().t = t;
         ++time().steps;
-        hold_inside();
+        hold_cells_inside();
         return true;
     }
 
@@ -284,27 +293,15 @@ private:
         time().progress = std::max(time().progress, now_);
     }
 
-    void hold_inside() {
-        if (!surroundings_.holds()) return;
+    void hold_cells_inside() {
         const std::array<double, 3> period = surroundings_.period();
-        bool is_changed = false;
-        for (std::uint32_t cell = 0; cell < tissue_.count(); ++cell) {
-            const Vector3d at = place_of(tissue_, species_, cell);
-            const Vector3d held =
-                surroundings_.held_inside(at, surroundings_.near(at, tissue_.triangles[cell]));
-            if (held == at) continue;
-            is_changed = true;
-            for (std::size_t k = 0; k < 3; ++k) {
-                tissue_.set(species_.place + k, cell, std::array{held.x, held.y, held.z}[k]);
-            }
-            const Vector3d moved = place_of(tissue_, species_, cell) - at;
+        const auto shift = [&](std::uint32_t cell, Vector3d moved) {
             stepper_.lists().watch()->shift(cell, {period[0] > 0 ? moved.x : 0,
                                                    period[1] > 0 ? moved.y : 0,
                                                    period[2] > 0 ? moved.z : 0});
-        }
-        if (!is_changed) return;
+        };
+        if (!hold_inside(tissue_, species_, surroundings_, shift)) return;
         is_quiet_ = has_all_events_ = false;
-        tissue_.pad();
         stepper_.forget_rates();
     }
 
@@ -351,6 +348,7 @@ private:
     TissueStepper stepper_;
     Progress progress_;
     Pace pace_;
+    TissueMoments moments_;
     TissueOutcome outcome_;
     std::vector<CellEvent> events_;  ///< Events of the last step that have not been applied yet.
     /// Whether no condition holds at the end of the last step.
@@ -358,7 +356,8 @@ private:
     /// Whether no condition holds at the end of the last step for cells without an event in
     /// `events_`.
     bool has_all_events_ = false;
-    double now_ = 0;  ///< The present progress_of() the tissue.
+    double now_ = 0;          ///< The present progress_of() the tissue.
+    double last_length_ = 0;  ///< The length of the last step, before it was ended early.
     bool is_started_ = false;
 };
 

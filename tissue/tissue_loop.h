@@ -74,6 +74,11 @@ struct TissueSchedule {
     /// `keep` is called. The answer does not influence the run's results.
     std::function<bool()> keep_is_due = {};
     std::function<void(const Tissue& tissue)> keep = {};
+    /// Returns the first moment to observe after t, or infinity. `at_moment` is called at each of
+    /// these moments, with values interpolated between the ends of the step that contains it. No
+    /// step changes.
+    std::function<double(double t)> next_moment = {};
+    std::function<void(const Tissue& tissue)> at_moment = {};
     /// Called once, when compare_turnover() first finds that cells only replace each other.
     std::function<void(const Turnover& turnover)> turns_over = {};
 };

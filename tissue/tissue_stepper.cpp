@@ -253,17 +253,22 @@ double TissueStepper::error() {
     return most;
 }
 
-Result<TissueStepper::StepEvents> TissueStepper::events(const TriedStep& tried, double length) {
+Result<TissueStepper::StepEvents> TissueStepper::events(const TriedStep& tried, double length,
+                                                        const CurveUser& use) {
     std::vector<Field> old_state = lend_beginning(tried);
     StepEvents result;
     const StepMoment now = moment(length);
     const auto find = [&](const std::vector<Field>& old_rates,
                           const std::vector<Field>& new_rates) -> Result<void> {
         const StepCubic cubic{old_state, tissue_.species, old_rates, new_rates, now};
-        auto found = events_within(rules_.conditions(), cubic, tissue_, values_,
-                                   [this](const auto& state) { return reach(state); });
-        if (!found) return tl::unexpected(found.error());
-        end_at(*found, cubic, result);
+        if (rules_.conditions().values.problem != nullptr) {
+            auto found = events_within(rules_.conditions(), cubic, tissue_, values_,
+                                       [this](const auto& state) { return reach(state); });
+            if (!found) return tl::unexpected(found.error());
+            end_at(*found, cubic, result);
+        }
+        if (use) use(cubic, result.part);
+        if (result.part < 1) cubic.put_all(tissue_.species, result.part);
         return {};
     };
     Result<void> found;
@@ -280,16 +285,18 @@ Result<TissueStepper::StepEvents> TissueStepper::events(const TriedStep& tried, 
             }
             return copies;
         };
+        const std::vector<std::uint32_t> nearest = triangles_->now;
         const std::vector<Field> new_rates = rates_at(tissue_.species, now.next_t);
         found = find(rates_at(old_state, now.t), new_rates);
+        // A look between the ends of a step leaves no trace.
+        if (rules_.conditions().values.problem == nullptr) triangles_->now = nearest;
     }
     take_beginning(tried, std::move(old_state));
     if (!found) return tl::unexpected(found.error());
     return result;
 }
 
-/// Decides where the step must end, discards later events, and sets the values to those at that
-/// moment.
+/// Decides where the step must end, and discards later events.
 void TissueStepper::end_at(std::vector<CellEvent>& found, const StepCubic& cubic,
                            StepEvents& result) {
     if (found.empty()) return;
@@ -317,7 +324,6 @@ void TissueStepper::end_at(std::vector<CellEvent>& found, const StepCubic& cubic
         result.events.push_back(std::move(event));
     }
     result.has_all = is_alone && result.part == 1;
-    if (result.part < 1) cubic.put_all(tissue_.species, result.part);
 }
 
 void TissueStepper::accept() {

@@ -50,6 +50,9 @@ struct TriedStep {
     bool is_abandoned = false;
 };
 
+/// Called with the curve through a tried step, and the fraction of it after which the step ends.
+using CurveUser = std::function<void(const StepCubic& curve, double part)>;
+
 /// Owns everything that must be made again when planes move. Between calls, tissue.species holds
 /// the current values.
 class TissueStepper {
@@ -78,15 +81,16 @@ public:
     /// Tries a step of this length, with lists that are valid during the step. The caller must then
     /// call accept() or undo().
     Result<TriedStep> attempt(double length);
-    /// The events of the tried step. If there are too many for one step, the step ends early, and
-    /// the current values are the values at that end.
+    /// The events of the tried step; none if no cell can divide or die. If there are too many for
+    /// one step, the step ends early, and the current values are the values at that end. `use`,
+    /// which may be empty, may read the values between the ends of the step.
     struct StepEvents {
         double part = 1;  ///< The fraction of the tried step after which the step ends.
         std::vector<CellEvent> events;
         bool has_all = false;  ///< Whether no condition holds at the end of the step for any cell
                                ///< without an event.
     };
-    Result<StepEvents> events(const TriedStep& tried, double length);
+    Result<StepEvents> events(const TriedStep& tried, double length, const CurveUser& use = {});
     void accept();
     void undo(const TriedStep& tried);
     /// Gives the values at the beginning of a tried step to the caller, who must give them back.

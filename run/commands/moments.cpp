@@ -42,13 +42,7 @@ void check_moments(Script& script, const RunRequest& request) {
     for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
         const Stage& stage = script.program->stages[k];
         const System& system = script.program->system_of(k);
-        if (system.cells) {
-            return refuse(
-                fmt::format("stage '{}' has cells that crawl, which are observed at steps",
-                            stage.name),
-                hint);
-        }
-        if (stage.uniform[system.speed_item()]) continue;
+        if (system.cells || stage.uniform[system.speed_item()]) continue;
         return refuse(
             fmt::format("the steps of stage '{}' differ from cell to cell, so that it has "
                         "no time",

@@ -23,7 +23,7 @@ struct MomentsRequest {
 double next_moment(const MomentsRequest& moments, double start, double t);
 
 /// Adds an error to `script.diagnostics` if no output of the run uses the moments, or if the cells
-/// of a stage have no common time, because they crawl or its `speed` varies.
+/// of a stage have no common time, because its `speed` varies.
 void check_moments(Script& script, const RunRequest& request);
 
 }  // namespace cascade

@@ -101,9 +101,9 @@ public:
     /// `observe` is called at multiples of `every` steps. If `every` is 0, it is called at the
     /// stage's interval, or without one at multiples of its time `every` or at tenths of the
     /// duration. If `next_moment` is given, `observe` is called at its moments instead, with values
-    /// interpolated between steps (run/simulation/between_steps.h). This requires a stage of fields
-    /// with a uniform `speed`. If values are not finite, the call fails with stage, species, cell,
-    /// step and the largest stable speed.
+    /// interpolated between steps (run/simulation/between_steps.h, tissue/tissue_moments.h). In a
+    /// stage of fields this requires a uniform `speed`. If values are not finite, the call fails
+    /// with stage, species, cell, step and the largest stable speed.
     Result<StageEnd> advance_stage(std::uint32_t stage, std::int64_t last_step, RunControl& control,
                                    const std::function<void()>& observe, std::int64_t every = 0,
                                    const NextMoment& next_moment = {});

@@ -191,6 +191,14 @@ TissueSchedule TissueRun::schedule(const Keeping& keeping) {
             return holds;
         };
     }
+    schedule.next_moment = [this](double t) {
+        const bool is_observed = observation_.next_moment && control_ && !control_->cancel;
+        return is_observed ? observation_.next_moment(t) : std::numeric_limits<double>::infinity();
+    };
+    schedule.at_moment = [this](const Tissue& tissue) {
+        follow(tissue);
+        observation_.observe();
+    };
     schedule.turns_over = [this](const Turnover& turnover) {
         if (control_->warn) control_->warn(describe(turnover, environment_.stage(stage_)));
     };
@@ -241,6 +249,7 @@ Result<StageEnd> TissueRun::advance(std::int64_t last_step, RunControl& control,
         return StageEnd::finished;
     }
     control_ = &control;
+    observation_ = observation;
     if (std::exchange(reaches_all_, false) && control.warn) {
         control.warn(
             fmt::format("stage '{}': 'near' reaches all cells, so each step takes time "
@@ -256,18 +265,20 @@ Result<StageEnd> TissueRun::advance(std::int64_t last_step, RunControl& control,
     };
     const std::int64_t interval = observation.every > 0 ? observation.every : stage.interval;
     double seen = marks();
-    const TissueOutcome outcome = loop_->advance(last_step, std::max<std::int64_t>(1, interval),
-                                                 control, [&](const Tissue& tissue) {
-                                                     follow(tissue);
-                                                     const double reached = marks();
-                                                     const bool is_due =
-                                                         interval > 0 || reached > seen;
-                                                     seen = reached;
-                                                     if (is_due && observation.observe)
-                                                         observation.observe();
-                                                     return true;
-                                                 });
+    const TissueOutcome outcome =
+        loop_->advance(last_step, std::max<std::int64_t>(1, interval), control,
+                       [&](const Tissue& tissue) {
+                           follow(tissue);
+                           const double reached = marks();
+                           const bool is_due = interval > 0 || reached > seen;
+                           seen = reached;
+                           if (is_due && observation.observe && !observation.next_moment) {
+                               observation.observe();
+                           }
+                           return true;
+                       });
     control_ = nullptr;
+    observation_ = {};
     state_.steps = outcome.steps;
     state_.t = outcome.t;
     kernels_.warn_of_refused(control);

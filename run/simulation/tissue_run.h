@@ -42,6 +42,7 @@ private:
     StageState& state_;
     StepKernels kernels_;
     RunControl* control_ = nullptr;  ///< The control of the present call of advance().
+    Observation observation_;        ///< The observation of the present call of advance().
     std::shared_ptr<NearTriangles> near_ = std::make_shared<NearTriangles>();
     ScriptRules rules_;
     std::optional<TissueLoop> loop_;
