@@ -66,8 +66,8 @@ private:
 
 std::int64_t cell_count(const GridSize& grid);
 
-/// The number of steps between two checks in a run: 64 or, on grids so large that 64 would take
-/// more than half a second, as many as a tile has.
+/// The number of steps between two checks in a run: 64. On grids so large that 64 steps would take
+/// more than half a second, the steps of one tile.
 std::int64_t steps_between_looks(const GridSize& grid);
 
 /// The largest difference between the cells of two states of a grid, over all species. Infinite if

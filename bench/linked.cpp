@@ -131,7 +131,7 @@ public:
         return (stepper_->species()[0].plane<float>().origin())[place(cell)];
     }
     double theirs(std::size_t cell) const { return theirs_[0].origin()[place(cell)]; }
-    /// The number of entries of all slices, with padding, over the number of links.
+    /// The number of entries of all slices, with padding, divided by the number of links.
     double filling(const LinkedCells& cells) const {
         const auto slices = static_cast<std::size_t>(grid_.cell_count() / 16);
         return 16.0 * links_.table<float>().starts[slices] /

@@ -19,7 +19,7 @@ struct StraightTissue {
 inline constexpr float bench_push = 0.5F, bench_stick = 0.05F, bench_reach = 1.2F;
 
 /// Collision, adhesion and combing. Cells push each other where they overlap, attract each other up
-/// to the reach, and turn their axes towards those of the cells that they touch.
+/// to the reach, and turn their axes towards the axes of the cells that they touch.
 void straight_rates(const StraightTissue& tissue);
 
 }  // namespace cascade::bench

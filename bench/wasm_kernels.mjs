@@ -11,7 +11,7 @@ const memory = new WebAssembly.Memory(
 const words = new Uint32Array(memory.buffer);
 const numbers = new Float32Array(memory.buffer);
 
-// Tables begin the memory, one after another; planes follow.
+// Tables are at the beginning of the memory, one after another. Planes follow.
 let table = 0;
 let plane = Math.ceil(tableBytes / 64) * 64;
 function tableOf(count, value) {

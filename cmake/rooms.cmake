@@ -10,8 +10,8 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   # 105651).
   target_compile_options(cascade_options INTERFACE -Wno-restrict)
   if(CASCADE_UNITS)
-    # Two warnings are false alarms: those of anonymous namespaces in files that another file
-    # includes, and those of std::optional without -O3.
+    # Two kinds of warnings are false alarms: about anonymous namespaces in files that another file
+    # includes, and about std::optional without -O3.
     target_compile_options(cascade_options INTERFACE -Wno-subobject-linkage -Wno-maybe-uninitialized)
   endif()
 endif()
