@@ -342,9 +342,10 @@ void PromptSession::help(const std::string& topic) {
     console_.print(
         fmt::format("  {:<20} as in the shell, of this script\n", fmt::join(names, " ")));
     console_.print(
-        "Anything else is the language: 'stage s: turing_spots { ka: 1/80 }'. A line that is\n"
-        "right is kept; one that is wrong changes nothing. A block of the same name replaces the\n"
-        "old one, and the run goes on with it. An expression is answered with its value.\n");
+        "Anything else is the language: 'stage s: turing_spots { ka: 1/80 }'. A line without\n"
+        "errors is added to the script; one with an error changes nothing. A block of the same\n"
+        "name replaces the old one, and the run continues with it. The value of an expression\n"
+        "is printed.\n");
 }
 
 }  // namespace cascade
