@@ -37,7 +37,7 @@ void run(CLI::App& command, Options& options) {
     groups::add_picture_options(command, options.picture);
     groups::add_run_options(command, options.run, RunOption::log, RunOption::features);
     groups::add_overrides(command, options.overrides);
-    groups::add_simulation(command, options, "Threads; without it all cores");
+    groups::add_simulation(command, options, "Threads; by default all cores");
     groups::add_run_options(command, options.run, RunOption::stop_at, RunOption::stop_at);
     groups::add_ranks(command, options);
     groups::add_device(command, options);
@@ -54,7 +54,7 @@ void sweep(CLI::App& command, Options& options) {
     groups::add_picture_options(command, options.picture, true);
     groups::add_overrides(command, options.overrides);
     groups::add_simulation(command, options,
-                           "Runs at once, each on one thread; without it as many\n"
+                           "Runs at once, each on one thread; by default as many\n"
                            "as there are cores");
     groups::add_quiet(command, options);
     groups::add_limits(command, options);
@@ -78,7 +78,7 @@ void bench(CLI::App& command, Options& options) {
     add_scripts(command, options, "Scripts, pictures that Cascade drew, or -");
     groups::add_bench(command, options);
     groups::add_overrides(command, options.overrides);
-    groups::add_simulation(command, options, "At most N threads; without it all cores");
+    groups::add_simulation(command, options, "At most N threads; by default all cores");
     groups::add_quiet(command, options);
     groups::add_limits(command, options);
 }
@@ -117,7 +117,7 @@ void new_script(CLI::App& command, Options& options) {
             "SYSTEM", [&](const std::string& name) { options.words.push_back(name); },
             "A system of the library")
         ->type_name("");
-    add_output(command, options.new_script, "The script, a new file; without it standard output");
+    add_output(command, options.new_script, "The script, a new file; by default standard output");
 }
 
 void import_model(CLI::App& command, Options& options) {
@@ -140,13 +140,13 @@ void import_model(CLI::App& command, Options& options) {
                     "and for links that name one")
         ->type_name("FILE");
     add_output(command, options.new_script,
-               "The script, a new file; without it MODEL.cascade in this folder");
+               "The script, a new file; by default MODEL.cascade in this folder");
 }
 
 void palettes(CLI::App& command, Options& options) {
     command
         .add_option("WORDS", options.words,
-                    "Names of palettes, or your own colours in quotes; without them all")
+                    "Names of palettes, or your own colours in quotes; by default all")
         ->type_name("");
     add_output(command, options.sheet,
                "A sheet of them, " + endings_of(FormatTrait::drawing, "or"));
@@ -173,7 +173,7 @@ void mesh(CLI::App& command, Options& options) {
 
 void repl(CLI::App& command, Options& options) {
     groups::add_script(command, options, "A script to begin with (may be left out)");
-    groups::add_simulation(command, options, "Threads; without it all cores");
+    groups::add_simulation(command, options, "Threads; by default all cores");
     groups::add_run_options(command, options.run, RunOption::stop_at, RunOption::stop_at);
     groups::add_quiet(command, options);
 }
@@ -188,7 +188,7 @@ void view(CLI::App& command, Options& options) {
     groups::add_script(command, options, "A script; without it the page offers the library");
     command.add_flag("--no-browser", options.no_browser, "Print the address and open nothing");
     groups::add_overrides(command, options.overrides);
-    groups::add_simulation(command, options, "Threads; without it all cores");
+    groups::add_simulation(command, options, "Threads; by default all cores");
 }
 
 void lsp(CLI::App& command, Options& options) {

@@ -8,7 +8,7 @@ namespace cascade::option_groups {
 void add_analyze(CLI::App& app, Options& options) {
     AnalyzeRequest& analyze = options.analyze;
     const std::string what = "What is analyzed";
-    add_value(app, "--stage", "STAGE", "Name or number of the stage; without it the first",
+    add_value(app, "--stage", "STAGE", "Name or number of the stage; by default the first",
               any_text, [&](auto stage) { analyze.stage = stage; })
         ->group(what);
     const auto read_all = [&](const std::vector<std::string>& texts) {

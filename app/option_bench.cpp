@@ -6,7 +6,7 @@ namespace cascade::option_groups {
 
 void add_bench(CLI::App& app, Options& options) {
     const std::string group = "What is measured";
-    add_value(app, "--stage", "STAGE", "Name or number of the only stage; without it all of them",
+    add_value(app, "--stage", "STAGE", "Name or number of the only stage; by default all of them",
               any_text, [&](auto stage) { options.bench.stage = stage; })
         ->group(group);
     add_value(app, "--seconds", "S", "How long to measure each stage, in seconds (1)",

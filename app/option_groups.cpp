@@ -37,7 +37,7 @@ void add_simulation(CLI::App& app, Options& options, const std::string& threads)
     add_value(app, "--threads", "N", threads, whole_number(1, 1024), [&](auto count) {
         simulation.threads = static_cast<int>(count);
     })->group(group);
-    add_value(app, "--lanes", "4|8|16", "Cells in a vector; without it the processor's width",
+    add_value(app, "--lanes", "4|8|16", "Cells in a vector; by default the processor's width",
               one_of({"4", "8", "16"}),
               [&](const auto& lanes) {
                   simulation.lanes = lanes == "4" ? 4 : lanes == "8" ? 8 : 16;
@@ -138,32 +138,32 @@ void add_json(CLI::App& app, Options& options) {
 void add_compile(CLI::App& app, Options& options) {
     const std::string group = "Output";
     CompileRequest& compile = options.compile;
-    add_value(app, "-o,--output", "FILE.o", "The object file; without it SCRIPT.o in this folder",
+    add_value(app, "-o,--output", "FILE.o", "The object file; by default SCRIPT.o in this folder",
               any_text, [&](auto path) { options.object = path; })
         ->group(group);
-    add_value(app, "--header", "FILE.h", "The C header; without it beside the object file",
+    add_value(app, "--header", "FILE.h", "The C header; by default beside the object file",
               any_text, [&](auto path) { options.header = path; })
         ->group(group);
-    add_value(app, "--stage", "STAGE", "Name or number of the stage; without it the first",
+    add_value(app, "--stage", "STAGE", "Name or number of the stage; by default the first",
               any_text, [&](auto stage) { compile.stage = stage; })
         ->group(group);
     add_value(app, "--per-cell", "NAMES", "Parameters that get a value for each cell: beta,ka",
               parse_names, [&](auto names) { compile.per_cell = names; })
         ->group(group);
-    add_value(app, "--target", "CPU", "A processor such as x86-64-v3; without it this one",
+    add_value(app, "--target", "CPU", "A processor such as x86-64-v3; by default this one",
               any_text, [&](auto target) { compile.target = target; })
         ->group(group);
     add_value(app, "--stages", "N", "Stages of each step of rkl1 and rkl2: odd, 3 to 99",
               odd_number(3, most_compiled_stages),
               [&](auto stages) { compile.stages = static_cast<std::uint32_t>(stages); })
         ->group(group);
-    add_value(app, "--name", "NAME", "The C functions' name; without it SCRIPT_STAGE", any_text,
+    add_value(app, "--name", "NAME", "The C functions' name; by default SCRIPT_STAGE", any_text,
               [&](auto name) { compile.function_name = name; })
         ->group(group);
 }
 
 void add_export(CLI::App& app, Options& options) {
-    add_value(app, "--html", "FILE.html", "The page; without it SCRIPT.html in this folder",
+    add_value(app, "--html", "FILE.html", "The page; by default SCRIPT.html in this folder",
               any_text, [&](auto path) { options.html = path; })
         ->group("Output");
     app.add_flag(

@@ -192,7 +192,7 @@ void add_files(CLI::App& app, RunRequest& run) {
                }
            },
            help::in_lines(fmt::format(
-               "The picture, {}; without it SCRIPT.png in this folder; a figure, {}; a film, {}; of a "
+               "The picture, {}; by default SCRIPT.png in this folder; a figure, {}; a film, {}; of a "
                "model also {}, and its cells, {}; may be given again",
                endings_of(FormatKind::picture), endings_of(FormatKind::figure),
                endings_of(FormatKind::film), endings_of(FormatKind::model),

@@ -34,7 +34,7 @@ void add_sweep(CLI::App& app, Options& options) {
         ->group(varied);
     const std::string files = "Files";
     add_value(app, "-o,--output", "FOLDER",
-              "Folder of the results; without it SCRIPT_sweep in this folder", parse_folder,
+              "Folder of the results; by default SCRIPT_sweep in this folder", parse_folder,
               [&](auto path) { sweep.folder = path; })
         ->group(files);
     add_value(app, "--tile", "N",

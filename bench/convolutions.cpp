@@ -62,8 +62,8 @@ void ours(benchmark::State& state) {
     count(state, problem);
 }
 
-/// Loops over a copy that has as many more cells on each side as the weights reach, so that sums of
-/// a row are loops over adjacent numbers.
+/// Loops over a copy with a border as wide as the weights reach, so that sums of a row are loops
+/// over adjacent numbers.
 void straight_loops(benchmark::State& state) {
     Problem problem(state);
     const std::int64_t reach = state.range(1), side = problem.side, width = side + 2 * reach;

@@ -41,8 +41,8 @@ CellKernel step_of(const std::string& system) {
     return *plan_step(*script.program, 0, as_run).passes.front().bound.kernel;
 }
 
-/// Measures the seconds of a call on planes with the same value in all cells, the best of half a
-/// second.
+/// Measures how many seconds a call takes on planes with the same value in all cells. Calls repeat
+/// for half a second, and the fastest counts.
 class Native {
 public:
     explicit Native(const CellKernel& kernel)

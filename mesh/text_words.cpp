@@ -50,8 +50,7 @@ bool is_utf16(std::string_view text) {
 }
 
 tl::unexpected<Failure> utf16_failure() {
-    return failure("the file is text of 16 bits (UTF-16), and only text of bytes is read",
-                   "save it as UTF-8");
+    return failure("the file is text in UTF-16, which is not read", "save it as UTF-8");
 }
 
 LineReader::LineReader(std::string_view text) : text_(text) {

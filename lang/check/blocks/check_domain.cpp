@@ -103,8 +103,9 @@ std::optional<Boundary> check_boundary_word(Workspace& work, const ast::Script& 
 /// Sets the boundary from one word for all axes, or from one word for each axis.
 void check_boundary(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
     if (statement.values.size() > 3) {
-        work.diagnostics.error(span_of(script, statement.values[3]),
-                               "the boundary has one word, or one for each of three axes at most");
+        work.diagnostics.error(
+            span_of(script, statement.values[3]),
+            "the boundary has one word, or a word for each of at most three axes");
         return;
     }
     std::vector<Boundary> along;
