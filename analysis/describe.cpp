@@ -55,7 +55,7 @@ private:
             case Stability::turing:
                 return relation_.at_rest.real() < -relation_.resolution
                            ? "Turing: stable if all cells change alike, and standing waves grow"
-                           : "standing waves grow; alike in all cells, nothing does";
+                           : "standing waves grow; a change that is the same in all cells does not";
             case Stability::wave:
                 return "wave: stable if all cells change alike, and moving or oscillating waves grow";
             case Stability::hopf: return "Hopf: all cells together begin to oscillate";

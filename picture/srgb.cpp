@@ -64,7 +64,7 @@ private:
 /// Up to these values, light is proportional to the stored value.
 constexpr float dark_stored = 0.04045F, dark_light = 0.0031308F;
 
-/// The light of a brighter value is a power of this.
+/// Light is a power of this number if the stored value is larger.
 float bright_part(float stored) { return (stored + 0.055F) / 1.055F; }
 
 const PowerTable& light_power() {

@@ -123,10 +123,10 @@ says err "the opacity is not from 0 to 1 in 100 % of the cells, and is clamped t
 # Refused commands write no file.
 run 64 run waves.cascade -o refused.glb --bake 9000
 run 2 run waves.cascade -o refused.glb
-says err "only models can be written so, and the domain is not a model"
+says err "only models are written to such files, and the domain is not a model"
 says err "--bake N writes a rectangle with maps of N texels"
 run 2 run waves.cascade -o refused.ply --bake 64
-says err "only models can be written so"
+says err "only models are written to such files"
 run 2 run waves.cascade --bake 64
 says err "no model is written with its maps"
 says err "-o NAME.glb writes a rectangle with them"

@@ -286,7 +286,7 @@ refused() {
     ls refused.* >/dev/null 2>&1 && fail "something was written by $*"
 }
 for name in refused.ply refused.obj refused.glb refused.vtp refused.npz refused.cells.vtp; do
-    refused "only models can be written so" run -q spots.cascade -o $name
+    refused "only models are written to such files" run -q spots.cascade -o $name
 done
 refused "only a domain with a model has this setting" run -q spots.cascade -o refused.png --up z
 for option in "--retile" "--bump 0.1" "--cache kept2"; do

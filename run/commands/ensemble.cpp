@@ -248,10 +248,10 @@ Result<void> check_curve(std::string_view number, std::span<const Variation> var
         if (const auto across = read_number(each.values[0]); across && std::isfinite(*across)) {
             continue;
         }
-        return failure(fmt::format("'{}', a value of {}, is not a number, so a curve has no place "
-                                   "for it",
-                                   each.values[0], names[0]),
-                       "vary a name with numbers first");
+        return failure(
+            fmt::format("'{}', a value of {}, is not a number, so it cannot be a point of a curve",
+                        each.values[0], names[0]),
+            "vary a name with numbers first");
     }
     return {};
 }

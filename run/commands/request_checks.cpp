@@ -252,7 +252,7 @@ private:
     void check_of_body() {
         for (const auto& output : request_.outputs) {
             if (!is_of_kind(output, FormatKind::cells)) continue;
-            refuse_output(output, "only models can be written so",
+            refuse_output(output, "only models are written to such files",
                           "--volume FILE.vti has all species of a volume");
         }
         check_without_surface();
@@ -269,7 +269,8 @@ private:
             has_model = true;
             const bool has_maps = is_plane && can_hold(output, FormatTrait::maps);
             if (has_maps && files_.has_maps()) continue;
-            refuse_output(output, fmt::format("only models can be written so, and {}", not_a_model),
+            refuse_output(output,
+                          fmt::format("only models are written to such files, and {}", not_a_model),
                           has_maps ? "--bake N writes a rectangle with maps of N texels"
                                    : how_to_get_a_model);
         }

@@ -229,7 +229,7 @@ Result<void> read_fields(ArrayReader& arrays, const nlohmann::json& manifest,
                 arrays.finite_field(with_suffix(system.item_name(item), last_look)));
         }
         if (look->formations.size() != looked_at.size())
-            return failure("it lacks the course of a species");
+            return failure("it does not contain the history of a species");
         record.watch.remember(std::move(looked_at), look->t, std::move(look->formations));
     }
     if (arrays.failure()) return tl::unexpected(*arrays.failure());

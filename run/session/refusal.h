@@ -18,7 +18,7 @@ struct Refusal {
 
     /// All messages as text, as the command line prints them.
     std::string messages(bool colour) const;
-    /// The failure, or else the first error without its place.
+    /// The failure if there is one, otherwise the first error as a failure without a position.
     Failure in_brief() const;
 };
 

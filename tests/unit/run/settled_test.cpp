@@ -41,7 +41,7 @@ TEST_F(SettledRun, ASavedLookThatLacksSomethingIsRefused) {
         return run_badly(*again, rest);
     };
     EXPECT_THAT(resume_with([](auto& formations) { formations.erase(0); }),
-                ::testing::HasSubstr("it lacks the course of a species"));
+                ::testing::HasSubstr("it does not contain the history of a species"));
     EXPECT_THAT(resume_with([](auto& formations) { formations[1]["speed"] = -1; }),
                 ::testing::HasSubstr("its time makes no sense"));
     EXPECT_THAT(resume_with([](auto& formations) { formations[1].erase("risen"); }),
