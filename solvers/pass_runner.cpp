@@ -90,7 +90,7 @@ void PassRunner::set_uniforms(std::vector<Number>& uniforms, const StepProblem::
             [&](Sweep::Coefficient by) {
                 value = static_cast<Number>(by.times_step ? by.value * moment.length : by.value);
             },
-            [](AggregateId) {},  // Its reduction sets an aggregate.
+            [](AggregateId) {},  // A reduction has set it.
         };
         std::visit(set, uniform.value);
     }

@@ -28,7 +28,7 @@ public:
     struct FilteredPlanes {
         Planes filtered;
         std::vector<Planes> kept;  ///< For the stages of etdrk4: etd_registers planes.
-        Planes error;              ///< For the last stage of etdrk4; otherwise empty.
+        Planes error;              ///< Only for the last stage of etdrk4. Otherwise empty.
     };
     /// Replaces every wave of the filtered planes by its response in a step of this length. The
     /// first `threads` threads of the team call this, by the same rules as WaveTransforms::apply().

@@ -17,7 +17,7 @@ struct GraphLink {
     std::uint32_t neighbour = 0;
     double weight = 0;  ///< Not negative, and equal on both sides.
     Number
-        coupling{};  ///< Its magnitude is the weight. The rotations on the two sides are opposite.
+        coupling{};  ///< The magnitude is the weight. The rotations on the two sides are opposite.
 };
 
 template <typename Number>

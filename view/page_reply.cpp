@@ -262,7 +262,7 @@ public:
         return list;
     }
 
-    /// Its place in the text, or the name of the other source.
+    /// The position of the declaration in the text, or the name of the other source.
     Json declaration() const {
         const auto span = index_.declaration_at(byte_);
         if (!span) return nullptr;

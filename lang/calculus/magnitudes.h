@@ -30,9 +30,9 @@ struct Magnitude {
 /// operands are inside, or it is too small to be added.
 struct LostPart {
     enum class Cause {
-        too_small,  ///< It counts as 0.
+        too_small,  ///< The part counts as 0.
         too_large,  ///< The part may be infinite in some cell.
-        swallowed,  ///< It is less than half of the last digit of the number it is added to.
+        swallowed,  ///< Less than half of the last digit of the number to which the part is added.
     };
     ItemId species;            ///< The species of the rate, or of the rule at a side.
     std::optional<Side> side;  ///< The side of the rule. Empty for a rate.

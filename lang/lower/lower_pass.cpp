@@ -60,8 +60,8 @@ std::optional<ValueId> NodeValues::weighted(NodeId id, const Taps& taps, bool ke
         }
         if (std::abs(weight) != 1) {
             part = builder_.multiply(builder_.number(std::abs(weight)), part);
-            // The product is rounded here, as the operation on a plane rounds it. So contraction
-            // gives the same bits for both.
+            // Operations on planes round this product before they add it, so it must also be
+            // rounded here. Otherwise contraction would give other bits.
             if (keeps_product) builder_.keep(part);
         }
         if (!sum) sum = weight > 0 ? part : builder_.apply(Op::negate, part);

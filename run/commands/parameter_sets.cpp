@@ -121,7 +121,8 @@ private:
 
     std::string file_;
     std::vector<std::string> names_;
-    std::map<std::string, std::size_t> lines_;  ///< For the values of each row, its line number.
+    /// The line number of each row, by the values of the row.
+    std::map<std::string, std::size_t> lines_;
     bool is_first_ = true;
 };
 

@@ -167,7 +167,7 @@ private:
     std::uint32_t stage_ = 0;
     bool is_resumed_ = false;
     std::vector<PaintedNames> painted_;  ///< One for each stage.
-    SessionLog log_;                     ///< Its end may be outdated.
+    SessionLog log_;                     ///< The end of the log may be outdated.
     Listener listener_;
     std::vector<Moment> past_, future_;
     std::size_t undo_memory_ = std::size_t{256} << 20, undo_texts_ = most_texts;

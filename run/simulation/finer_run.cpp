@@ -41,7 +41,7 @@ Program settling_program(const Program& program, std::uint32_t k, const StageSta
         formula.nodes.push_back(Node{static_cast<double>(detail * detail), whole.span});
         formula.nodes.push_back(product);
     }
-    stage.time.until.reset();  // It may be true already, and would end the stage at once.
+    stage.time.until.reset();  // `until` may be true already, and would end the stage at once.
     stage.time.open_end = false;
     stage.time.every = 0;
     stage.time.duration.reset();

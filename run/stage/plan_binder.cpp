@@ -167,7 +167,7 @@ StepProblem::Solve PlanBinder::bind_constraint(const Solve& solve, const Compile
         bound.rules = SpeciesId(state.species().size() + *solve.wall);
         bound.sides = state.sides()[bound.rules->index()];
     }
-    if (system_ == nullptr) bound.rules = {};  // Without a system there are no rules that change.
+    if (system_ == nullptr) bound.rules = {};  // Only a system has rules that change.
     bound.in_register = sweep_ != nullptr ? sweep_->inputs[0] : old_register;
     bound.read_at = sweep_ != nullptr ? sweep_->time : 0;
     std::vector<std::shared_ptr<const StepProblem>> problems;

@@ -27,9 +27,9 @@ constexpr double least_growth = 0.05;
 /// A pattern is fading if three conditions hold. The deviation of each species is at most this
 /// fraction of the species' largest magnitude so far.
 constexpr double small_rest = 1e-3;
-/// It is at most this fraction of the species' largest deviation so far.
+/// The deviation is also at most this fraction of the species' largest deviation so far.
 constexpr double part_of_before = 0.1;
-/// It has fallen by this fraction over the last tenth of the stage's age.
+/// And the deviation has fallen by this fraction over the last tenth of the stage's age.
 constexpr double least_fall = 0.05;
 
 Spread spread_of_rows(const Field& field, const Mask* inside, std::int64_t every_row) {

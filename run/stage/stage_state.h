@@ -77,7 +77,7 @@ struct StageState : StageMoment {
     const FieldState& fields() const { return std::get<FieldState>(values); }
     /// The cells that crawl. Null for fields, and until there are cells.
     Tissue* tissue() const;
-    /// Their surroundings. Null for fields.
+    /// The surroundings of the cells that crawl. Null for fields.
     std::shared_ptr<const TissueGround> ground() const;
 
     // For both kinds:

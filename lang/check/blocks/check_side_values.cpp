@@ -122,7 +122,8 @@ private:
                                           definition.name),
                               "");
             }
-            const bool is_solved = root.calls(Function::solved);  // Its constraint reads the field.
+            // The constraint of a solved field reads the field.
+            const bool is_solved = root.calls(Function::solved);
             if (!is_solved && !is_read_beside(system(), sides.definition)) {
                 return report(setting.span,
                               fmt::format("no operator reads '{}', so a side of it has no effect",

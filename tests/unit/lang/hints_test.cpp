@@ -153,7 +153,7 @@ TEST(Hints, KnowTheWordsOfOthers) {
                 ADD_FAILURE() << before << ::testing::PrintToString(checked->faults());
                 continue;
             }
-            if (text_to_write(advice).empty()) continue;  // It explains.
+            if (text_to_write(advice).empty()) continue;  // Advice that only explains.
             const std::string after = advised(row.context, advice);
             expect_sound(after, check_text(after), *fault);
         }

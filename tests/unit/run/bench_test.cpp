@@ -201,7 +201,8 @@ TEST(Bounds, TilesShareTheBytesOfMemoryAndAreFedByACache) {
     bench.work.bytes = 80;
     EXPECT_NEAR(attainable(bench)->cell_steps_per_second, 5e7, 1);
     EXPECT_EQ(attainable(bench)->name, "second-level cache");
-    bench.stepping.bytes_in_use = 400;  // The first level, which loads and stores stand for.
+    // Fits into the first-level cache, whose limit is the limit of loads and stores.
+    bench.stepping.bytes_in_use = 400;
     EXPECT_EQ(bounds_of(bench).size(), 3u);
 }
 
