@@ -87,9 +87,9 @@ private:
             made = {SideOfPde::written, fmt::format("slope({})", write_formula(*value))};
         } else if (kind == "ghost") {
             if (mentions(*value, u)) {
-                names_.fail(span,
-                            "a value beyond a side that depends on the species itself has "
-                            "no counterpart");
+                names_.fail(
+                    span,
+                    "a value beyond a side has no counterpart if it depends on the species itself");
                 return false;
             }
             const Expression slope =

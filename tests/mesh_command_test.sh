@@ -148,7 +148,7 @@ says out "8 points, 12 triangles, 1 connected component"
 run 0 mesh far.obj -o far.ply
 grep -q moved out && fail "a PLY file holds all digits"
 run 0 mesh cube.obj --simplify 50
-says out "not simplified: it has no more triangles than that"
+says out "not simplified: it has no more triangles than requested"
 run 0 mesh round.ply --simplify 1
 says out "fewer would change its connections or fold it"
 run 3 mesh cube.obj round.ply --subdivide 8

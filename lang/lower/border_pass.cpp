@@ -101,9 +101,9 @@ private:
 
     const System& system_;
     IdVector<SpeciesId, SideSettings> species_;
-    std::unordered_map<NodeId, std::size_t> definitions_;  ///< For nodes of the old graph.
+    std::unordered_map<NodeId, std::size_t> definitions_;  ///< By nodes of the old graph.
     Flattening flattening_;
-    std::unordered_map<NodeId, Beyond> beyond_;  ///< For nodes of the new graph.
+    std::unordered_map<NodeId, Beyond> beyond_;  ///< By nodes of the new graph.
 };
 
 }  // namespace

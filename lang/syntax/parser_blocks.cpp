@@ -167,7 +167,7 @@ void ScriptParser::parse_header_of_stage(ast::Block& block) {
         block.base = cursor_.word(cursor_.take());
     } else if (!is_told && !cursor_.at(TokenKind::garbage)) {
         cursor_.error(has_colon ? cursor_.previous().span : block.name.span,
-                      fmt::format("stage {} does not say its system", name), form);
+                      fmt::format("stage {} does not name its system", name), form);
         block.is_damaged = true;
     }
 }

@@ -154,7 +154,7 @@ Result<Variation> parse_variation(std::string_view text) {
         }
         return variation;
     }
-    if (is_joint(variation)) return tl::unexpected(wrong(text, "a range has one name"));
+    if (is_joint(variation)) return tl::unexpected(wrong(text, "a range can vary only one name"));
     Distances distances = Distances::equal;
     if (const std::size_t last = values.rfind(':');
         last != std::string_view::npos && trimmed(values.substr(last + 1)) == "log") {

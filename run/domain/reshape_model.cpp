@@ -48,7 +48,7 @@ Result<void> subdivide_model(SurfaceMesh& mesh, int times, std::vector<std::stri
 Result<void> simplify_model(SurfaceMesh& mesh, std::size_t triangles,
                             const std::atomic<bool>& cancel, std::vector<std::string>& lines) {
     if (mesh.triangles.size() <= triangles) {
-        lines.push_back("not simplified: it has no more triangles than that");
+        lines.push_back("not simplified: it has no more triangles than requested");
         return {};
     }
     if (auto fits = check_memory(static_cast<double>(mesh.triangles.size()), bytes_when_simplified);

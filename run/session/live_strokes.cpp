@@ -79,7 +79,7 @@ Accepted<ItemId> LiveRun::painted_item(const std::string& name, const char* pain
     return *item;
 }
 
-/// The values of its expression, in the cells of the domain or in crawling cells.
+/// The values of the change's expression, in the cells of the domain or in crawling cells.
 Accepted<Field> LiveRun::painted_values(const Paint& change) {
     Diagnostics errors;
     const std::optional<Formula> formula = number("<paint>", change.expression, errors);

@@ -149,7 +149,7 @@ std::string describe_flicker(const Doubted& stage, const SureFlicker& sure) {
         text += fmt::format(", by up to {:.3g} in {:.0f} % of the cells", flicker.largest,
                             std::max(1.0, 100 * flicker.part));
     }
-    text += ", which is a fault of too large a time step; ";
+    text += ", because the time step is too large; ";
     if (limit && is_too_long(use, *limit)) return text + advise(*limit, use);
     if (!(use.speed > 0)) return text + "make 'speed' smaller";
     return text + fmt::format("try 'speed: {:.2g}'", use.speed / 2);
@@ -193,8 +193,7 @@ std::string describe_chequerboard(const Doubted& stage, std::size_t species) {
                     stage.species(species));
     const auto limit = longest_step(estimate, use);
     if (limit && is_too_long(use, *limit)) {
-        return text + ", which is a fault of too large a time step and not a pattern; " +
-               advise(*limit, use);
+        return text + ", which is no pattern: the time step is too large; " + advise(*limit, use);
     }
     if (stage.flicker()) {
         return text + fmt::format(

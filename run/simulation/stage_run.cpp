@@ -38,7 +38,8 @@ Failure explain(const StepTooShort& place, const StageView& view) {
         species_name(view.system(), place.species),
         view.environment().place_in_words(place.column, place.row));
     failure.hint =
-        "something jumps or grows without bound there; a larger tolerance or euler may pass it";
+        "something jumps or grows without bound there; with a larger tolerance or euler the "
+        "run may continue";
     return failure;
 }
 

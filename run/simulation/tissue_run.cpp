@@ -324,7 +324,7 @@ Failure explain(const TissueFailure& failure, const StageView& view, std::int64_
                             "long still, for {} of cell {}",
                             where, failure.t, failure.step, what, failure.number),
                 term_or("something jumps or grows without bound there") +
-                    "; a larger tolerance may pass it"};
+                    "; with a larger tolerance the run may continue"};
         case Kind::too_far:
             return {fmt::format("{}: a step of {:.3g} from t = {:.6g} moves cell {} too far", where,
                                 failure.step, failure.t, failure.number),

@@ -42,8 +42,9 @@ private:
     std::vector<std::vector<std::size_t>> of_;
 };
 
-/// Adds speed · delta to every chemical of every cell that is not frozen, all at once: `deltas`
-/// returns what the chemicals of a cell change by, in the order of their names.
+/// Adds speed · delta to every chemical of every cell that is not frozen. `deltas` returns the
+/// delta of each chemical of a cell, in the order of their names. All cells change at the same
+/// time.
 template <std::size_t count, typename Deltas>
 void take_step(State& state, const std::array<const char*, count>& chemicals,
                const Deltas& deltas) {

@@ -147,7 +147,8 @@ TEST(Plan, FewestOperationsAndPlanesTogether) {
         HasSubstr("exp(k) is computed once and kept in a plane"));
 }
 
-// A value that costs no more than reading is computed, and a network of any size is cut quickly.
+// A value is computed in each step if this takes no longer than to read it from a plane. The values
+// to store are found by a cut of a network, which is fast for networks of any size.
 TEST(Plan, ManyStepInvariantsArePlannedQuickly) {
     std::string deep = "k", wide = "u";
     for (int n = 0; n < 2000; ++n) deep = "(" + deep + " * k + 1)";

@@ -56,7 +56,7 @@ TEST(Variation, NamesMayVaryTogether) {
     EXPECT_EQ(*parse_variation(text_of(varied[0])), varied[0]);
     EXPECT_EQ(folder_name(varied, values_of_run(varied, 0)), "a=1,s.b=x,c=7");
     EXPECT_THAT(fault_of("(a,b)=(1,2),3"), HasSubstr("'3' is not 2 values in brackets"));
-    EXPECT_THAT(fault_of("(a,b)=0..1:3"), HasSubstr("a range has one name"));
+    EXPECT_THAT(fault_of("(a,b)=0..1:3"), HasSubstr("a range can vary only one name"));
     EXPECT_FALSE(count_runs(std::vector<Variation>{{"(a, b)", {"(1, 2)"}}, {"b", {"3"}}}));
     // Brackets may belong to a value.
     EXPECT_THAT(values_of("a=(1 + 2),(3)"), ElementsAre("(1 + 2)", "(3)"));
