@@ -98,8 +98,7 @@ void join_statements(Workspace& work, std::vector<SystemStatement>& statements,
             diagnostic.span = block.joined.empty() ? block.base.span : block.joined.front().span;
             diagnostic.message = fmt::format("the bases of '{}' give different values to '{}'",
                                              block.name.text, statement.name.text);
-            diagnostic.hint =
-                fmt::format("choose one in {}: {}", block.name.text, text_of(statement));
+            diagnostic.hint = fmt::format("decide in {}: {}", block.name.text, text_of(statement));
             diagnostic.notes.push_back({other->second->name.span, "one value is here"});
             diagnostic.notes.push_back({statement.name.span, "the other is here"});
             work.diagnostics.add(std::move(diagnostic));
