@@ -160,6 +160,15 @@ void count_algebraic_species(nlohmann::json& options) {
     if (count > 0) options["numAlgebraicSpecies"] = count;
 }
 
+/// The preset that a link without options names. Empty if it names none.
+std::string preset_in_link(std::string_view link) {
+    const std::size_t mark = link.find("preset=");
+    const bool has_options = link.find("options=") != std::string_view::npos;
+    if (has_options || mark == std::string_view::npos) return "";
+    const std::string_view rest = link.substr(mark + 7);
+    return std::string(rest.substr(0, rest.find_first_of("&# \r\n")));
+}
+
 /// The preset to import: that of a link, the one of the file, or the one that the user names.
 /// `known` gets all presets that can be parents. Null after an error.
 std::optional<VisualPdePreset> chosen_preset(Import& import, std::vector<VisualPdePreset>& known) {
@@ -170,18 +179,14 @@ std::optional<VisualPdePreset> chosen_preset(Import& import, std::vector<VisualP
     std::string name = import.preset;
     const std::string_view link = import.bytes();
     const bool is_link = link.starts_with("http");
-    if (is_link && link.find("options=") == std::string_view::npos) {
-        const std::size_t mark = link.find("preset=");
-        if (mark != std::string_view::npos) {
-            const std::string_view rest = link.substr(mark + 7);
-            name = rest.substr(0, rest.find_first_of("&# \r\n"));
-            if (!import.presets) {
-                return refuse(fmt::format("the link names the preset '{}', but does not have its "
-                                          "options",
-                                          plain_line(name)),
-                              "give VisualPDE's file of presets, as in --presets presets.js, or "
-                              "the link that 'Share' gives");
-            }
+    if (const std::string named = is_link ? preset_in_link(link) : ""; !named.empty()) {
+        name = named;
+        if (!import.presets) {
+            return refuse(fmt::format("the link names the preset '{}', but does not have its "
+                                      "options",
+                                      plain_line(name)),
+                          "give VisualPDE's file of presets, as in --presets presets.js, or the "
+                          "link that 'Share' gives");
         }
     }
     const auto text = !is_link                          ? std::optional(std::string(link))
@@ -189,15 +194,26 @@ std::optional<VisualPdePreset> chosen_preset(Import& import, std::vector<VisualP
                                                         : std::string("{}");
     if (!text) return std::nullopt;
     if (text->size() > largest_visual_pde) return refuse("this JSON has more than 4 MiB");
-    auto own = visual_pde_presets(*text);
-    if (!own) return refuse("this is not the JSON of a simulation");
-    const bool names_own = !is_link;
-    known = names_own ? *own : std::vector<VisualPdePreset>();
+    std::size_t wrong = 0;
+    const auto place = [&](SourceId source) {
+        const auto at = static_cast<std::uint32_t>(is_link ? 0 : wrong);
+        return Span{source, at, at};
+    };
+    auto own = visual_pde_presets(*text, wrong);
+    if (!own) {
+        import.diagnostics.error(place(import.source), wrong == 0
+                                                           ? "this is not the JSON of a simulation"
+                                                           : "this preset cannot be read");
+        return std::nullopt;
+    }
+    known = is_link ? std::vector<VisualPdePreset>() : *own;
     if (import.presets) {
-        auto more = visual_pde_presets(import.sources[*import.presets].text());
+        auto more = visual_pde_presets(import.sources[*import.presets].text(), wrong);
         if (!more) {
-            import.diagnostics.error({*import.presets, 0, 0},
-                                     "this file has no presets of VisualPDE");
+            const auto at = static_cast<std::uint32_t>(wrong);
+            import.diagnostics.error({*import.presets, at, at},
+                                     wrong == 0 ? "this file has no presets of VisualPDE"
+                                                : "this preset cannot be read");
             return std::nullopt;
         }
         known.insert(known.end(), more->begin(), more->end());

@@ -108,7 +108,8 @@ private:
 json parsed(const std::string& text) { return json::parse(text, nullptr, false); }
 
 /// The statements presets["NAME"] = {…} of a text.
-std::optional<std::vector<VisualPdePreset>> statements_of(std::string_view text) {
+std::optional<std::vector<VisualPdePreset>> statements_of(std::string_view text,
+                                                          std::size_t& wrong) {
     constexpr std::string_view begins = "presets[";
     std::vector<VisualPdePreset> all;
     std::size_t at = 0;
@@ -126,7 +127,10 @@ std::optional<std::vector<VisualPdePreset>> statements_of(std::string_view text)
         ObjectLiteral literal(text, next);
         const auto written = literal.as_json();
         json options = written ? parsed(*written) : json(json::value_t::discarded);
-        if (!options.is_object()) return std::nullopt;
+        if (!options.is_object()) {
+            wrong = at - begins.size();
+            return std::nullopt;
+        }
         all.push_back({std::string(text.substr(at + 1, end - at - 1)), std::move(options)});
         at = literal.end();
     }
@@ -175,8 +179,10 @@ json with_present_keys(const json& options) {
 
 }  // namespace
 
-std::optional<std::vector<VisualPdePreset>> visual_pde_presets(std::string_view text) {
-    if (auto statements = statements_of(text)) return statements;
+std::optional<std::vector<VisualPdePreset>> visual_pde_presets(std::string_view text,
+                                                               std::size_t& wrong) {
+    wrong = 0;
+    if (auto statements = statements_of(text, wrong)) return statements;
     json whole = parsed(std::string(text));
     if (!whole.is_object()) return std::nullopt;
     const bool has_many =

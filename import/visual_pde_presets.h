@@ -22,8 +22,10 @@ inline constexpr std::size_t largest_visual_pde = std::size_t{1} << 22;
 
 /// The presets of a text: the JSON of one preset, a JSON object of presets by name, or statements
 /// of JavaScript such as presets["NAME"] = {…}, as VisualPDE copies them and has them in its file
-/// presets.js. Nothing if the text is none of these.
-std::optional<std::vector<VisualPdePreset>> visual_pde_presets(std::string_view text);
+/// presets.js. Nothing if the text is none of these; `wrong` is then where the first statement
+/// begins whose value cannot be read, or 0.
+std::optional<std::vector<VisualPdePreset>> visual_pde_presets(std::string_view text,
+                                                               std::size_t& wrong);
 
 /// The options of the preset, and under them those of its parent and so on. Reports an error at the
 /// beginning of the import if a parent is missing from `known` or if parents form a ring.

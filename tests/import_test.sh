@@ -248,7 +248,8 @@ echo "let nothing = {};" >nothing.js
 refuses_with child.json "this file has no presets of VisualPDE" --presets nothing.js
 refuses "https://visualpde.com/sim/?preset=Kept" "does not have its options"
 sed 's/};$/}}/; s/"Growing"] = {/"Growing"] = {{/' "$models/presets.js" >broken.js
-refuses_with broken.js "this is not the JSON of a simulation" --preset Growing
+refuses_with broken.js "this preset cannot be read" --preset Growing
+says err 'presets["Growing"] = {{'
 run 64 import "$models/spots.vti" --preset a
 says err "so --preset has no meaning"
 run 2 import child.json --presets missing.js
