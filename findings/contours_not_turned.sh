@@ -17,7 +17,7 @@
 set -eu
 for p in python3-vtk9=9.1.0; do
   name=${p%%=*}
-  if ! dpkg-query -W "$name" >/dev/null 2>&1; then
+  if ! dpkg-query -W -f '${Version}' "$name" 2>/dev/null | grep -q .; then
     apt-get update -qq >/dev/null 2>&1 || true
     DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "$name" >/dev/null 2>&1 ||
       { echo "could not install $name (Debian 12, as root)"; exit 2; }

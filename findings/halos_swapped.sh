@@ -17,7 +17,7 @@
 set -eu
 for p in openmpi-bin=4.1.4 python3-mpi4py=3.1.4 python3-numpy=1.24.2; do
   name=${p%%=*}
-  if ! dpkg-query -W "$name" >/dev/null 2>&1; then
+  if ! dpkg-query -W -f '${Version}' "$name" 2>/dev/null | grep -q .; then
     apt-get update -qq >/dev/null 2>&1 || true
     DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "$name" >/dev/null 2>&1 ||
       { echo "could not install $name (Debian 12, as root)"; exit 2; }

@@ -15,7 +15,7 @@ set -eu
 for p in gdal-bin=3.6.2 imagemagick=6.9.11.60 graphicsmagick=1.4 openimageio-tools=2.4.7.1 \
   libvips-tools=8.14.1 ffmpeg=5.1.9; do
   name=${p%%=*}
-  if ! dpkg-query -W "$name" >/dev/null 2>&1; then
+  if ! dpkg-query -W -f '${Version}' "$name" 2>/dev/null | grep -q .; then
     apt-get update -qq >/dev/null 2>&1 || true
     DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "$name" >/dev/null 2>&1 ||
       { echo "could not install $name (Debian 12, as root)"; exit 2; }
