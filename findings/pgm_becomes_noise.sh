@@ -35,7 +35,7 @@ ramp() { # eight steps from 300 to 28300, in so many channels
     for _ in $(seq "$1"); do echo $((300 + 4000 * i)); done
   done
 }
-numbers() { # the first two pixels of a file that pnmtopng, pngtopnm or OpenImageIO has written, and its largest number
+numbers() { # the first two pixels of a file with so many channels, and the largest number of its header
   pnmtoplainpnm "$2" | tr -s ' \n' '\n\n' | sed -n "4p;5,$((4 + 2 * $1))p" | paste -sd ' ' |
     sed 's/\([0-9]*\) \(.*\)/\2, of \1/'
 }
