@@ -164,20 +164,23 @@ std::string stencil_of(const ReadyPattern& pattern, const pugi::xml_node& formul
     const std::string text = formula.child_value();
     const bool has_laplacian = text.find("laplacian_") != std::string::npos;
     if (pattern.axes() == 1) return accuracy == "high" ? "fourth" : "";
-    if (pattern.axes() == 2 && accuracy == "low") return "";
     const std::size_t before = draft.remarks.size();
+    const auto says_other = [&](std::string_view name, std::string_view own) {
+        if (pattern.has_nine_cells || text.find(std::string(name) + "_") == std::string::npos)
+            return;
+        draft.remarks.push_back(
+            fmt::format("Ready's {} has its own stencil; here it is {}.", name, own));
+        draft.has_other_differences = true;
+    };
+    says_other("bilaplacian", "lap(lap(…))");
+    says_other("trilaplacian", "lap(lap(lap(…)))");
+    if (pattern.axes() == 2 && accuracy == "low") return "";
     if (has_laplacian && pattern.axes() == 3) {
         draft.remarks.push_back(
             "Ready's Laplacian reads 27 cells, this one 19; both have the same order and no "
             "preferred direction.");
     } else if (has_laplacian && accuracy == "high") {
         draft.remarks.push_back("Ready's Laplacian of high accuracy reads 21 cells, this one 9.");
-    }
-    if (text.find("bilaplacian_") != std::string::npos) {
-        draft.remarks.push_back("Ready's bilaplacian has its own stencil; here it is lap(lap(…)).");
-    } else if (text.find("trilaplacian_") != std::string::npos) {
-        draft.remarks.push_back(
-            "Ready's trilaplacian has its own stencil; here it is lap(lap(lap(…))).");
     }
     draft.has_other_differences = draft.remarks.size() > before;
     return "isotropic";
@@ -237,7 +240,11 @@ std::optional<Draft> read_ready(Import& import) {
     pattern.is_periodic = std::string_view(rule.attribute("wrap").as_string("1")) == "1";
     Draft draft;
     draft.about = description_of(import, rd);
-    const bool is_read = read_cells(pattern, image) && read_parameters(pattern, rule) &&
+    const bool has_cells = read_cells(pattern, image);
+    pattern.has_nine_cells =
+        pattern.axes() == 2 &&
+        std::string_view(formula.attribute("accuracy").as_string("medium")) != "low";
+    const bool is_read = has_cells && read_parameters(pattern, rule) &&
                          add_start(pattern, *file, rd, image, draft) &&
                          add_ready_formula(pattern, formula, draft);
     if (!is_read) return std::nullopt;

@@ -19,6 +19,7 @@ struct ReadyPattern {
     /// order, so that pictures look the same.
     std::array<std::int64_t, 3> cells = {1, 1, 1};
     bool is_periodic = true;
+    bool has_nine_cells = false;            ///< Whether Laplacians in the plane read nine cells.
     std::vector<std::string> species = {};  ///< Their names in the script, in Ready's order.
     std::map<std::string, std::string> parameters = {};  ///< Names in the script by names of Ready.
     std::map<std::string, double> values = {};  ///< Values of parameters by names of Ready.

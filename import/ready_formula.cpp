@@ -64,6 +64,7 @@ private:
     }
     std::optional<Expression> blurred(const std::string& species);
     std::optional<Expression> neighbour(const std::string& species, std::string_view place);
+    Expression bilaplacian(const Expression& of);
     void check_conditions(const Expression& value, bool is_condition);
     void count_uses(const Expression& value);
     Expression inlined(const Expression& value) const;
@@ -218,12 +219,24 @@ std::optional<Expression> ReadyFormula::named(const std::string& word) {
                 neighbour("", std::string(1, letter));
         }
         if (before == "gaussian") return blurred(pattern_.species[*chemical]);
+        if (pattern_.has_nine_cells && before == "bilaplacian") return bilaplacian(function.of[0]);
+        if (pattern_.has_nine_cells && before == "trilaplacian") {
+            return call("lap", {bilaplacian(function.of[0])});
+        }
         if (auto found = meaning_of(function, ready_operators)) return found;
     }
     if (const auto chemical = ready_chemical_number(before, pattern_.species.size())) {
         return neighbour(pattern_.species[*chemical], after);
     }
     return std::nullopt;
+}
+
+/// Ready's stencil of 21 cells (Patra and Karttunen 2006). With L9 and L5, the Laplacians of nine
+/// and of five cells, it is L5 (2 L9 - L5).
+Expression ReadyFormula::bilaplacian(const Expression& of) {
+    add_function("fn five_cells(u) = dxx(u) + dyy(u)");
+    add_function("fn bilaplacian(u) = five_cells(2 * lap(u) - five_cells(u))");
+    return call("bilaplacian", {of});
 }
 
 /// A weighted mean over 5 × 5 cells.
