@@ -287,7 +287,8 @@ void ConstraintSolver<Number>::precondition(Worker& worker, const Field& from) {
         std::copy(cells + start, cells + start + layout_.width, to + start);
     });
     if (!stencil_) return;
-    stencil_->apply(worker.team, worker.thread, worker.threads, worker.knows_factors, to);
+    stencil_->apply(worker.team, worker.thread, worker.threads, worker.knows_factors, to,
+                    worker.moment.cancel);
     worker.knows_factors = true;
     const Number* const areas = areas_of_cells();
     if (areas == nullptr) return;

@@ -5,6 +5,7 @@
 #include "solvers/convolution.h"
 
 #include "solvers/fftw_transform.h"
+#include "solvers/leave_if.h"
 
 #include <algorithm>
 #include <array>
@@ -252,10 +253,14 @@ struct ConvolutionRunner<Number>::Implementation {
         there.run(at, at);
     }
 
-    void by_transforms(Team& team, int thread, int threads, const Number* from, Number* to) const {
+    void by_transforms(Team& team, int thread, int threads, const Number* from, Number* to,
+                       const std::atomic<bool>* cancel) const {
         const auto share = [&](std::int64_t count, const auto& act) {
             const RowRange own = split_rows(count, thread, threads);
-            for (std::int64_t n = own.begin; n < own.end; ++n) act(n);
+            for (std::int64_t n = own.begin; n < own.end; ++n) {
+                leave_if(cancel);
+                act(n);
+            }
         };
         const std::int64_t rows = size[1] * size[2];
         share(rows, [&](std::int64_t row) { load_row(row, from); });
@@ -310,13 +315,16 @@ ConvolutionRunner<Number>::~ConvolutionRunner() = default;
 
 template <typename Number>
 void ConvolutionRunner<Number>::apply(Team& team, int thread, int threads, const Number* from,
-                                      Number* to) {
+                                      Number* to, const std::atomic<bool>* cancel) {
     team.barrier();  // All threads have written their rows, and none reads the target any more.
     if (self_->is_direct) {
         const RowRange own = split_rows(self_->layout.row_count(), thread, threads);
-        for (std::int64_t row = own.begin; row < own.end; ++row) self_->sum_row(row, from, to);
+        for (std::int64_t row = own.begin; row < own.end; ++row) {
+            leave_if(cancel);
+            self_->sum_row(row, from, to);
+        }
     } else {
-        self_->by_transforms(team, thread, threads, from, to);
+        self_->by_transforms(team, thread, threads, from, to, cancel);
     }
     team.barrier();
 }

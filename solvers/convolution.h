@@ -6,6 +6,7 @@
 #include "core/parallel.h"
 #include "core/plane.h"
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -56,8 +57,10 @@ public:
     /// addresses of their cells (0, 0, 0). The first `threads` threads of the team call this, each
     /// with its number. Begins and ends with a barrier of the team. After the last barrier, all
     /// threads see the rows of the target, but not its halo. The result is the same bit for bit
-    /// with any number of threads.
-    void apply(Team& team, int thread, int threads, const Number* from, Number* to);
+    /// with any number of threads. The work is abandoned when `cancel`, which may be null, becomes
+    /// true.
+    void apply(Team& team, int thread, int threads, const Number* from, Number* to,
+               const std::atomic<bool>* cancel = nullptr);
 
 private:
     struct Implementation;

@@ -106,7 +106,9 @@ void PassRunner::prepare_pass(Worker& worker, Team& team, std::size_t number, Re
         [&]<typename Number>(Arguments<Number>& arguments) {
             const auto sum_around = [&](PassRunner& runner, Worker& own, Registers planes) {
                 if (!pass.solves.empty()) runner.solve<Number>(own, number, team, planes, moment);
-                if (!pass.convolutions.empty()) runner.convolve<Number>(own, number, team, planes);
+                if (!pass.convolutions.empty()) {
+                    runner.convolve<Number>(own, number, team, planes, moment);
+                }
             };
             const auto damp = [&](PassRunner& runner, Worker& own, Registers planes) {
                 auto& of_whole = std::get<Arguments<Number>>(own.arguments);
@@ -195,13 +197,14 @@ void PassRunner::solve(const Worker& worker, std::size_t pass_number, Team& team
 /// Fills the halos of results. Each halo is filled by the threads that wrote the rows beside it.
 template <typename Number>
 void PassRunner::convolve(const Worker& worker, std::size_t pass_number, Team& team,
-                          Registers registers) {
+                          Registers registers, const StepMoment& moment) {
     const auto& runners = std::get<Helpers<Number>>(helpers_).convolutions[pass_number];
     const std::vector<StepProblem::Convolution>& all = problem_.passes[pass_number].convolutions;
     for (std::size_t k = 0; k < all.size(); ++k) {
         Number* const target = temporaries_[all[k].target].template origin<Number>();
         runners[k]->apply(team, worker.number, worker.count,
-                          read(all[k].operand, registers).template origin<Number>(), target);
+                          read(all[k].operand, registers).template origin<Number>(), target,
+                          moment.cancel);
         if (!all[k].needs_halo || !problem_.has_halo()) continue;
         fill_halo_from(target, layout_, all[k].boundary, {worker.rows});
         team.barrier();
@@ -271,8 +274,8 @@ void PassRunner::filter(Worker& worker, Arguments<Number>& arguments, const Swee
     for (const RegisterId id : filter.kept) planes.kept.push_back(planes_of(id));
     if (filter.error) planes.error = planes_of(*filter.error);
     std::get<Helpers<Number>>(helpers_).waves->apply(team, worker.number, worker.count, planes,
-                                                     worker.symbols, filter.response,
-                                                     moment.length);
+                                                     worker.symbols, filter.response, moment.length,
+                                                     moment.cancel);
 }
 
 }  // namespace cascade

@@ -9,6 +9,7 @@
 #include "core/parallel.h"
 #include "core/plane.h"
 #include "solvers/exchange.h"
+#include "solvers/leave_if.h"
 #include "solvers/step_problem.h"
 #include "solvers/wave_filter.h"
 
@@ -34,9 +35,7 @@ struct StepMoment {
     const std::atomic<bool>* cancel = nullptr;
 
     /// Abandons the step if the run was cancelled. Any thread may call it at any time.
-    void leave_if_cancelled() const {
-        if (cancel != nullptr && cancel->load(std::memory_order_relaxed)) abandon_work();
-    }
+    void leave_if_cancelled() const { leave_if(cancel); }
 };
 
 /// The planes of every register, one per species, in the problem's precision.
@@ -149,7 +148,8 @@ private:
     void solve(const Worker& worker, std::size_t pass_number, Team& team, Registers registers,
                const StepMoment& moment);
     template <typename Number>
-    void convolve(const Worker& worker, std::size_t pass_number, Team& team, Registers registers);
+    void convolve(const Worker& worker, std::size_t pass_number, Team& team, Registers registers,
+                  const StepMoment& moment);
     template <typename Number>
     void filter(Worker& worker, Arguments<Number>& arguments, const SweepFilter& filter, Team& team,
                 Registers registers, const StepMoment& moment) const;

@@ -152,7 +152,7 @@ auto StencilInverse<Number>::cosines(int reach, Number difference) const -> Cosi
 
 template <typename Number>
 void StencilInverse<Number>::apply(Team& team, int thread, int threads, bool knows_factors,
-                                   Number* plane) {
+                                   Number* plane, const std::atomic<bool>* cancel) {
     Number* const all_factors = factors_.origin();
     const auto divide = [&](const WaveBlock<Number>& block) {
         Number* const factors = all_factors + block.offset;
@@ -169,7 +169,7 @@ void StencilInverse<Number>::apply(Team& team, int thread, int threads, bool kno
     };
     Number* const planes[] = {plane};
     const std::span<Number* const> list(planes);
-    transforms_.apply(team, thread, threads, {true}, {&list, 1}, divide);
+    transforms_.apply(team, thread, threads, {true}, {&list, 1}, divide, cancel);
 }
 
 template class StencilInverse<float>;

@@ -39,8 +39,10 @@ public:
     void keep_factors() { has_factors_ = true; }
     /// Applies the inverse to a plane. The first `threads` threads of the team call this, each with
     /// its number and otherwise the same arguments. `knows_factors` is the result of has_factors()
-    /// before the call, or true if the same threads have called apply() since then.
-    void apply(Team& team, int thread, int threads, bool knows_factors, Number* plane);
+    /// before the call, or true if the same threads have called apply() since then. The work is
+    /// abandoned when `cancel`, which may be null, becomes true.
+    void apply(Team& team, int thread, int threads, bool knows_factors, Number* plane,
+               const std::atomic<bool>* cancel);
 
 private:
     using Cosines = std::array<double, 4>;  ///< Cosines of 0 to 3 times an angle.

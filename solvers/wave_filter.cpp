@@ -40,7 +40,7 @@ void respond(const WaveBlock<Number>& block, const DiffusionTerms<Number>& f, Wa
 template <typename Number>
 void WaveFilter<Number>::apply(Team& team, int thread, int threads, const FilteredPlanes& planes,
                                std::span<const DiffusionSymbol> symbols, WaveResponse response,
-                               double length) const {
+                               double length, const std::atomic<bool>* cancel) const {
     std::vector<bool> has_diffusion;
     std::vector<DiffusionTerms<Number>> scaled(symbols.size());
     for (std::size_t s = 0; s < symbols.size(); ++s) {
@@ -65,7 +65,7 @@ void WaveFilter<Number>::apply(Team& team, int thread, int threads, const Filter
         }
         take_etd_stage(block, scaled[s], response, memory, scratch);
     };
-    transforms_.apply(team, thread, threads, has_diffusion, to, act);
+    transforms_.apply(team, thread, threads, has_diffusion, to, act, cancel);
 }
 
 template class WaveFilter<float>;

@@ -12,6 +12,7 @@
 #include "solvers/wave_damping.h"
 #include "solvers/wave_transforms.h"
 
+#include <atomic>
 #include <span>
 #include <vector>
 
@@ -33,8 +34,8 @@ public:
     /// Replaces every wave of the filtered planes by its response in a step of this length. The
     /// first `threads` threads of the team call this, by the same rules as WaveTransforms::apply().
     void apply(Team& team, int thread, int threads, const FilteredPlanes& planes,
-               std::span<const DiffusionSymbol> symbols, WaveResponse response,
-               double length) const;
+               std::span<const DiffusionSymbol> symbols, WaveResponse response, double length,
+               const std::atomic<bool>* cancel = nullptr) const;
 
 private:
     WaveTransforms<Number> transforms_;

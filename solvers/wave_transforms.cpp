@@ -10,6 +10,7 @@
 
 #include "core/plane.h"
 #include "solvers/fftw_transform.h"
+#include "solvers/leave_if.h"
 
 #include <algorithm>
 #include <array>
@@ -278,8 +279,8 @@ WaveTransforms<Number>::~WaveTransforms() = default;
 template <typename Number>
 void WaveTransforms<Number>::apply(Team& team, int thread, int threads,
                                    const std::vector<bool>& transformed,
-                                   std::span<const std::span<Number* const>> to,
-                                   const Visit& visit) const {
+                                   std::span<const std::span<Number* const>> to, const Visit& visit,
+                                   const std::atomic<bool>* cancel) const {
     using Axis = typename Implementation::Axis;
     const Implementation& self = *self_;
     const auto for_pieces = [&](Axis axis, const auto& act) {
@@ -288,6 +289,7 @@ void WaveTransforms<Number>::apply(Team& team, int thread, int threads,
             const auto& shape = self.shapes[self.shape_of[s]];
             const RowRange own = split_rows(self.pieces(shape, axis), thread, threads);
             for (std::int64_t piece = own.begin; piece < own.end; ++piece) {
+                leave_if(cancel);
                 act(shape, s, piece, self.start(shape, axis, piece));
             }
         }

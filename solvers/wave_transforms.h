@@ -9,6 +9,7 @@
 #include "core/parallel.h"
 #include "core/side.h"
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -59,9 +60,10 @@ public:
     /// The first `threads` threads of the team call this, each with its number and otherwise the
     /// same arguments. Each thread reads the rows that split_rows() gives it before the first
     /// barrier of the team, and writes them after the last. The result is the same bit for bit with
-    /// any number of threads.
+    /// any number of threads. The work is abandoned when `cancel`, which may be null, becomes true.
     void apply(Team& team, int thread, int threads, const std::vector<bool>& transformed,
-               std::span<const std::span<Number* const>> to, const Visit& visit) const;
+               std::span<const std::span<Number* const>> to, const Visit& visit,
+               const std::atomic<bool>* cancel = nullptr) const;
 
 private:
     struct Implementation;

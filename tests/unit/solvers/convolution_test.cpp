@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <cstdlib>
 #include <vector>
@@ -145,6 +146,21 @@ TEST(Convolution, LagsEndAtTheReach) {
     wide.spacing = 0.5;
     EXPECT_EQ(lags_within(wide, 1.0)->size(), 13u);
     EXPECT_FALSE(lags_within(grid, 1e9));
+}
+
+TEST(Convolution, IsAbandonedWhenTheRunIsCancelled) {
+    const Grid grid = grids()[2];
+    const std::atomic<bool> cancel = true;
+    for (const std::optional<double> reach : {std::optional(1.5), std::optional<double>()}) {
+        ConvolutionRunner<float> runner(grid, scattered_weights(grid, reach));
+        Plane<float> from{PlaneLayout(grid)}, to{PlaneLayout(grid)};
+        Team team(2);
+        EXPECT_FALSE(complete([&] {
+            team.run([&](int index) {
+                runner.apply(team, index, 2, from.origin(), to.origin(), &cancel);
+            });
+        }));
+    }
 }
 
 }  // namespace

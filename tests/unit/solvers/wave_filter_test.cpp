@@ -3,12 +3,15 @@
 #include "solvers/wave_filter.h"
 
 #include "core/plane.h"
+#include "solvers/wave_transforms.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -257,6 +260,33 @@ TEST(WaveFilter, BitsDoNotDependOnThreads) {
                 EXPECT_EQ(filtered<float>(domain, of_all, response, 2, u, threads), one) << threads;
             }
         }
+    }
+}
+
+TEST(WaveFilter, IsAbandonedInTheMiddleWhenTheRunIsCancelled) {
+    const Grid grid{12, 10, {Boundary::periodic, Boundary::periodic, Boundary::periodic}, 1};
+    const WaveTransforms<float> transforms(grid, {SideRules(grid.boundary)});
+    Plane<float> plane{PlaneLayout(grid)};
+    float* const cells[] = {plane.origin()};
+    const std::span<float* const> planes(cells);
+    for (const int threads : {1, 3}) {
+        std::atomic<bool> cancel = false;
+        std::atomic<int> visits = 0;
+        Team team(threads);
+        const auto visit = [&](const WaveBlock<float>&) {
+            ++visits;
+            cancel = true;
+        };
+        const auto transform = [&](const std::atomic<bool>* flag) {
+            return complete([&] {
+                team.run([&](int thread) {
+                    transforms.apply(team, thread, threads, {true}, {&planes, 1}, visit, flag);
+                });
+            });
+        };
+        EXPECT_FALSE(transform(&cancel));
+        EXPECT_GE(visits, 1) << "it has begun";
+        EXPECT_TRUE(transform(nullptr)) << "the team works on";
     }
 }
 
