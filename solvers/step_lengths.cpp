@@ -87,7 +87,8 @@ void StepLengths::pass_jump() {
 }
 
 double StepLengths::wanted_step() const {
-    const double wanted = std::min(control_.step(), schedule_.largest_step);
+    const double wanted =
+        std::min(std::max(control_.step(), clock_.time.least_step), schedule_.largest_step);
     return schedule_.longest_step ? std::min(wanted, schedule_.longest_step(clock_.now())) : wanted;
 }
 

@@ -46,6 +46,7 @@ void Forcing::add(const std::vector<double>& values) {
 
 void Forcing::add_motion(std::span<const double> changes) {
     if (std::none_of(changes.begin(), changes.end(), [](double each) { return each > 0; })) return;
+    has_motion_ = true;
     begin_reach();
     constexpr double part =
         static_cast<double>(intervals_of_motion) / static_cast<double>(intervals);

@@ -34,6 +34,8 @@ public:
     /// 1/1000 of the duration, at moments that are spread evenly over the duration.
     void add_motion(std::span<const double> changes);
     void add_jumps(const std::vector<Jump>& jumps);
+    /// Whether a part that varies in space changes.
+    bool has_motion() const { return has_motion_; }
 
     /// The longest step from `t` in which no part changes by more than three tenths of its range.
     /// At least one interval and at most a quarter of the duration. Infinite if no part changes.
@@ -47,6 +49,7 @@ private:
     void begin_reach();
 
     double interval_ = 0;
+    bool has_motion_ = false;
     /// For each interval, the number of intervals that a step may pass over. Empty if nothing
     /// changes.
     std::vector<std::size_t> reach_;

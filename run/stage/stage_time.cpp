@@ -88,6 +88,11 @@ StageTimer::StageTimer(const Program& program, std::uint32_t stage, StageState& 
     state_.time.clock.step = uniform_speed_ ? speed_ : 0;
     state_.time.control.step = speed_;
     state_.time.stages = is_stabilised(stage_.time.solver) ? 3 : 0;
+    // The edge of a source that moves can reach cells in which nothing else happens. The relative
+    // error of a step over that moment does not depend on the length of the step.
+    if (is_adaptive(stage_.time.solver) && forcing_.has_motion()) {
+        state_.time.least_step = least_of_duration * duration_;
+    }
     if (chooses_by_error()) set_first_step();
     const bool is_finer = program.domain.detail > 1 || (stage_.size && stage_.size->factor > 1);
     if (program.domain.model || is_finer) state_.time.stages = substeps(program, stage);
