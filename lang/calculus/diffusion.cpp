@@ -35,12 +35,14 @@ bool is_even(const ExpressionGraph& graph, NodeId root, const Program& program,
 
 class Linearisation {
 public:
-    Linearisation(FlatRates& rates, ItemId species, const Program& program, std::uint32_t stage)
+    Linearisation(FlatRates& rates, ItemId species, const Program& program, std::uint32_t stage,
+                  std::optional<Side> face)
         : rates_(rates),
           algebra_(rates.algebra),
           species_(species),
           program_(program),
           stage_(stage),
+          face_(face),
           zero_{&algebra_, algebra_.number(0)} {}
 
     /// The operators of all parts. Stops early if there are too many nodes.
@@ -96,9 +98,50 @@ private:
     void add(Operators& sum, Term factor, const Operators& operators) {
         if (factor.type() != ValueType::number) return;
         sum.own = sum.own + factor * operators.own;
+        const Term outside{&algebra_, at_face(factor)};
         for (std::size_t k = 0; k < diffusion_terms; ++k) {
-            sum.terms[k] = sum.terms[k] + factor * operators.terms[k];
+            sum.terms[k] = sum.terms[k] + outside * operators.terms[k];
         }
+    }
+
+    /// How far the face is from the centre of a cell, in the unit of this coordinate. 0 for other
+    /// values, and on surfaces, where positions do not follow the rows and columns.
+    double way_to_face(Builtin coordinate) const {
+        const DomainSettings& domain = program_.domain;
+        if (!face_ || *face_ == Side::border || domain.surface || domain.model) return 0;
+        const auto side = static_cast<std::size_t>(*face_);
+        const Grid& grid = domain.grid;
+        const std::int64_t cells = side < 2 ? grid.width : side < 4 ? grid.height : grid.depth;
+        constexpr Builtin along[] = {Builtin::x, Builtin::y, Builtin::z};
+        constexpr Builtin in_shares[] = {Builtin::sx, Builtin::sy, Builtin::sz};
+        const double way = side % 2 == 0 ? -0.5 : 0.5;
+        if (coordinate == along[side / 2]) return way / static_cast<double>(grid.longest_side());
+        if (coordinate == in_shares[side / 2]) return way / static_cast<double>(cells);
+        return 0;
+    }
+
+    /// A factor, with positions at the face.
+    NodeId at_face(NodeId root) {
+        if (!face_) return root;
+        const IdVector<NodeId, bool> needed = needed_by(algebra_, {&root, 1});
+        IdVector<NodeId, NodeId> moved;
+        for (const NodeId id : ids_below<NodeId>(needed.size())) {
+            moved.push_back(id);
+            if (!needed[id]) continue;
+            Node node = algebra_[id];
+            if (const auto* coordinate = node.as<Builtin>()) {
+                const double way = way_to_face(*coordinate);
+                if (way != 0) moved[id] = algebra_.sum(id, algebra_.number(way));
+            }
+            bool changes = false;
+            for (std::size_t n = 0; n < node.operand_count; ++n) {
+                changes |= moved[node.operands[n]] != node.operands[n];
+                node.operands[n] = moved[node.operands[n]];
+            }
+            const bool is_plain = node.type == ValueType::number && node.is(NodeKind(Call()));
+            if (changes && is_plain && node.operand_count <= 3) moved[id] = algebra_.call_of(node);
+        }
+        return moved[root];
     }
 
     /// Applies lap. Drops powers of lap above the highest in DiffusionTerms, and lap of an operator
@@ -149,19 +192,22 @@ private:
     ItemId species_;
     const Program& program_;
     std::uint32_t stage_;
+    std::optional<Side> face_;
     Term zero_;
     IdVector<NodeId, Operators> found_;
 };
 
 }  // namespace
 
-IdVector<SpeciesId, SpeciesDiffusion> diffusion_of(const Program& program, std::uint32_t stage) {
+IdVector<SpeciesId, SpeciesDiffusion> diffusion_of(const Program& program, std::uint32_t stage,
+                                                   std::optional<Side> face) {
     const System& system = program.system_of(stage);
     IdVector<SpeciesId, SpeciesDiffusion> result;
     for (const ItemId item : system.species()) {
         SpeciesDiffusion& of_species = result.emplace_back();
         FlatRates rates(system, FieldSpace::of(program, system));
-        const IdVector<NodeId, Operators> found = Linearisation(rates, item, program, stage).run();
+        const IdVector<NodeId, Operators> found =
+            Linearisation(rates, item, program, stage, face).run();
         if (rates.rate(item) >= found.next()) continue;
         for (std::size_t k = 0; k < diffusion_terms; ++k) {
             Algebra& algebra = rates.algebra;

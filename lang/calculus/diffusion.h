@@ -2,10 +2,12 @@
 // treat this part implicitly.
 #pragma once
 
+#include "core/side.h"
 #include "ir/diffusion.h"
 #include "lang/program/program.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace cascade {
@@ -24,7 +26,11 @@ using SpeciesDiffusion = DiffusionTerms<Formula>;
 /// - A derivative with respect to the species' own value that is the same in all cells counts as
 ///   decay, if there is any diffusion.
 /// - Everything else (advection, tensors in fluxes, random numbers, other species) is left out.
-IdVector<SpeciesId, SpeciesDiffusion> diffusion_of(const Program& program, std::uint32_t stage);
+/// With a `face`, positions in factors outside operators are those at the faces of that side, not
+/// at the centres of the cells beside it. A factor inside div(k * grad(e)) is read at the centres,
+/// because div mirrors it at the side.
+IdVector<SpeciesId, SpeciesDiffusion> diffusion_of(const Program& program, std::uint32_t stage,
+                                                   std::optional<Side> face = {});
 
 /// Whether the formula's value can change while the stage runs.
 bool changes_in_time(const Program& program, std::uint32_t stage, const Formula& formula);

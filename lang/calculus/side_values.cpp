@@ -99,7 +99,7 @@ private:
         const SideSetting& rule = setting(species);
         NodeId node = rates_.flattening.add(rule.value);
         if (rule.kind == SideKind::flux) {
-            if (diffusion_.empty()) diffusion_ = diffusion_of(program_, stage_);
+            if (diffusion_.empty()) diffusion_ = diffusion_of(program_, stage_, side_);
             const auto factor = conductivity_at(system_, diffusion_, species, side_).factor;
             // The rule has no effect on a species that no operator reads.
             node = factor ? algebra_.quotient(node, rates_.flattening.add(*factor)) : zero_;
