@@ -37,6 +37,14 @@ struct GltfPlacing {
     std::optional<std::array<double, 3>> light = {};
 };
 
+/// Whether a matrix mirrors. The order of a triangle's corners is then the opposite one.
+bool mirrors(const GltfMatrix& m) {
+    const auto column = [&](std::size_t k) {
+        return Vector3d{m[4 * k], m[4 * k + 1], m[4 * k + 2]};
+    };
+    return dot(cross(column(0), column(1)), column(2)) < 0;
+}
+
 /// An attribute of a primitive with its morph targets.
 class MorphedAttribute {
 public:
@@ -296,12 +304,17 @@ private:
         }
         const auto places = texture_places(primitive, placing, points);
         if (!places) return tl::unexpected(places.error());
+        const bool is_mirrored = placing.joints == nullptr && mirrors(placing.matrix);
         const auto add_triangle = [&](std::initializer_list<std::size_t> corners) {
             for (const std::size_t c : corners) {
                 const std::size_t number =
                     indices ? static_cast<std::size_t>(indices->at(c, 0)) : c;
                 soup_.corners.push_back(static_cast<std::uint32_t>(first + number));
                 soup_.texture.push_back(places->empty() ? TexturePlace{} : (*places)[number]);
+            }
+            if (is_mirrored) {
+                std::swap(soup_.corners.end()[-1], soup_.corners.end()[-2]);
+                std::swap(soup_.texture.end()[-1], soup_.texture.end()[-2]);
             }
             soup_.ends.push_back(soup_.corners.size());
         };

@@ -78,8 +78,7 @@ Result<PolygonSoup> read_text(std::string_view bytes) {
     for (;;) {
         const std::vector<std::string_view>& words = lines.next();
         if (words.empty()) break;
-        // Some programs write several facets in a line. Text after an unknown word is a name or a
-        // remark.
+        // Some programs write several facets in a line. Text after an unknown word is a remark.
         for (std::size_t at = 0; at < words.size(); ++at) {
             if (is_word(words[at], "outer")) {
                 if (is_in_loop) return wrong_line("begins a loop in a loop");
@@ -102,9 +101,15 @@ Result<PolygonSoup> read_text(std::string_view bytes) {
             } else if (is_word(words[at], "facet")) {
                 at += 4;  // normal x y z
             } else if (!is_word(words[at], "loop") && !is_word(words[at], "endfacet")) {
-                if (is_word(words[at], "solid")) is_in_solid = true;
-                if (is_word(words[at], "endsolid")) is_in_solid = false;
-                break;
+                const bool begins = is_word(words[at], "solid");
+                if (!begins && !is_word(words[at], "endsolid")) break;
+                is_in_solid = begins;
+                // Skips the name of the solid.
+                const auto is_end = [&](std::string_view word) {
+                    return begins ? is_word(word, "facet") || is_word(word, "endsolid")
+                                  : is_word(word, "solid");
+                };
+                while (at + 1 < words.size() && !is_end(words[at + 1])) ++at;
             }
         }
     }

@@ -52,6 +52,22 @@ TEST(GltfSparse, OfIntegersCornersAndTargets) {
     EXPECT_THAT(file.fault(), HasSubstr("sparse without a base"));
 }
 
+TEST(GltfNodes, MirroredTrianglesAreTurned) {
+    const auto polygon_of = [](const Json& node) {
+        BuiltGltf file;
+        file.json["nodes"] = Json::array({node});
+        const auto soup = file.read();
+        EXPECT_TRUE(soup.has_value()) << soup.error().message;
+        return soup ? std::vector<std::uint32_t>(soup->polygon(0).begin(), soup->polygon(0).end())
+                    : std::vector<std::uint32_t>();
+    };
+    const auto turned = testing::ElementsAre(0, 2, 1), plain = testing::ElementsAre(0, 1, 2);
+    EXPECT_THAT(polygon_of({{"mesh", 0}, {"scale", {-1, 1, 1}}}), turned);
+    EXPECT_THAT(polygon_of({{"mesh", 0}, {"scale", {-1, -2, -3}}}), turned);
+    EXPECT_THAT(polygon_of({{"mesh", 0}, {"scale", {-1, -1, 1}}}), plain);
+    EXPECT_THAT(polygon_of({{"mesh", 0}, {"rotation", {0, 1, 0, 0}}}), plain);
+}
+
 TEST(GltfVisibility, HiddenNodesAreLeftOutWithThoseBelow) {
     BuiltGltf file;
     file.json["extensionsRequired"] = {"KHR_node_visibility"};

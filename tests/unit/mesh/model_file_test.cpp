@@ -168,6 +168,10 @@ TEST(ModelFile, StlTextInLinesOfAnyLength) {
         ASSERT_TRUE(soup) << end << fault_of(soup);
         EXPECT_EQ(soup->polygon_count(), 2u) << end;
     }
+    const auto in_one_line =
+        read_stl("solid a part " + facet + "endsolid a part solid b " + facet + "endsolid b");
+    ASSERT_TRUE(in_one_line) << fault_of(in_one_line);
+    EXPECT_EQ(in_one_line->polygon_count(), 2u);
     EXPECT_EQ(fault_of(read_stl("solid\n" + facet)), "the STL file breaks off before 'endsolid'");
     EXPECT_EQ(fault_of(read_stl("solid\nouter loop vertex 0 0 vertex 1 0 0\n")),
               "line 2 of the STL file is not a corner of a triangle");
