@@ -11,7 +11,7 @@ namespace {
 
 /// A front is thinner than a cell if the values of two adjacent cells differ by at least the first
 /// fraction of the range, while the cells beyond them differ by at most the second fraction.
-constexpr double least_jump_of_front = 0.8, most_beside = 0.05;
+constexpr double least_jump_of_front = 0.8, most_beside = 0.1;
 /// The fraction of all fronts that must be thin.
 constexpr double mostly_thin = 0.9;
 
