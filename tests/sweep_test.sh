@@ -136,7 +136,7 @@ run 64 sweep spots.cascade --vary ka=0..1 -o wrong
 says err 'the number of values'
 run 64 sweep --vary ka=1,2
 run 2 sweep spots.cascade --vary kaa=1,2 -o wrong
-says err "no stage has a parameter 'kaa'"
+says err "error: --vary kaa=1: no stage has a parameter 'kaa'"
 run 3 sweep spots.cascade --vary ka=1,1 -o wrong
 says err "occurs twice"
 [ ! -e wrong ] || fail "a wrong sweep has written"

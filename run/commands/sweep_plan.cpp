@@ -31,6 +31,24 @@ Planned check_picture(Script script, const SweepRequest& request) {
     return tl::unexpected(std::move(error));
 }
 
+/// The first error that the value of a varied name has caused.
+std::optional<Failure> fault_in(const PlannedRun& run, const SweepRequest& request,
+                                const Script& script) {
+    const std::vector<std::string> names = names_of(request.varied);
+    for (const Diagnostic& each : script.diagnostics.sorted()) {
+        if (each.severity != Severity::error) continue;
+        const std::string_view text = script.sources[each.span.source].text();
+        for (std::size_t k = 0; k < names.size(); ++k) {
+            const std::string set = fmt::format("{}={}", names[k], run.values[k]);
+            if (text != set) continue;
+            const bool has_note = each.hint.empty() && !each.notes.empty();
+            return Failure{fmt::format("--vary {}: {}", set, each.message),
+                           has_note ? each.notes[0].message : each.hint};
+        }
+    }
+    return std::nullopt;
+}
+
 Planned plan_run(const Script& base, const SweepRequest& request, std::size_t number,
                  SweepPlan& plan) {
     PlannedRun& run = plan.runs[number];
@@ -40,7 +58,8 @@ Planned plan_run(const Script& base, const SweepRequest& request, std::size_t nu
     run.overrides = std::move(*overrides);
     Script script = load(base, run);
     if (!script.program) {
-        const auto fault = request.sets ? fault_in(*request.sets, script, number) : std::nullopt;
+        auto fault = request.sets ? fault_in(*request.sets, script, number) : std::nullopt;
+        if (!fault) fault = fault_in(run, request, script);
         if (fault) return tl::unexpected(SweepError{*fault, std::nullopt, true});
         return tl::unexpected(
             SweepError{{"a script of the sweep is wrong", ""}, std::move(script)});

@@ -204,11 +204,10 @@ TEST_F(SweepTest, NothingRunsWhereAScriptIsWrong) {
     SweepControl control;
     auto wrong = sweep(script, request({"kaa=1,2"}), control);
     ASSERT_FALSE(wrong);
-    ASSERT_TRUE(wrong.error().script);
-    EXPECT_THAT(wrong.error().script->messages(false), HasSubstr("no stage has a parameter 'kaa'"));
+    EXPECT_EQ(wrong.error().failure.message, "--vary kaa=1: no stage has a parameter 'kaa'");
     wrong = sweep(script, request({"ka=1,1/0"}), control);  // The second run's fault.
     ASSERT_FALSE(wrong);
-    EXPECT_THAT(wrong.error().script->messages(false), HasSubstr("division by zero"));
+    EXPECT_THAT(wrong.error().failure.message, HasSubstr("--vary ka=1/0: division by zero"));
     SweepRequest shown = request({"ka=1,2"});
     shown.picture.show = "q";
     wrong = sweep(script, shown, control);
