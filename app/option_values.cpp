@@ -56,6 +56,14 @@ Result<GridSize> parse_grid(std::string_view text) {
         if (cross == text.size()) return GridSize{sides[0], sides[1], sides[2]};
         begin = cross + 1;
     }
+    std::string sizes(text);
+    std::erase(sizes, ' ');
+    std::ranges::replace_if(
+        sizes, [](char c) { return c == ',' || c == '*'; }, 'x');
+    if (sizes != text && parse_grid(sizes)) {
+        return failure(fmt::format("'{}' is not a grid", text),
+                       fmt::format("write --grid {}", sizes));
+    }
     return failure(fmt::format("'{}' is not a grid", text),
                    "write columns x rows, as in --grid 256x128, or columns x rows x slices");
 }

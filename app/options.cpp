@@ -47,12 +47,13 @@ public:
 
 /// All objects of CLI11 together, so that they are destroyed after parsing.
 struct Parser {
+    std::vector<std::string> words;  ///< As the user typed them.
     CLI::App app;
     Options options;
     bool show_version = false;
 
     /// Adds options only for the commands that occur among the words.
-    Parser(const std::string& program, const std::vector<std::string>& words);
+    Parser(const std::string& program, std::vector<std::string> typed);
     /// The text of --help for the chosen command, or for the program if no command is chosen.
     std::string help();
     CLI::App* chosen();
@@ -68,6 +69,7 @@ struct Parser {
     std::string near_option(const std::string& word);
     std::optional<std::string> unknown_option() const;
     std::string in_one_word(const std::string& value);
+    std::string value_of(const std::string& option) const;
     std::string describe_unexpected(const std::string& program);
 };
 
@@ -80,8 +82,8 @@ std::string Parser::help() {
     return text;
 }
 
-Parser::Parser(const std::string& program, const std::vector<std::string>& words)
-    : app(std::string(help::about), program) {
+Parser::Parser(const std::string& program, std::vector<std::string> typed)
+    : words(std::move(typed)), app(std::string(help::about), program) {
     app.formatter(std::make_shared<HelpFormatter>());
     // Without this, --fast=0 and --fast=3 would be accepted.
     app.option_defaults()->disable_flag_override();
@@ -134,22 +136,48 @@ std::string Parser::in_one_word(const std::string& value) {
     return last.find('=') == std::string::npos ? fmt::format("--set {}={}", last, value) : "";
 }
 
-/// The option of this program that corresponds to an option of other programs. Empty if there is
-/// none.
-std::string_view option_elsewhere(std::string_view name) {
+/// The value that the user has written for an unknown option, in the same word or the next. Empty
+/// if there is none.
+std::string Parser::value_of(const std::string& option) const {
+    if (const std::size_t mark = option.find('='); mark != std::string::npos) {
+        return option.substr(mark + 1);
+    }
+    const auto at = std::find(words.begin(), words.end(), option);
+    if (at == words.end() || at + 1 == words.end()) return "";
+    const std::string& next = *(at + 1);
+    return next.starts_with("--") || next.ends_with(".cascade") ? "" : next;
+}
+
+/// The option of this program that corresponds to an option of other programs, with the value that
+/// the user has written, or with an example. Empty if there is none.
+std::string option_elsewhere(std::string_view name, const std::string& value) {
     struct Row {
-        std::string_view name, here;
+        std::string_view name, here, example;
     };
     constexpr Row rows[] = {
-        {"colormap", "--palette"},      {"cmap", "--palette"},   {"color", "--palette"},
-        {"colour", "--palette"},        {"dt", "--set speed=…"}, {"timestep", "--set speed=…"},
-        {"resolution", "--grid 64x64"}, {"nx", "--grid 64x64"},  {"param", "--set NAME=…"},
-        {"parameter", "--set NAME=…"},  {"out", "-o out.png"},   {"outfile", "-o out.png"},
+        {"colormap", "--palette ", "viridis"},
+        {"cmap", "--palette ", "viridis"},
+        {"color", "--palette ", "viridis"},
+        {"colour", "--palette ", "viridis"},
+        {"dt", "--set speed=", "0.1"},
+        {"timestep", "--set speed=", "0.1"},
+        {"resolution", "--grid ", "64x64"},
+        {"nx", "--grid ", "64x64"},
+        {"param", "--set ", "NAME=…"},
+        {"parameter", "--set ", "NAME=…"},
+        {"out", "-o ", "out.png"},
+        {"outfile", "-o ", "out.png"},
     };
     for (const Row& row : rows) {
-        if (row.name == name) return row.here;
+        if (row.name != name) continue;
+        const bool is_side =
+            row.here == "--grid " && value.find_first_not_of("0123456789") == std::string::npos;
+        return fmt::format("{}{}", row.here,
+                           value.empty() ? row.example
+                           : is_side     ? fmt::format("{0}x{0}", value)
+                                         : value);
     }
-    return {};
+    return "";
 }
 
 /// Describes an unknown option if there is one. An unexpected word after it may only be its value,
@@ -159,12 +187,13 @@ std::string Parser::describe_unexpected(const std::string& program) {
     const std::string where = called(program);
     if (const auto option = unknown_option()) {
         const std::string setting = option->substr(0, option->find('=')).substr(2);
+        const std::string value = value_of(*option);
         if (option->starts_with("--") && is_setting_of(SettingBlock::stage, setting)) {
-            return fmt::format("{}: there is no option --{}; write --set {}=…", where, setting,
-                               setting);
+            return fmt::format("{}: there is no option --{}; write --set {}={}", where, setting,
+                               setting, value.empty() ? "…" : value);
         }
-        if (const std::string_view meant = option_elsewhere(setting); !meant.empty()) {
-            return fmt::format("{}: there is no option {}; write {}", where, *option, meant);
+        if (const std::string meant = option_elsewhere(setting, value); !meant.empty()) {
+            return fmt::format("{}: there is no option --{}; write {}", where, setting, meant);
         }
         const std::string near = near_option(*option);
         return fmt::format("{}: there is no option {}{}", where, *option,
@@ -192,6 +221,8 @@ std::string Parser::describe_unexpected(const std::string& program) {
         near = "systems";
     }
     if (word == "version") near = "--version";
+    if (word == "help") near = "--help";
+    if (word == "start" || word == "simulate" || word == "plot" || word == "execute") near = "run";
     return fmt::format("{}: there is no command '{}'{}", where, word,
                        near.empty() ? fmt::format("; the commands are {}", fmt::join(names, ", "))
                                     : fmt::format("; did you mean '{} {}'?", program, near));
@@ -204,16 +235,16 @@ Leave Parser::wrong_use(const std::string& program, const CLI::ParseError& error
     // The value of an unknown option looks like an extra argument, so the option is reported
     // instead of the argument.
     if (unknown_option()) return leave(program, describe_unexpected(program));
-    const std::string words = error.what();
-    if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) && words.starts_with("--")) {
-        const std::string option = words.substr(0, words.find(':'));
+    const std::string told = error.what();
+    if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) && told.starts_with("--")) {
+        const std::string option = told.substr(0, told.find(':'));
         return leave(program, fmt::format("{}: {} needs a value", called(program), option));
     }
-    if (words.ends_with(" was given a disallowed flag override")) {
-        const std::string flag = words.substr(0, words.find(' '));
+    if (told.ends_with(" was given a disallowed flag override")) {
+        const std::string flag = told.substr(0, told.find(' '));
         return leave(program, fmt::format("{}: --{} takes no value", called(program), flag));
     }
-    return leave(program, fmt::format("{}: {}", called(program), words));
+    return leave(program, fmt::format("{}: {}", called(program), told));
 }
 
 /// The name of a required argument that is missing. Empty if none is. CLI11 cannot check this.

@@ -34,6 +34,14 @@ hint_of_run() {
 hint_of_run "for a square write --grid 9x9" check s.cascade --grid 9
 "$CASCADE" check s.cascade --grid 9x9 2>&1 | grep -q warning && fail "a square gets a warning"
 hint "did you mean --set k=0.05?" run s.cascade --set k 0.05 -- run s.cascade -q --set k=0.05
+hint "write --set interval=2" run s.cascade --interval 2 -- run s.cascade -q --set interval=2
+hint "write --set interval=2" run --interval=2 s.cascade -- run s.cascade -q --set interval=2
+hint "write --set iterations=3" run --iterations 3 s.cascade -- run s.cascade -q --set iterations=3
+hint "write --set speed=0.25" run s.cascade --dt 0.25 -- run s.cascade -q --set speed=0.25
+hint "write --set k=0.3" run s.cascade --param k=0.3 -- run s.cascade -q --set k=0.3
+hint "write --grid 16x16" run s.cascade --resolution 16 -- run s.cascade -q --grid 16x16
+hint "write --palette gray" run s.cascade --cmap gray -- run s.cascade -q --palette gray
+hint "write --palette viridis" run --colormap s.cascade -- run s.cascade -q --palette viridis
 hint "did you mean -o p.png?" run s.cascade p.png -- run s.cascade -q -o p.png
 hint "-o film.gif writes a film" run s.cascade --frames film.gif -- run s.cascade -q -o film.gif
 hint "the endings of films are .gif, .webp, .apng, .mp4 and .webm" run s.cascade -o film.mov -- run s.cascade -q -o film.apng
@@ -50,6 +58,11 @@ hint "did you mean 's.cascade'?" check s -- check s.cascade
 hint "'cascade new stripes' prints a script of that system" check stripes -- new stripes -o n.cascade
 hint "there are k, u" check s.cascade --set F=3 -- check s.cascade --set k=3
 hint "write 'iterations: 1000'" check s.cascade --set steps=1000 -- check s.cascade --set iterations=1000
+hint "write 'speed: 0.25'" check s.cascade --set dt=0.25 -- check s.cascade --set speed=0.25
+hint "write 'iterations: 3'" check s.cascade --set steps=3 -- check s.cascade --set iterations=3
+hint "write --grid 16x8" check s.cascade --grid 16,8 -- check s.cascade --grid 16x8
+hint "write --grid 16x8" check s.cascade --grid '16 * 8' -- check s.cascade --grid 16x8
+hint "did you mean 'cascade --help'?" help -- --help
 hint "did you mean 'k'?" check s.cascade --set kk=1 -- check s.cascade --set k=1
 
 # Models.
@@ -78,7 +91,7 @@ hint "noise(…) has the same outlines" run drawn.cascade -q --detail 2 -- run n
 hint "a script with a finer grid" run s.cascade -q --detail 2 -o fine.gif -- run s.cascade -q --grid 16x16 -o fine.gif
 
 # Forms of values.
-hint "as in --grid 256x128" check s.cascade --grid 8,8 -- check s.cascade --grid 8x8
+hint "as in --grid 256x128" check s.cascade --grid 8y8 -- check s.cascade --grid 8x8
 hint "as in --range 0,8" run s.cascade -q --range 1 -- run s.cascade -q --range 0,8
 hint "as in --stop-at stage2:3000" run s.cascade -q --save t --stop-at 3 -- run s.cascade -q --save t --stop-at first:3
 hint "write 90s, 20m, 1.5h or 2d" run s.cascade -q --limit-time 1y -- run s.cascade -q --limit-time 20m

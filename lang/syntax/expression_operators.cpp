@@ -38,6 +38,22 @@ std::optional<Function> binary_of(TokenKind kind) {
 constexpr const char* form_of_near = "such as sum(e over near(0.1))";
 constexpr const char* form_of_over = "write sum(e over i) or mean(e over domain)";
 
+/// A hint about the braces of LaTeX after the cursor, as in u_{xx}; may be empty.
+std::string hint_of_braces(const TokenCursor& cursor) {
+    const std::string_view name = cursor.text(cursor.previous());
+    const bool is_subscript = cursor.previous().kind == TokenKind::name && name.size() > 1 &&
+                              name.ends_with('_') && cursor.at(TokenKind::open_curly) &&
+                              cursor.kind(1) == TokenKind::name &&
+                              cursor.kind(2) == TokenKind::close_curly;
+    if (!is_subscript) return "";
+    const std::string_view of = name.substr(0, name.size() - 1);
+    const std::string_view below = cursor.text(cursor.peek(1));
+    const bool is_derivative = below.size() <= 2 && below.find_first_not_of("xyz") == below.npos &&
+                               function_named(fmt::format("d{}", below));
+    return is_derivative ? fmt::format("write 'd{}({})'", below, of)
+                         : fmt::format("write '{}_{}'", of, below);
+}
+
 }  // namespace
 
 ExpressionParser::Progress ExpressionParser::read_operator() {
@@ -298,7 +314,8 @@ ExpressionParser::Progress ExpressionParser::unexpected_operator(bool on_new_lin
         case TokenKind::dots:
         case TokenKind::plus_assign:
         case TokenKind::open_curly:
-            return fail(token.span, cursor_.describe(token) + " has no place inside an expression");
+            return fail(token.span, cursor_.describe(token) + " has no place inside an expression",
+                        hint_of_braces(cursor_));
         default: return missing_operator(on_new_line);
     }
 }
@@ -311,39 +328,6 @@ bool ExpressionParser::begins_applied() {
     if (!begins || cursor_.previous().kind == TokenKind::name) return false;
     reduce_above(info(Function::multiply).precedence);
     return applies_operator(script_, operands_.back().id);
-}
-
-/// A hint about the operator that is missing between two operands; may be empty.
-std::string ExpressionParser::hint_of_missing_operator() const {
-    const Token before = cursor_.previous();
-    const Token here = cursor_.peek();
-    const Span both = join(before.span, here.span);
-    const bool is_bar =
-        here.kind == TokenKind::name && cursor_.text(here) != cursor_.text(here.span);
-    const bool is_product = before.kind == TokenKind::number ||
-                            here.kind == TokenKind::open_round ||
-                            (is_bar && before.kind != TokenKind::keyword_not);
-    if (before.kind == TokenKind::name && here.kind == TokenKind::name) {
-        const std::string_view function = cursor_.text(before);
-        const bool is_plain = !is_bar && !function_named(cursor_.text(here));
-        if (function_named(function)) {
-            return fmt::format("write {}({})", function,
-                               is_plain ? shortened(cursor_.text(here)) : "…");
-        }
-        const std::string_view advice = advice_about(function, WordContext::function);
-        if (!advice.empty()) return std::string(advice);
-    }
-    if (cursor_.at_name("in") || cursor_.at_name("step")) {
-        return "a range follows the value of a parameter: p: 1 in 0 .. 2 step 0.1";
-    }
-    if (is_product && here.kind != TokenKind::keyword_not && both.end - both.begin <= 40) {
-        const bool is_as_written = cursor_.text(before) == cursor_.text(before.span);
-        if (here.kind == TokenKind::open_round || !is_as_written || is_bar) {
-            return "write '*' to multiply";
-        }
-        return fmt::format("write '{} * {}' to multiply", cursor_.text(before), cursor_.text(here));
-    }
-    return "";
 }
 
 /// Reports two operands without an operator between them.
@@ -377,7 +361,12 @@ ExpressionParser::Progress ExpressionParser::missing_operator(bool on_new_line) 
         return fail(here.span, "an operator is missing before " + cursor_.describe(here),
                     std::move(hint));
     };
-    if (is_if(here) || is_if(before)) return fail_here("a choice is written if(condition, a, b)");
+    const ast::Expr& left = script_.expressions[operands_.back().id];
+    const auto* const call = std::get_if<ast::Call>(&left.node);
+    const bool is_condition = call && call->function.text == "if" && call->argument_count == 1;
+    if (is_if(here) || is_if(before) || is_condition) {
+        return fail_here("a choice is written if(condition, a, b)");
+    }
     if (before.kind == TokenKind::number && here.kind == TokenKind::number) {
         return fail_here(fmt::format("write '{0} * {1}' to multiply, '{0}, {1}' for two values",
                                      cursor_.text(before), cursor_.text(here)));

@@ -1,7 +1,10 @@
-// Parses expressions: the main loop, and the reduction of operators that have all their operands.
+// Parses expressions: the main loop, the reduction of operators that have all their operands, and
+// the hint about an operator that is missing.
 #include "lang/syntax/expression_parser.h"
 
 #include "core/check.h"
+#include "lang/vocabulary/functions.h"
+#include "lang/vocabulary/words_elsewhere.h"
 
 #include <fmt/core.h>
 
@@ -143,6 +146,44 @@ ExpressionParser::Progress ExpressionParser::unclosed() {
     }
     cursor_.skip_statement();
     return Progress::failed;
+}
+
+/// A hint about the operator that is missing between two operands; may be empty.
+std::string ExpressionParser::hint_of_missing_operator() const {
+    const Token before = cursor_.previous();
+    const Token here = cursor_.peek();
+    const Span both = join(before.span, here.span);
+    const bool is_bar =
+        here.kind == TokenKind::name && cursor_.text(here) != cursor_.text(here.span);
+    // Outside of formulas, words such as "periodic noflux" are not factors.
+    const bool is_in_formula = !pending_.empty() || cursor_.kind(1) == TokenKind::open_round;
+    const bool is_product =
+        before.kind == TokenKind::number || here.kind == TokenKind::open_round ||
+        (before.kind == TokenKind::name && is_in_formula) ||
+        (before.kind == TokenKind::close_round && here.kind != TokenKind::open_square) ||
+        (is_bar && before.kind != TokenKind::keyword_not);
+    if (before.kind == TokenKind::name && here.kind == TokenKind::name) {
+        const std::string_view function = cursor_.text(before);
+        const bool is_plain = !is_bar && !function_named(cursor_.text(here));
+        if (function_named(function)) {
+            return fmt::format("write {}({})", function,
+                               is_plain ? shortened(cursor_.text(here)) : "…");
+        }
+        const std::string_view advice = advice_about(function, WordContext::function);
+        if (!advice.empty()) return std::string(advice);
+    }
+    if (cursor_.at_name("in") || cursor_.at_name("step")) {
+        return "a range follows the value of a parameter: p: 1 in 0 .. 2 step 0.1";
+    }
+    if (is_product && here.kind != TokenKind::keyword_not && both.end - both.begin <= 40) {
+        const bool is_as_written = cursor_.text(before) == cursor_.text(before.span);
+        const bool is_after_bracket = before.kind == TokenKind::close_round;
+        if (here.kind == TokenKind::open_round || is_after_bracket || !is_as_written || is_bar) {
+            return "write '*' to multiply";
+        }
+        return fmt::format("write '{} * {}' to multiply", cursor_.text(before), cursor_.text(here));
+    }
+    return "";
 }
 
 }  // namespace cascade

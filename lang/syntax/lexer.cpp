@@ -377,6 +377,7 @@ void Lexer::read_other() {
     std::string hint;
     if (text_[begin] == '?') hint = "a choice is written if(condition, a, b)";
     if (text_[begin] == '`') hint = "write ' for a rate";
+    if (text_[begin] == '$') hint = "formulas have no '$'; leave it out";
     if (text_[begin] == '\\') {
         const std::size_t first = end;
         while (std::isalpha(static_cast<unsigned char>(at(end))) != 0) ++end;

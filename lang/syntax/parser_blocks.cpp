@@ -203,7 +203,10 @@ void ScriptParser::parse_body(ast::Block& block) {
         if (!is_told) {
             cursor_.error(header_end.span,
                           fmt::format("'{{' is missing after {}", cursor_.describe(header_end)),
-                          "a block is written { statements }");
+                          cursor_.at(TokenKind::minus) && cursor_.kind(1) == TokenKind::name
+                              ? fmt::format("names have no '-': write '{}_{}'",
+                                            cursor_.text(header_end), cursor_.text(cursor_.peek(1)))
+                              : "a block is written { statements }");
         }
         // The rest of the header's line is not a statement.
         if (header_end.kind != TokenKind::name || !cursor_.at(TokenKind::name)) {

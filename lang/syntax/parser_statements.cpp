@@ -266,7 +266,9 @@ bool ScriptParser::report_missing_colon(const ast::Statement& statement) {
         return false;
     }
     cursor_.error(name.span, fmt::format("':' is missing after {}", quoted),
-                  "a statement is 'name: expression'");
+                  cursor_.at(TokenKind::open_round)
+                      ? fmt::format("write '{}: …' for a starting value", name.text)
+                      : "a statement is 'name: expression'");
     const std::size_t next = after_index([this](std::size_t at) { return cursor_.kind(at); }, 0);
     if (next > 0 && cursor_.kind(next) != TokenKind::newline) {
         cursor_.skip_statement();  // For example `u [i]: e`, where no value follows the name.

@@ -104,6 +104,8 @@ constexpr WordElsewhere rows[] = {
     {Context::function, "where select ifelse piecewise", "write 'if(u > v, u, v)'"},
     {Context::function, "average avg", "write 'mean(u over domain)'"},
     {Context::function, "integrate", "write 'integral(u over domain)'"},
+    {Context::function, "hill hill_function", "write 'u^2 / (1 + u^2)'"},
+    {Context::function, "linspace arange", "--vary takes a range: name=0..1:5 is five values"},
     {Context::function, "steady", "use it alone after 'until:'"},
     {Context::function, "fixed flux", "use it after a side, as in u.left: fixed(1)"},
 
@@ -115,6 +117,8 @@ constexpr WordElsewhere rows[] = {
      "a parameter is 'name: value' in a system; 'let name = value' is one of the script"},
     {Context::statement, "output save plot print show",
      "the command line names files: cascade run SCRIPT -o out.png"},
+    {Context::statement, "for while loop repeat",
+     "there are no loops; i: 1..3 makes u[i] a family of species"},
     {Context::statement, "diff dif derivative d", "a rate is written u' = …"},
     {Context::value, "time", "write 't'"},
     {Context::value, "dt timestep time_step", "write 'speed'"},
@@ -122,6 +126,10 @@ constexpr WordElsewhere rows[] = {
     {Context::value, "true", "write '1'"},
     {Context::value, "false", "write '0'"},
     {Context::value, "iteration frame tick", "write 'step'"},
+    {Context::value, "dx2 d2x", "the second derivative of u along x is dxx(u)"},
+    {Context::value, "dy2 d2y", "the second derivative of u along y is dyy(u)"},
+    {Context::value, "red green blue yellow orange black",
+     "a colour is rgb(red, green, blue), each from 0 to 1"},
 };
 
 bool is_same(std::string_view a, std::string_view b) {

@@ -236,8 +236,11 @@ void check_domain_statement(Workspace& work, const ast::Script& script,
     if (statement.kind != ast::StatementKind::value) {
         const std::string_view name = statement.name.text;
         work.diagnostics.error(statement.span, "a domain holds settings only (name: …)",
-                               is_setting_of(SettingBlock::domain, name)
+                               name == "extent" ? "a side has one length: write 'extent: 10, 10'"
+                               : is_setting_of(SettingBlock::domain, name)
                                    ? fmt::format("write '{}: …'", name)
+                               : name == "x" || name == "y" || name == "z"
+                                   ? "coordinates begin at 0: write 'extent: 10, 10' for lengths"
                                    : "");
         return;
     }

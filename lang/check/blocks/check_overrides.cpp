@@ -88,7 +88,8 @@ void report_unknown_override(Workspace& work, const ast::Script& script,
         names.push_back(std::move(each));
     diagnostic.hint = option_for(script, name.text, statement);
     if (diagnostic.hint.empty()) {
-        diagnostic.hint = hint_about(work, name.text, WordContext::stage, names);
+        diagnostic.hint = with_number(hint_about(work, name.text, WordContext::stage, names),
+                                      script.expressions[statement.values[0].root]);
     } else {
         diagnostic.message = fmt::format("'{}' is a setting of the domain", name.text);
         diagnostic.notes.clear();

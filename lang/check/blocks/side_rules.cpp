@@ -47,6 +47,9 @@ std::optional<WrittenSide> read_side(Workspace& work, const ast::Script& script,
     if (!kind) {
         std::string hint(advice_about(word, WordContext::side));
         if (hint.empty()) hint = did_you_mean(work, word, words_taken_by(Setting::sides));
+        if (const auto* number = std::get_if<ast::Number>(&value.node)) {
+            hint = fmt::format("write 'fixed({})'", number->value);
+        }
         work.diagnostics.error(value.span,
                                "a side is periodic, noflux, fixed(…), slope(…) or flux(…)",
                                std::move(hint));

@@ -164,7 +164,11 @@ void report_unknown_function(Workspace& work, const ast::Word& name,
             const FunctionInfo& row = info(static_cast<Function>(i));
             if (row.is_named) names.emplace_back(row.spelling);
         }
-        hint = did_you_mean(work, name.text, names);
+        // A single letter resembles too many names.
+        if (name.text.size() > 1) hint = did_you_mean(work, name.text, names);
+        if (hint.empty()) {
+            hint = fmt::format("a script defines functions: fn {}(a, b) = …", name.text);
+        }
     }
     work.diagnostics.error(name.span, fmt::format("there is no function '{}'", name.text),
                            std::move(hint));

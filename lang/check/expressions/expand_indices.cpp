@@ -35,8 +35,13 @@ void Expander::visit_over(ast::ExprId part, const ast::Over& over) {
         return emit(over.index.span, ast::Garbage{});
     }
     if (index == nullptr) {
+        constexpr std::array<std::string_view, 9> all_cells = {"space",  "all",   "grid",
+                                                               "x",      "y",     "area",
+                                                               "volume", "cells", "plane"};
+        const bool is_all = std::ranges::find(all_cells, over.index.text) != all_cells.end();
         return error(over.index.span, fmt::format("there is no index '{}'", over.index.text),
                      is_neighbours ? "cells that crawl have neighbours; fields have none"
+                     : is_all      ? "write 'domain' for all cells"
                                    : "an index is declared in a system: i: 1..3");
     }
     if (!is_reduction(over.function.text)) {

@@ -302,8 +302,14 @@ void report_not_species(Workspace& work, SystemId index, std::string_view name, 
     for (const Quantity& quantity : system.quantities) {
         if (quantity.is_species) species.push_back(quantity.name);
     }
+    std::string hint = did_you_mean(work, name, species);
+    // The parser has made u_t of the u'' in a rate.
+    const std::string_view of = species_of_rate(name);
+    if (std::ranges::find(species, of) != species.end()) {
+        hint = fmt::format("{0}'' is a second rate; the second derivative along x is dxx({0})", of);
+    }
     report(work, span, fmt::format("'{}' is not a species of {}", name, system.name),
-           did_you_mean(work, name, species));
+           std::move(hint));
 }
 
 std::optional<Node> resolve_rate(Workspace& work, const Scope& scope, const ast::Word& name,

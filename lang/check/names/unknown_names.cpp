@@ -27,8 +27,11 @@ std::vector<std::string> readable_names(const System& system, const Scope& scope
     return names;
 }
 
-/// The hint "write 'dxx(u)'" for u_xx, if the name u is known.
+/// The hint "write 'dxx(u)'" for u_xx and for d2u in d2u/dx2, if the name u is known.
 std::string hint_of_subscript(std::string_view name, const std::vector<std::string>& known) {
+    if (name.starts_with("d2") && std::ranges::find(known, name.substr(2)) != known.end()) {
+        return fmt::format("d2{0}/dx2 is dxx({0})", name.substr(2));
+    }
     const std::size_t bar = name.rfind('_');
     if (bar == name.npos) return "";
     const std::string_view of = name.substr(0, bar), axes = name.substr(bar + 1);
@@ -37,6 +40,18 @@ std::string hint_of_subscript(std::string_view name, const std::vector<std::stri
                                function_named(fmt::format("d{}", axes));
     if (!is_derivative || std::find(known.begin(), known.end(), of) == known.end()) return "";
     return fmt::format("write 'd{}({})'", axes, of);
+}
+
+/// The hint for the name of a stage, in place of one of its species.
+std::string hint_of_stage(const Workspace& work, std::string_view name) {
+    for (const Stage& stage : work.program.stages) {
+        if (stage.name != name || stage.system == unknown_system) continue;
+        for (const Quantity& quantity : work.program.systems[stage.system].quantities) {
+            if (!quantity.is_species) continue;
+            return fmt::format("it is a stage: write {}.{}", name, quantity.name);
+        }
+    }
+    return "";
 }
 
 }  // namespace
@@ -128,6 +143,7 @@ void report_unknown_previous(Workspace& work, const Scope& scope, std::string_vi
         hint = fmt::format("[{0}] is the '{0}' of this stage", name);
     } else {
         hint = advice_about(name, WordContext::value);
+        if (hint.empty()) hint = hint_of_stage(work, name);
         if (hint.empty()) hint = did_you_mean(work, name, readable_names(system, scope));
     }
     report(work, span, not_a_parameter(name, system), std::move(hint),

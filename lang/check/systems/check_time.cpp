@@ -43,14 +43,20 @@ void check_solver(Workspace& work, const ast::Script& script, ast::Expression va
     const Span span = root_of(script, value).span;
     if (word.empty()) {
         if (std::holds_alternative<ast::Garbage>(root_of(script, value).node)) return;
+        const auto* const text = std::get_if<ast::Text>(&root_of(script, value).node);
         work.diagnostics.error(span, "a solver is one word",
-                               fmt::format("solvers are {}", list_names(solver_names())));
+                               text != nullptr && solver_of(text->value)
+                                   ? fmt::format("write {} without quotes", text->value)
+                                   : fmt::format("solvers are {}", list_names(solver_names())));
         return;
     }
     time.solver = solver_of(word);
     time.solver_span = span;
     if (time.solver) return;
     std::string hint = did_you_mean(work, word, solver_names());
+    for (const std::string_view part : {"implicit", "crank", "backward", "bdf", "cn"}) {
+        if (word.starts_with(part)) hint = "imex and ros2 are implicit: write 'solver: imex'";
+    }
     if (hint.empty()) hint = fmt::format("solvers are {}", list_names(solver_names()));
     work.diagnostics.error(span, fmt::format("there is no solver '{}'", word), std::move(hint));
 }
@@ -80,7 +86,14 @@ void check_until(Workspace& work, const ast::Script& script, ast::Expression val
     present.context = Context::picture;
     present.last_stage = scope.stage.value_or(0);
     auto checked = check_number(work, script, value, present);
-    if (checked) time.until = std::move(checked->formula);
+    if (!checked) return;
+    if (std::ranges::all_of(checked->formula.nodes, &Node::is<double>)) {
+        work.diagnostics.error(root_of(script, value).span,
+                               "until takes a condition, and this is the same at all times",
+                               "write 'until: t > 100', or 'duration: 100'");
+        return;
+    }
+    time.until = std::move(checked->formula);
 }
 
 }  // namespace

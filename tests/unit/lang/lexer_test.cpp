@@ -171,7 +171,8 @@ TEST(Lexer, SpellsLettersOfOtherAlphabets) {
 
 TEST(Lexer, ReportsStrayCharactersOncePerRun) {
     const std::vector<Fault> faults = {
-        {"a $$ b", "a GARBAGE b", "1:3 '$$' has no meaning in the language"},
+        {"a $$ b", "a GARBAGE b",
+         "1:3 '$$' has no meaning in the language | formulas have no '$'; leave it out"},
         {"a ? b", "a GARBAGE b",
          "1:3 '?' has no meaning in the language | a choice is written if(condition, a, b)"},
         {"a \\\nb", "a GARBAGE NL b",
