@@ -68,7 +68,7 @@ private:
     }
 
     static SbmlFormula number(double value, const SBase& part) {
-        return {fmt::format("{:.9g}", value), part.getLine()};
+        return {fmt::format("{}", value), part.getLine()};
     }
 
     SbmlFormula start_of(const SBase& part, double usual) {
