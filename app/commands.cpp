@@ -4,14 +4,16 @@
 #include "app/examples.h"
 #include "app/exit_status.h"
 #include "app/json_answer.h"
+#include "app/whole_program.h"
 #include "core/counted.h"
 #include "core/file.h"
 #include "core/near_name.h"
 #include "core/printable.h"
 #include "lang/library/library.h"
 #include "lang/syntax/parse.h"
-#include "run/commands/analyze.h"
 #include "run/commands/dump.h"
+#include "run/commands/outlooks.h"
+#include "run/pictures/picture_size.h"
 #include "run/script/embedded_script.h"
 #include "run/session/changed_script.h"
 #include "run/session/session_log.h"
@@ -76,6 +78,7 @@ Result<LoadedFile> load_file(const std::string& path, const Overrides& overrides
                                       merge(typed->overrides, overrides)),
                           ""};
     }
+    need_whole_program();  // Another program could not read the input again.
     auto text = read_standard_input();
     if (!text) return tl::unexpected(text.error());
     return LoadedFile{load_script("<standard input>", std::move(*text), ".", overrides), ""};
@@ -160,6 +163,7 @@ nlohmann::ordered_json facts_of(const Script& script) {
 int check_one(const std::string& path, const Options& options, Console& console) {
     const auto file = load(path, options.overrides, console, typed_of(options));
     if (!file) return exit_status::wrong_script;
+    if (file->script.program && draws_scene(file->script, {})) need_whole_program();
     if (console.answer()) (*console.answer())["scripts"].push_back(facts_of(file->script));
     if (!options.dump.empty()) return dump_command(file->script, options.dump, console);
     console.tell(file->script);

@@ -3,7 +3,7 @@
 
 #include "app/exit_status.h"
 #include "device/devices.h"
-#include "run/pictures/drawn_cells.h"
+#include "run/pictures/picture_size.h"
 
 #include <memory>
 #include <set>

@@ -38,7 +38,7 @@ std::string upper(std::string text) {
 }
 
 /// The text for the section NAME: the first sentence without its full stop.
-std::string in_short(const std::string& about) {
+std::string in_name_section(const std::string& about) {
     std::string first = about.substr(0, about.find(". "));
     std::replace(first.begin(), first.end(), '\n', ' ');
     if (first.ends_with('.')) first.pop_back();
@@ -49,7 +49,7 @@ std::string head(const std::string& title, const std::string& about) {
     return fmt::format(
         ".\\\" Made from the tables of --help.\n"
         ".TH {} 1 \"\" \"Cascade {}\" \"User Commands\"\n.SH NAME\n{} \\- {}\n",
-        roff(upper(title)), version(), roff(title), roff(in_short(about)));
+        roff(upper(title)), version(), roff(title), roff(in_name_section(about)));
 }
 
 std::string entry(const ManualOption& option) {

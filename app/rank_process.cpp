@@ -9,7 +9,7 @@
 #include "core/version.h"
 #include "ranks/launcher.h"
 #include "ranks/ranks.h"
-#include "run/pictures/drawn_cells.h"
+#include "run/pictures/picture_size.h"
 
 #include <fmt/format.h>
 

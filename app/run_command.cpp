@@ -11,11 +11,14 @@
 #include "app/progress_display.h"
 #include "app/rank_process.h"
 #include "app/time_table.h"
+#include "app/whole_program.h"
 #include "core/counted.h"
+#include "core/file_format.h"
 #include "core/with_commas.h"
 #include "lang/syntax/replace_blocks.h"
 #include "ranks/launcher.h"
 #include "ranks/ranks.h"
+#include "run/pictures/picture_size.h"
 #include "run/script/embedded_script.h"
 #include "run/script/script_folder.h"
 #include "run/session/session_picture.h"
@@ -70,6 +73,17 @@ std::optional<LoadedFile> load_for_run(const Options& options, const Console& co
             edited->string(), options.run.resume.string()));
     }
     return LoadedFile{std::move(*saved), ""};
+}
+
+/// Whether the run does what the first program leaves out (cmake/later.txt).
+bool needs_more_than_planes(const Options& options, const Script& script) {
+    const RunRequest& run = options.run;
+    if (script.program && draws_scene(script, apply(options.picture, run.picture))) return true;
+    if (!run.save.empty() || is_of_format(run.volume, FileFormat::vdb)) return true;
+    return std::any_of(run.outputs.begin(), run.outputs.end(), [](const auto& path) {
+        const auto kind = output_kind(path);
+        return kind == FormatKind::model || kind == FormatKind::cells;
+    });
 }
 
 /// Prints the written files. All pictures of --frames together are one line.
@@ -208,6 +222,7 @@ static int run_script(const Options& options, Console& console, Ranks* ranks) {
     }();
     if (!file) return exit_status::wrong_script;
     Script& script = file->script;
+    if (needs_more_than_planes(options, script)) need_whole_program();
     if (!options.dump.empty()) return dump_command(script, options.dump, console);
     console.tell(script);
     if (!script.program) return exit_status::wrong_script;

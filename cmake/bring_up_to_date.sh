@@ -21,13 +21,17 @@ needs_engine "$@" && purposes+=(tab)
 install_packages "$log" "${purposes[@]}" || exit 1
 if ! is_fresh; then
     list_sources >"$build/begun"
-    if [ -x "$build/cascade" ]; then
+    target=cascade_program what="the rest of Cascade, which this command needs"
+    if [ "$program" != "$build/cascade" ]; then
+        target=cascade_first what="what draws first pictures"
+    fi
+    if [ -x "$program" ]; then
         say "building what has changed (log: $log)"
     else
-        say "building for the first time, which takes 4 to 8 minutes of processor time: about"
-        say "$((6 / $(nproc) + 1)) minutes with the $(nproc) processors here, if they are idle otherwise (log: $log)"
+        say "building $what: 2 to 4 minutes of processor time, about"
+        say "$((3 / $(nproc) + 1)) minutes with the $(nproc) processors here, if they are idle otherwise (log: $log)"
     fi
-    configure_and_build "$log" "$build" cascade_program || exit 1
+    configure_and_build "$log" "$build" "$target" || exit 1
     mv "$build/begun" "$build/built"
 fi
 if needs_engine "$@"; then

@@ -3,6 +3,10 @@
 # folder of the source tree.
 
 build=$root/build/release
+# The first program (cmake/first.cmake) is built until it needs the whole one and says so
+# (app/left_out.cpp).
+program=$build/cascade
+[ -x "$program" ] || [ -n "${CASCADE_WHOLE-}" ] || program=$build/cascade-first
 
 # list_sources: prints the files and folders from which the program is built, relative to `root`. A
 # build writes this list to build/release/built before it begins.
@@ -16,7 +20,7 @@ list_sources() {
 # they change when a file is added or removed. Compares the time of the last status change, because
 # a copied file may keep an old time of modification.
 is_fresh() {
-    [ -x "$build/cascade" ] && [ -s "$build/built" ] || return 1
+    [ -x "$program" ] && [ -s "$build/built" ] || return 1
     read -r sources <"$build/built"
     # An optional library may have been installed since the last build.
     for library in /usr/include/openvdb/openvdb.h /usr/lib/*/openmpi/include/mpi.h /usr/include/*/mpich/mpi.h; do

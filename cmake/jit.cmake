@@ -24,14 +24,14 @@ add_custom_command(
   DEPENDS ${code_sources} ${PROJECT_SOURCE_DIR}/jit/code_version.h.in
     ${PROJECT_SOURCE_DIR}/cmake/code_version.cmake
   VERBATIM)
-set(code_version_header ${code_version_folder}/jit/code_version.h)
+add_custom_target(cascade_code_version DEPENDS ${code_version_folder}/jit/code_version.h)
 
 # Both parts contain this file. It is compiled by itself, so that a program that links both parts
 # takes only one copy.
 set(code_version ${PROJECT_SOURCE_DIR}/jit/code_version.cpp)
 set_source_files_properties(${code_version} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 
-add_library(cascade_jit STATIC ${code_version_header})
+add_library(cascade_jit STATIC)
 cascade_compile(cascade_jit ${jit_without_llvm})
 target_link_libraries(cascade_jit PUBLIC cascade_options cascade_ir cascade_core ${CMAKE_DL_LIBS})
 target_include_directories(cascade_jit PRIVATE ${code_version_folder})
@@ -43,12 +43,15 @@ target_compile_definitions(cascade_jit PRIVATE
 # Tests call the parts of the module directly, without its table of functions.
 set(llvm_module ${PROJECT_SOURCE_DIR}/jit/llvm_module.cpp)
 list(REMOVE_ITEM jit_with_llvm ${llvm_module})
-add_library(cascade_llvm_parts STATIC ${code_version_header})
+add_library(cascade_llvm_parts STATIC)
 cascade_compile(cascade_llvm_parts ${jit_with_llvm} ${code_version})
-set_target_properties(cascade_llvm_parts PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)  # LLVM's macros come first.
+set(llvm_objects cascade_llvm_parts_first)
+set_target_properties(${llvm_objects} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)  # LLVM's macros come first.
 target_link_libraries(cascade_llvm_parts PUBLIC cascade_options cascade_ir cascade_core)
 target_include_directories(cascade_llvm_parts PRIVATE ${code_version_folder})
 cascade_link_llvm(cascade_llvm_parts)
+cascade_link_llvm(${llvm_objects})
+add_dependencies(${llvm_objects} cascade_code_version)
 
 add_library(cascade_llvm MODULE ${llvm_module})
 target_link_libraries(cascade_llvm PRIVATE cascade_llvm_parts)
@@ -57,3 +60,4 @@ target_link_options(cascade_llvm PRIVATE LINKER:--exclude-libs,ALL)
 set_target_properties(cascade_llvm PROPERTIES
   LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
 add_dependencies(cascade_jit cascade_llvm)
+add_dependencies(cascade_jit_first cascade_code_version)

@@ -4,6 +4,7 @@
 #include "core/file.h"
 #include "core/shared_plane.h"
 #include "run/commands/analyze.h"
+#include "run/commands/outlooks.h"
 #include "library/pattern_state.h"
 #include "run/pictures/drawn_cells.h"
 #include "run/pictures/measured.h"

@@ -2,7 +2,7 @@
 #include "core/counted.h"
 #include "lang/service/advice.h"
 #include "lsp/answers.h"
-#include "run/commands/analyze.h"
+#include "run/commands/outlooks.h"
 
 #include <fmt/format.h>
 

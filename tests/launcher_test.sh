@@ -24,7 +24,8 @@ echo "cmake \$*" >>"$calls"
 [ -e "$PWD/break_build" ] && { echo "a.cpp:1: some error"; exit 1; }
 if [ "\$1" = --build ]; then
     sleep 0.3
-    printf '#!/bin/bash\necho "ran in \$PWD: \$*"\nexit 7\n' >"\$2/cascade" && chmod +x "\$2/cascade"
+    case "\$4" in cascade_first) made=\$2/cascade-first ;; *) made=\$2/cascade ;; esac
+    printf '#!/bin/bash\necho "ran in \$PWD: \$*"\nexit 7\n' >"\$made" && chmod +x "\$made"
 fi
 END
 cat >bin/dpkg-query <<END
@@ -58,6 +59,8 @@ launch run 'a b.cascade'
 [ "$(wc -l <err)" -le 4 ] || fail "too many words: $(cat err)"
 grep -q 'minutes of processor time' err || fail "how long the first build takes is not said: $(cat err)"
 ! grep -q $'\r' err || fail "progress is drawn where nobody watches"
+
+[ "$(count 'cmake --build.*--target cascade_first ')" = 1 ] || fail "the first call builds the first program"
 
 launch
 [ ! -s calls ] && [ ! -s err ] || fail "nothing has changed: $(cat err)"
@@ -124,3 +127,15 @@ touch tree/core/a.cpp
 for _ in 1 2 3; do tree/cascade >/dev/null 2>&1 & done
 wait
 [ "$(count 'cmake --build')" = 1 ] || fail "calls at the same time build once"
+
+# The first program calls the launcher with CASCADE_WHOLE, and from then on the whole program is built and run.
+CASCADE_WHOLE=1 launch run zebra.cascade
+[ $? = 7 ] && [ "$(cat out)" = "ran in $PWD/elsewhere: run zebra.cascade" ] || fail "the whole program: $(cat out err)"
+[ "$(count 'cmake --build.*--target cascade_program ')" = 1 ] || fail "the whole program is built"
+grep -q 'the rest of Cascade, which this command needs' err || fail "the second build is not explained: $(cat err)"
+rm tree/build/release/cascade-first
+launch
+[ ! -s calls ] && [ ! -s err ] || fail "the whole program is ready: $(cat err)"
+touch tree/core/a.cpp
+launch
+[ "$(count 'cmake --build.*--target cascade_program ')" = 1 ] || fail "changes are built into the whole program"

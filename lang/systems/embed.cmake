@@ -57,4 +57,9 @@ const LibraryText& cell_functions() { return functions; }
 
 }  // namespace cascade
 ]])
-target_sources(cascade_lang PRIVATE ${built_in_source})
+if(TARGET cascade_lang_first)
+  set_source_files_properties(${built_in_source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  target_sources(cascade_lang_first PRIVATE ${built_in_source})
+else()
+  target_sources(cascade_lang PRIVATE ${built_in_source})
+endif()

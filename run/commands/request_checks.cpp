@@ -5,8 +5,6 @@
 #include "lang/syntax/picture_expression.h"
 #include "run/commands/run_checks.h"
 #include "run/commands/run_option.h"
-#include "run/pictures/body_picture.h"
-#include "run/pictures/drawn_cells.h"
 #include "run/pictures/frame_folder.h"
 #include "run/pictures/material.h"
 #include "run/pictures/picture_size.h"

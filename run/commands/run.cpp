@@ -3,7 +3,7 @@
 
 #include "core/with_commas.h"
 #include "lang/program/stage_kinds.h"
-#include "run/commands/analyze.h"
+#include "run/commands/outlooks.h"
 #include "run/commands/runner.h"
 #include "run/pictures/measured.h"
 #include "run/pictures/picture_remarks.h"

@@ -10,7 +10,6 @@
 #include "picture/caption.h"
 #include "picture/vdb.h"
 #include "run/commands/run_option.h"
-#include "run/pictures/drawn_cells.h"
 #include "run/pictures/material.h"
 #include "run/pictures/model_maps.h"
 #include "run/pictures/picture_size.h"
@@ -62,7 +61,7 @@ struct OutputFile {
     std::string_view what;
 };
 
-std::string_view name_of(FormatKind kind) {
+std::string_view noun_of(FormatKind kind) {
     if (kind == FormatKind::picture) return "the picture";
     if (kind == FormatKind::figure) return "the figure";
     return kind == FormatKind::film ? "the film" : "the model";
@@ -90,10 +89,10 @@ std::vector<OutputFile> files_of(const Script& script, const RunRequest& request
         } else if (kind == FormatKind::model) {
             for (std::size_t k = 0; k < levels; ++k) {
                 const std::filesystem::path path = path_of_level(output, k);
-                add({&path, 1}, name_of(kind));
+                add({&path, 1}, noun_of(kind));
             }
         } else {
-            add({&output, 1}, name_of(kind));
+            add({&output, 1}, noun_of(kind));
         }
     }
     if (!request.sheet.empty()) files.push_back({request.sheet, "--sheet"});

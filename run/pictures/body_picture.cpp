@@ -8,7 +8,6 @@
 #include "run/pictures/tissue_picture.h"
 #include "run/tissue/grown_body.h"
 #include "tissue/sense_kernel.h"
-#include "lang/syntax/picture_expression.h"
 
 #include <fmt/format.h>
 
@@ -18,12 +17,6 @@
 #include <utility>
 
 namespace cascade {
-
-bool draws_body(const Script& script, const PictureRequest& request) {
-    const DomainSettings& domain = script.program->domain;
-    return domain.grid.depth > 1 && !domain.model && !request.flat && request.slice == Slice() &&
-           picture_expression(script.tree, "body");
-}
 
 std::shared_ptr<const SurfaceMesh> body_of(const Field& values, const DomainMask* mask,
                                            Boundaries boundary) {

@@ -16,9 +16,6 @@
 
 namespace cascade {
 
-/// Whether pictures of the script show a body. With --slice or --flat they show a slice instead.
-bool draws_body(const Script& script, const PictureRequest& request);
-
 /// The closed surface around the cells with values above 0, in the script's unit of length
 /// (run/tissue/grown_body.h). Cells with NaN and cells outside of `mask` (null: no mask) count as
 /// outside the body. Triangles are as large as cells, or larger if the surface would otherwise

@@ -197,13 +197,6 @@ PlacedFrames frames_of(const Simulation& simulation, std::uint32_t stage) {
     return frames;
 }
 
-bool has_cells(const Script& script) {
-    for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
-        if (script.program->system_of(k).cells) return true;
-    }
-    return false;
-}
-
 Result<std::shared_ptr<const FileShape>> picture_file(Script& script) {
     const PictureShape shape = picture_shape(script.tree, script.sources);
     if (shape.path.empty()) return nullptr;

@@ -48,9 +48,6 @@ struct DrawnCells {
     std::string fault;  ///< A message about cells that cannot be drawn. Empty if all can.
 };
 
-/// Whether any stage that runs has crawling cells.
-bool has_cells(const Script& script);
-
 /// Places the cells by the settings of the picture block. A setting that is missing, or that reads
 /// a value that does not exist yet, has its default. `file` is the result of picture_file(). If it
 /// is null, this function reads the file.

@@ -32,14 +32,6 @@ constexpr double usual_cover = 0.6;
 
 }  // namespace
 
-bool ModelFileOptions::is_baked(const std::filesystem::path& path) const {
-    return has_maps() && can_hold(path, FormatTrait::maps);
-}
-
-bool ModelFileOptions::is_animated(const std::filesystem::path& path) const {
-    return animate && can_hold(path, FormatTrait::growth);
-}
-
 std::int64_t texture_side(const ModelFileOptions& options, std::int64_t cells) {
     if (options.texels_per_cell > 0) {
         return std::min(map_side(options.texels_per_cell, cells, usual_cover),

@@ -42,9 +42,13 @@ struct ModelFileOptions {
     static constexpr std::int64_t most_texels = 8192;
     bool has_maps() const { return bake > 0 || texels_per_cell > 0; }
     /// Whether this file gets maps.
-    bool is_baked(const std::filesystem::path& path) const;
+    bool is_baked(const std::filesystem::path& path) const {
+        return has_maps() && can_hold(path, FormatTrait::maps);
+    }
     /// Whether this file shows the growth.
-    bool is_animated(const std::filesystem::path& path) const;
+    bool is_animated(const std::filesystem::path& path) const {
+        return animate && can_hold(path, FormatTrait::growth);
+    }
 };
 
 /// Whether files of a model need texture coordinates that still have to be made.

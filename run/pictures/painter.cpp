@@ -79,9 +79,11 @@ Result<Painter> Painter::create(Script& script, const PictureRequest& request,
                        near.empty() ? fmt::format("the palettes are {}", fmt::join(names, ", "))
                                     : fmt::format("did you mean '{}'?", near));
     }
-    auto file = picture_file(script);
-    if (!file) return tl::unexpected(file.error());
-    painter.file_shape_ = *std::move(file);
+    if (has_cells(script)) {
+        auto file = picture_file(script);
+        if (!file) return tl::unexpected(file.error());
+        painter.file_shape_ = *std::move(file);
+    }
     if (request.show.empty()) return painter;
 
     const SourceId source = script.sources.add(fmt::format("<{}>", option), request.show);

@@ -2,8 +2,7 @@
 #include "run/pictures/picture_size.h"
 
 #include "core/quantities.h"
-#include "run/pictures/body_picture.h"
-#include "run/pictures/drawn_cells.h"
+#include "lang/syntax/picture_expression.h"
 
 #include <fmt/format.h>
 
@@ -47,6 +46,19 @@ PictureSize scaled(PictureSize size, int scale) {
 }
 
 }  // namespace
+
+bool has_cells(const Script& script) {
+    for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
+        if (script.program->system_of(k).cells) return true;
+    }
+    return false;
+}
+
+bool draws_body(const Script& script, const PictureRequest& request) {
+    const DomainSettings& domain = script.program->domain;
+    return domain.grid.depth > 1 && !domain.model && !request.flat && request.slice == Slice() &&
+           picture_expression(script.tree, "body");
+}
 
 bool draws_scene(const Script& script, const PictureRequest& picture) {
     const DomainSettings& domain = script.program->domain;

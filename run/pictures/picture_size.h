@@ -1,4 +1,4 @@
-// Computes the size of a picture, and refuses pictures that are too large.
+// Computes the kind and size of a picture, and refuses pictures that are too large.
 #pragma once
 
 #include "core/result.h"
@@ -10,6 +10,12 @@
 #include <cstdint>
 
 namespace cascade {
+
+/// Whether any stage that runs has crawling cells.
+bool has_cells(const Script& script);
+
+/// Whether pictures of the script show a body. With --slice or --flat they show a slice instead.
+bool draws_body(const Script& script, const PictureRequest& request);
 
 /// Whether pictures are drawn from a viewpoint in space, as pictures of models, surfaces, bodies
 /// and crawling cells are.

@@ -4,7 +4,7 @@
 #include "core/enough_memory.h"
 #include "core/file.h"
 #include "export/zip.h"
-#include "run/pictures/body_picture.h"
+#include "run/pictures/picture_size.h"
 #include "run/pictures/map_size.h"
 #include "run/pictures/model_files.h"
 #include "run/pictures/model_picture.h"
