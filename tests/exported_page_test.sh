@@ -84,6 +84,6 @@ sed 's/^domain.*/domain { surface: sphere; cells: 500 }/' dots.cascade | sed 's/
 "$CASCADE" export points.cascade >/dev/null || fail "the page of a ball was not written"
 rm -rf profile profile_of_points_2 profile_of_lesson_2 profile_of_controls*
 node "$SOURCE/tests/page/exported.mjs" "$browser" || fail "see above"
-for page in '' cascade.html; do node "$SOURCE/tests/page/controls.mjs" "$browser" "$CASCADE" $page || fail "see above"; done
+for page in '' spots.html; do node "$SOURCE/tests/page/controls.mjs" "$browser" "$CASCADE" $page || fail "see above"; done
 node "$SOURCE/tests/page/points.mjs" "$browser" "$CASCADE" points.cascade points.html || fail "see above"
 node "$SOURCE/tests/page/lesson.mjs" "$browser" "$CASCADE" lesson.cascade lesson.html || fail "see above"
