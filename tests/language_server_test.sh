@@ -13,7 +13,7 @@ ends() {
     [ -z "$words" ] || grep -qF -- "$words" out err || fail "no '$words' in: $(cat out err)"
 }
 ends 1 '' </dev/null
-ends 3 'no stream of messages: a line of a header has no colon' < <(printf 'GET / HTTP/1.1\r\n\r\n')
+ends 3 'not a stream of messages: a line of a header has no colon' < <(printf 'GET / HTTP/1.1\r\n\r\n')
 ends 3 'a header has no Content-Length' < <(printf 'Accept: x\r\n\r\n')
 ends 3 'Content-Length is not a number of bytes' < <(printf 'Content-Length: ten\r\n\r\n')
 ends 3 'a header has more than 4096 bytes' < <(head -c 100000 /dev/zero)
