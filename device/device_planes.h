@@ -29,8 +29,7 @@ public:
     /// scratch.
     const DeviceBuffer& of(RegisterId id, CopyRoles roles) const;
 
-    /// Allocates the registers (including those of the copies) and temporaries that a problem
-    /// needs.
+    /// Allocates the temporaries and registers that a problem needs, also registers for copies.
     void make(std::uint32_t registers, std::uint32_t temporaries);
     void exchange(RegisterId one, RegisterId other);
 

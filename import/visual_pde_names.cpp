@@ -202,7 +202,8 @@ bool VisualPdeNames::measure() {
     }
     columns = std::max<std::int64_t>(static_cast<std::int64_t>(*scale / *step + 1e-9), 2);
     rows = is_line_ ? 1 : columns;
-    // The differences must be those of VisualPDE, so its step is kept and the width is rounded.
+    // Finite differences must use the same spacing as VisualPDE, so its step is kept and the width
+    // is rounded.
     spacing = *step;
     width = height = spacing * static_cast<double>(columns);
     if (std::abs(width / *scale - 1) > 1e-6) {

@@ -1,5 +1,4 @@
-// Reduces a row to eight partial results, one for each lane of a vector, and then combines these in
-// pairs.
+// Reduces a row to eight partial results, one per vector lane, and then combines them in pairs.
 #include "ir/reduction.h"
 
 #include <array>

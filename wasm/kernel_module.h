@@ -42,8 +42,8 @@ struct WasmOptions {
 /// - The function computes columns [column_begin, column_end), at least one, of rows [row_begin,
 ///   row_end). `column_begin` is a multiple of 16. So is `column_end`, unless it is the number of
 ///   cells in a row. `stride` is PlaneLayout::stride.
-/// - As ir/backend.h allows, an output may be a field that sole_results() names, and any values may
-///   be written into the output behind the last cell of a row, up to a multiple of 16 cells.
+/// - As ir/backend.h allows, an output may be a field that sole_results() names. Kernels may
+///   overwrite the padding after the last cell of a row, up to a multiple of 16 cells.
 /// - Fields that are read in other cells must have their halo filled.
 ///
 /// More arguments depend on the stencil:

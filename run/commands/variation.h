@@ -66,7 +66,8 @@ Result<std::size_t> count_runs(std::span<const Variation> varied);
 /// All names. Names that vary together are separate elements.
 std::vector<std::string> names_of(std::span<const Variation> varied);
 
-/// The values of run `number`, one for each name. The first variation varies fastest.
+/// The values that run `number` gives to the names, in the same order. From run to run, the first
+/// variation changes fastest.
 std::vector<std::string> values_of_run(std::span<const Variation> varied, std::size_t number);
 
 /// The name of the folder for a run's fields, such as "feed=0.02,kill=0.05". A slash is replaced by

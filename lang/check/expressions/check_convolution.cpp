@@ -86,7 +86,7 @@ bool ExpressionChecker::take_lag(std::string_view name) {
         scope_.system != unknown_system && find(work_.names[scope_.system], name) != nullptr;
     if (is_known) {
         error(node.span,
-              fmt::format("'{}' is a name of the system, but has a meaning of its own in a kernel",
+              fmt::format("'{}' is a name of the system, but means something else in a kernel",
                           name),
               "rename the value of the system");
         return true;

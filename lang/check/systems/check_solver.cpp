@@ -33,9 +33,9 @@ bool has_diffusion(const IdVector<SpeciesId, SpeciesDiffusion>& diffusion) {
     });
 }
 
-/// Finds a species that has a fixed value or slope at a side and whose rate contains lap of its own
-/// lap. The inner lap is stored in a plane that is mirrored at sides, so the waves of this plane
-/// differ from the waves of the species.
+/// Finds a species that has a fixed value or slope at a side and whose rate contains lap(lap(…)) of
+/// this species. The inner lap is stored in a plane that is mirrored at sides, so the waves of this
+/// plane differ from the waves of the species.
 std::optional<SpeciesId> held_and_nested(const Stage& stage,
                                          const IdVector<SpeciesId, SpeciesDiffusion>& diffusion) {
     for (const SpeciesId s : stage.sides.ids()) {
