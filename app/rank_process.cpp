@@ -76,6 +76,12 @@ Result<void> check_divisible(const Script& script, const RunRequest& request, in
                    fmt::format("it has room for at most {}", counted(parts, "rank")));
 }
 
+/// Ends a rank because of a failure that all ranks find. Only rank 0 prints it.
+int refuse(const Console& console, const Failure& failure, int status) {
+    if (launched_rank() == 0) console.fail(failure);
+    return status;
+}
+
 /// Fails if this rank was started with another program or other arguments than rank 0.
 Result<void> compare(const Options& options, Ranks& ranks) {
     std::error_code unknown;
@@ -145,24 +151,21 @@ int run_as_rank(const Options& options, Console& console, CommandOnRanks& comman
     const int launched = launched_ranks().value_or(1);
     const int wanted = options.ranks;
     if (wanted > 0 && wanted != launched) {
-        if (launched_rank() > 0) return exit_status::wrong_use;
-        console.fail({fmt::format("--ranks {} does not fit the {} ranks that mpiexec has started",
-                                  wanted, launched),
-                      "leave --ranks out: mpiexec gives the number"});
-        return exit_status::wrong_use;
+        return refuse(console,
+                      {fmt::format("--ranks {} does not fit the {} ranks that mpiexec has started",
+                                   wanted, launched),
+                       "leave --ranks out: mpiexec gives the number"},
+                      exit_status::wrong_use);
     }
     if (launched == 1) return command(options, console, nullptr);
     if (!options.device.empty()) {
-        if (launched_rank() > 0) return exit_status::wrong_use;
-        console.fail({"ranks take steps on threads, so --device cannot be used with mpiexec",
-                      "leave --device out, or run one process"});
-        return exit_status::wrong_use;
+        return refuse(console,
+                      {"ranks take steps on threads, so --device cannot be used with mpiexec",
+                       "leave --device out, or run one process"},
+                      exit_status::wrong_use);
     }
     const auto messenger = connect_ranks();
-    if (!messenger) {
-        if (launched_rank() == 0) console.fail(messenger.error());
-        return exit_status::failed_run;
-    }
+    if (!messenger) return refuse(console, messenger.error(), exit_status::failed_run);
     Ranks ranks(**messenger);
     return ranks.is_root() ? run_as_root(options, console, ranks, command)
                            : run_silently(options, console, ranks, command);
