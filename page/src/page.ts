@@ -101,19 +101,16 @@ const connection = new Connection({
         is_drawing = true;
         requestAnimationFrame(() => {
             is_drawing = false;
-            try {
-                pattern.draw();
-                slices.show(pattern.snapshot!);
-                void measure.look_at(pattern.snapshot!);
-                lesson.look_at(pattern.snapshot!);
-                want_surface(pattern.snapshot!);
-                preparing.blank = pattern.snapshot!.is_model && solid.is_possible && !pattern.is_solid;
-                show_state(pattern.snapshot!);
-                if (!pattern.canvas.hidden) keep_what_is_seen();
-            } finally {
-                // Requests the next snapshot even if this one fails.
-                connection.next_snapshot();
-            }
+            // The next snapshot comes while this one is drawn.
+            connection.next_snapshot();
+            pattern.draw();
+            slices.show(pattern.snapshot!);
+            void measure.look_at(pattern.snapshot!);
+            lesson.look_at(pattern.snapshot!);
+            want_surface(pattern.snapshot!);
+            preparing.blank = pattern.snapshot!.is_model && solid.is_possible && !pattern.is_solid;
+            show_state(pattern.snapshot!);
+            if (!pattern.canvas.hidden) keep_what_is_seen();
         });
     },
     surface(surface) {

@@ -141,7 +141,10 @@ void Turns::remark(std::uint32_t stage, const std::string& words) {
 
 bool Turns::is_snapshot_due() const {
     const double patience = std::max(snapshot_seconds, snapshot_cost_ / part_of_snapshots);
-    return !is_going_on_ || seconds_since(shown_at_) >= patience;
+    // A snapshot is made at the end of the turn that is nearest to the moment when it is due. Turns
+    // are a little shorter than `snapshot_seconds`, so otherwise only every second turn would end
+    // with one.
+    return !is_going_on_ || seconds_since(shown_at_) >= patience - turn_seconds / 2;
 }
 
 Canvas Turns::canvas() {
