@@ -7,9 +7,9 @@
 #
 # What happens. By default, ssim.js first averages and thins out pictures until the smaller side has about 256 pixels.
 # Up to 383 pixels nothing happens. From 384 on, each pixel is the mean of 2 x 2 pixels and every second one is left
-# out: checks of one pixel and stripes of two become grey, and the SSIM jumps from .004 to 1. The inventors of SSIM
-# recommend this for pictures that are seen from a distance, but their function leaves it to the caller. So a test
-# that compares rendered patterns passes on large pictures although the pattern is missing. Nothing warns.
+# out: checks of one pixel and stripes of two become grey, and the SSIM jumps from .004 to 1. The inventors of SSIM do
+# so as well in the later version of their program, for pictures that are seen from a distance. So a test that
+# compares rendered patterns passes on large pictures although the pattern is missing. Nothing warns.
 #
 # Workaround: the option downsample: false.
 #

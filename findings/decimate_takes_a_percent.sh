@@ -7,8 +7,8 @@
 # What happens. The usual filter is of the kind Chebyshev I, order 8, with a ripple of .05 dB. With an even order such
 # a filter has its lowest value at frequency 0: -.05 dB, and as it runs forwards and backwards, -.1 dB. So 1 becomes
 # .98855, whatever q is. An amount that is conserved by the equations seems to lose 1.1 % when the film is thinned
-# out, and twice as much when this is done in two steps, as both manuals recommend for a large q. Waves below half of
-# the new limit are between .9886 and 1 of their height. Nothing warns.
+# out, and twice as much when this is done in two steps, as the manual of SciPy recommends for q above 13. Waves below
+# half of the new limit are between .9886 and 1 of their height. Nothing warns.
 #
 # Workaround: ftype="fir" in SciPy, decimate(x, q, "fir") in Octave; an odd order, decimate(x, q, 7), which has 1 at
 # frequency 0.

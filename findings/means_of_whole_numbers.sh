@@ -6,8 +6,7 @@
 #
 # What happens. Both tools keep the type of the variable and round. The mean of 1 1 1 4 is 2, not 1.75, and the
 # standard deviation in cdo is 1, not 1.3. cdo divc,2 turns 1 2 3 4 into 1 1 2 2, so the sum of the halves is 6
-# instead of 5. The mean number of spots in a series, or of white pixels in a film of 0 and 1, is 0 or 1. Neither tool
-# warns.
+# instead of 5. The mean of a film of 0 and 1 is 0 or 1 in each pixel. Neither tool warns.
 #
 # Workaround: cdo -b F64; in NCO ncap2 -s 'u=double(u)' before.
 #

@@ -6,8 +6,8 @@
 # packages follow the same text and should do so as well.
 #
 # What happens. In two dimensions they do. In three, simplex3 of noisejs ends at .42, since it cuts the corners off at
-# another radius and keeps the old factor; its spread is .16 instead of .43. fast-simplex-noise goes to 1.2, and to
-# 1.1 in four dimensions: a colour map or a texture of bytes that expects 1 is cut, or turns over to black. Code that
+# another radius and keeps the old factor; its spread is .16 instead of .43. fast-simplex-noise goes to 1.23, and to
+# 1.15 in four dimensions: a colour map or a texture of bytes that expects 1 is cut, or turns over to black. Code that
 # goes from a picture to a film, with time as the third coordinate, changes its contrast, and a threshold such as .5,
 # which covered 14 % of the picture, is never reached.
 #
@@ -23,7 +23,8 @@ dir=$(mktemp -d)
 trap 'rm -rf "$dir"' EXIT
 cd "$dir"
 echo '{"private":true,"type":"module"}' > package.json
-npm install --silent --no-audit --no-fund --ignore-scripts simplex-noise@4.0.3 noisejs@2.1.0 fast-simplex-noise@4.0.0 ||
+npm install --silent --no-audit --no-fund --ignore-scripts \
+  simplex-noise@4.0.3 noisejs@2.1.0 fast-simplex-noise@4.0.0 ||
   { echo "npm could not install the packages"; exit 2; }
 cat > try.js <<'EOF_JS'
 import { createNoise2D, createNoise3D, createNoise4D } from 'simplex-noise';

@@ -7,7 +7,7 @@
 # What happens. netCDF4 masks 255 in u1 and -127 in i1. It does so for each type with its default fill value, but in
 # bytes this is a number that occurs: the white pixels of a picture, a saturated field, label 255, or counts that were
 # cut at 255. Means and sums leave them out: the mean of 0 1 254 255 is 85 instead of 127.5. filled() puts in the same
-# number again, so a round trip hides it. xarray, cdo and ncks read 255 as a number. Nothing warns.
+# number again, so a round trip hides it. xarray and cdo read 255 as a number. Nothing warns.
 #
 # Workaround: set_auto_mask(False) for the data set; or fill_value=False when the variable is made.
 #
