@@ -320,8 +320,8 @@ Result<std::string> parse_output_path(std::string_view text) {
     const std::string ending = lower_ending(std::filesystem::path(text));
     if (ending == ".npy" || ending == ".csv" || ending == ".h5" || ending == ".txt") {
         return failure(fmt::format("'{}' is a file of numbers, and -o writes pictures", text),
-                       "--save FOLDER writes each species as .npy, --series NAME.npy or NAME.csv "
-                       "fields over time, --log EXPR a table of numbers over time");
+                       "--save FOLDER writes each species as .npy, --series NAME.npy, NAME.h5 or "
+                       "NAME.csv fields over time, --log EXPR a table of numbers over time");
     }
     return failure(
         fmt::format("the ending of '{}' is not that of a file that can be written", text),

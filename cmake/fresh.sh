@@ -23,7 +23,7 @@ is_fresh() {
     [ -x "$program" ] && [ -s "$build/built" ] || return 1
     read -r sources <"$build/built"
     # An optional library may have been installed since the last build.
-    for library in /usr/include/openvdb/openvdb.h /usr/lib/*/openmpi/include/mpi.h /usr/include/*/mpich/mpi.h; do
+    for library in /usr/include/openvdb/openvdb.h /usr/include/hdf5/serial/hdf5.h /usr/lib/*/openmpi/include/mpi.h /usr/include/*/mpich/mpi.h; do
         [ ! -e "$library" ] || sources="$sources $library"
     done
     changed=$(CDPATH= cd -- "$root" && exec find $sources -cnewer build/release/built -print -quit 2>/dev/null) && [ -z "$changed" ]

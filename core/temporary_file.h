@@ -48,7 +48,7 @@ public:
     /// Closes the file and renames it to `name` in the folder, replacing any file of that name.
     /// Returns 0 or the error number.
     int rename_to(const std::string& name);
-    /// Renames the file as rename_to() does, but leaves it open.
+    /// Renames the file as rename_to() does, but leaves it open, without its lock.
     int take_name(const std::string& name);
     /// Closes the file and leaves it under its temporary name. Returns 0 or the error number.
     int stay();

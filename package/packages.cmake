@@ -7,7 +7,7 @@
 
 # Everything that is installed.
 add_custom_target(cascade_installed)
-foreach(target cascade_program cascade_llvm cascade_openvdb cascade_sbml cascade_library cascade_python
+foreach(target cascade_program cascade_llvm cascade_openvdb cascade_hdf5 cascade_sbml cascade_library cascade_python
     cascade_manual_pages cascade_engine)
   if(TARGET ${target})
     add_dependencies(cascade_installed ${target})

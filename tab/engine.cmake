@@ -26,7 +26,7 @@ list(APPEND CASCADE_WITHOUT
   surface/mutual_tessellation surface/remove_points surface/retile
   surface/retiled_attribute
   picture/deflate picture/png_reader picture/read_grey_picture picture/read_png picture/drawing_pdf picture/exr
-  picture/openvdb_module picture/vdb picture/write_drawing
+  picture/hdf5 picture/hdf5_driver picture/hdf5_module picture/openvdb_module picture/vdb picture/write_drawing
   export/levels render/ray_caster
   run/domain/free_memory run/domain/reshape_model run/domain/deadline
   run/pictures/frame_folder run/pictures/frames run/pictures/grid_files

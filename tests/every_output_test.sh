@@ -50,6 +50,7 @@ outputs=(
     'volume.vti --volume volume.vti'
     'series.pvd --series series.pvd'
     'array.json --series array.npy'
+    'grown.xdmf --series grown.h5'
     'line.csv --series line.csv'
     'fine.png -o fine.png --detail 2'
     'flat.gif -o flat.gif --flat'

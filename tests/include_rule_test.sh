@@ -56,6 +56,8 @@ broken+=$(grep -rE --include='*.h' --include='*.cpp' 'include *[<"]OpenEXR/' $fo
     grep -v '^picture/exr\.cpp:')
 broken+=$(grep -rE --include='*.h' --include='*.cpp' 'include *[<"]openvdb/' $folders |
     grep -v '^picture/openvdb_module\.cpp:')
+broken+=$(grep -rE --include='*.h' --include='*.cpp' 'include *[<"]hdf5' $folders |
+    grep -vE '^picture/hdf5_(module\.cpp|driver\.h):')
 broken+=$(grep -rE --include='*.h' --include='*.cpp' 'include *[<"]sbml/' $folders |
     grep -v '^import/sbml_module\.cpp:')
 broken+=$(grep -rE --include='*.h' --include='*.cpp' 'include *[<"]CL/' $folders |

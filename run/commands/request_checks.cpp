@@ -115,9 +115,10 @@ private:
         refuse_if(is_csv && (rows != 1 || domain_.model), series,
                   "a .csv series has a row of cells",
                   "--series NAME.npy has planes, volumes and models, too");
-        if (!is_csv && !is_of_format(request_.series, FileFormat::npy)) {
+        if (request_.series.empty() || is_of_format(request_.series, FileFormat::pvd)) {
             refuse({field}, "no array of fields is written",
-                   "--series NAME.npy writes one, and NAME.csv of a line of cells");
+                   "--series NAME.npy writes one, NAME.h5 a dataset for each, and NAME.csv a table "
+                   "of a line of cells");
         }
         if (!is_volume)
             refuse({slice, slices}, "a plane has no slices", "grid: W, H, D makes a volume");

@@ -8,6 +8,7 @@
 #include "export/material_maps.h"
 #include "film/film.h"
 #include "picture/caption.h"
+#include "picture/hdf5.h"
 #include "picture/vdb.h"
 #include "run/commands/run_option.h"
 #include "run/pictures/material.h"
@@ -117,6 +118,9 @@ Result<void> check_outputs(const Script& script, const RunRequest& request,
         }
         if (is_of_format(file.path, FileFormat::vdb)) {
             if (auto good = check_vdb(file.path); !good) return good;
+        }
+        if (is_of_format(file.path, FileFormat::h5)) {
+            if (auto good = check_hdf5(file.path); !good) return good;
         }
         folders.insert(file.path.parent_path());
     }

@@ -4,6 +4,7 @@
 
 #include "core/file.h"
 #include "measure/features.h"
+#include "run/commands/named_expression.h"
 #include "run/pictures/measured.h"
 #include "core/csv.h"
 
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -37,18 +37,6 @@ Result<void> check_rows(const Script& script, const LogRequest& request) {
     return {};
 }
 
-/// The position of the '=' in "NAME=EXPR". 0 if the text has no name.
-std::size_t end_of_name(std::string_view text) {
-    const auto is_of_name = [](char c) {
-        return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
-    };
-    const auto end = std::find_if_not(text.begin(), text.end(), is_of_name);
-    const auto equals = std::find_if(end, text.end(), [](char c) { return c != ' '; });
-    const bool is_name = end != text.begin() && !std::isdigit(static_cast<unsigned char>(text[0]));
-    const auto at = static_cast<std::size_t>(equals - text.begin());
-    return is_name && text.substr(at, 1) == "=" && text.substr(at, 2) != "==" ? at : 0;
-}
-
 std::optional<std::size_t> feature_called(std::string_view name) {
     const auto& names = measure::feature_names();
     const auto found = std::find(names.begin(), names.end(), name);
@@ -64,10 +52,8 @@ std::vector<RunLog::Column> RunLog::columns_of(Script& script, const LogRequest&
                                                std::vector<std::string>& expressions) {
     std::vector<Column> columns;
     for (const std::string& text : request.expressions) {
-        const std::size_t equals = end_of_name(text);
-        std::string value = equals > 0 ? text.substr(equals + 1) : text;
-        value.erase(0, value.find_first_not_of(' '));
-        Column column{equals > 0 ? text.substr(0, text.find_first_of(" =")) : text};
+        auto [name, value] = named_expression(text);
+        Column column{std::move(name)};
         const auto feature = feature_called(value);
         if (feature && !StageFormulas::fits_some(script, "--log", value)) column.feature = feature;
         else expressions.push_back(std::move(value));

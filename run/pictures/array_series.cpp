@@ -3,10 +3,9 @@
 #include "run/pictures/array_series.h"
 
 #include "core/csv.h"
-#include "core/enough_memory.h"
 #include "core/growing_file.h"
-#include "picture/float_bytes.h"
 #include "picture/npy.h"
+#include "run/pictures/array_moments.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,7 +14,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,117 +24,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A moment of the shown stage.
-struct Moment {
-    std::string stage;
-    std::int64_t step = 0;
-    double t = 0;     ///< Time since the stage began. NaN if `speed` varies.
-    double time = 0;  ///< Time since the start of the run. NaN if `speed` varies.
-};
-
-Moment moment_of(const Simulation& simulation) {
-    const std::uint32_t stage = shown_stage(simulation);
-    return {simulation.domain().program->stages[stage].name, simulation.state(stage).steps,
-            time_of(simulation, stage), time_since_start(simulation)};
-}
-
-/// The numbers of cells along each axis.
-std::vector<std::int64_t> sides_of(const Simulation& simulation) {
-    if (const auto model = simulation.domain().shared_model())
-        return {static_cast<std::int64_t>(model->count())};
-    const Grid& grid = simulation.domain().grid;
-    if (grid.depth > 1) return {grid.depth, grid.height, grid.width};
-    if (grid.height > 1) return {grid.height, grid.width};
-    return {grid.width};
-}
-
-std::int64_t cells_of(const std::vector<std::int64_t>& sides) {
-    std::int64_t cells = 1;
-    for (const std::int64_t side : sides) cells *= side;
-    return cells;
-}
-
-/// Appends the cells of a field, or NaN for each cell if the field is empty.
-void append_cells(std::string& bytes, const Field& field, const Simulation& simulation,
-                  std::int64_t cells) {
-    const auto model = simulation.domain().shared_model();
-    if (!field.empty() && !model) return append_floats(bytes, field);
-    const std::vector<double> values =
-        field.empty() ? std::vector<double>(static_cast<std::size_t>(cells),
-                                            std::numeric_limits<double>::quiet_NaN())
-                      : cell_values(field, *model);
-    with_number(simulation.domain().program->domain.precision, [&](auto zero) {
-        for (const double value : values) {
-            append_number(bytes, static_cast<decltype(zero)>(value));
-        }
-    });
-}
-
-/// The common part of both formats. A moment is added completely or not at all.
-class ArraySeries : public SeriesWriter {
-public:
-    ArraySeries(std::filesystem::path path, SeriesFields fields)
-        : path_(std::move(path)), fields_(std::move(fields)) {}
-
-    void add(const Simulation& simulation) override {
-        if (failure_) return;
-        const auto added = enough_memory_for(
-            [&] { return add_moment(simulation); },
-            fmt::format("cannot write '{}': there is not enough memory", path_.string()));
-        if (!added) failure_ = added.error();
-        else ++moments_;
-    }
-
-    Result<WrittenSeries> finish() override {
-        if (failure_) return tl::unexpected(*failure_);
-        if (moments_ == 0) {
-            return failure(fmt::format("'{}' has no moments, because the run took no step",
-                                       path_.string()),
-                           "there is one at the start of a stage and at each 'interval'");
-        }
-        if (auto done = complete(); !done) return tl::unexpected(done.error());
-        return WrittenSeries{files_of_series(path_), 0};
-    }
-
-protected:
-    const std::filesystem::path& path() const { return path_; }
-    const std::vector<std::string>& names() const { return fields_.names; }
-    std::vector<Field> values(const Simulation& simulation) const {
-        return fields_.values(simulation);
-    }
-    std::int64_t moments() const { return moments_; }  ///< The number of moments added so far.
-
-private:
-    virtual Result<void> add_moment(const Simulation& simulation) = 0;
-    virtual Result<void> complete() = 0;
-
-    std::filesystem::path path_;
-    SeriesFields fields_;
-    std::int64_t moments_ = 0;
-    std::optional<Failure> failure_;
-};
-
-/// Creates a file that begins with `bytes`. It has no name yet.
-Result<std::unique_ptr<GrowingFile>> begun(const std::filesystem::path& path,
-                                           std::string_view bytes) {
-    auto file = GrowingFile::create(path);
-    if (!file) return file;
-    if (auto done = (*file)->append(bytes); !done) return tl::unexpected(done.error());
-    return file;
-}
-
 class NpySeries : public ArraySeries {
 public:
     using ArraySeries::ArraySeries;
 
 private:
     Result<void> add_moment(const Simulation& simulation) override {
-        const std::vector<std::int64_t> sides = sides_of(simulation);
+        const std::vector<std::int64_t> sides = sides_of_cells(simulation);
         std::string bytes;
-        for (const Field& field : values(simulation)) {
-            append_cells(bytes, field, simulation, cells_of(sides));
-        }
-        const std::string entry = json(moment_of(simulation));
+        for (const Field& field : values(simulation)) append_cells(bytes, field, simulation);
+        const std::string entry = json(array_moment(simulation));
         if (!array_) return begin(simulation, sides, bytes, entry);
         if (auto done = array_->append(bytes); !done) return done;
         const std::string head = (moments() > 0 ? ",\n" : "\n") + entry;
@@ -153,10 +50,10 @@ private:
         type_ = fmt::format("<f{}", bytes_of(simulation.domain().program->domain.precision));
         shape_ = names().size() > 1 ? fmt::format("{}, ", names().size()) : "";
         shape_ += fmt::format("{}", fmt::join(sides, ", "));
-        auto array = begun(path(), header(1) + bytes);
+        auto array = begin_growing(path(), header(1) + bytes);
         if (!array) return tl::unexpected(array.error());
-        auto list = begun(files_of_series(path())[1],
-                          describe(simulation, sides) + "\n" + entry + std::string(end_of_list));
+        auto list = begin_growing(files_of_series(path())[1], describe(simulation, sides) + "\n" +
+                                                                  entry + std::string(end_of_list));
         if (!list) return tl::unexpected(list.error());
         array_ = *std::move(array);
         list_ = *std::move(list);
@@ -196,11 +93,11 @@ private:
         return text + " \"moments\": [";
     }
 
-    static std::string json(const Moment& moment) {
+    static std::string json(const ArrayMoment& moment) {
         const auto number = [](double value) {
             return std::isfinite(value) ? Json(value) : Json(nullptr);
         };
-        return "  " + written({{"stage", moment.stage},
+        return "  " + written({{"stage", moment.stage_name},
                                {"step", moment.step},
                                {"t", number(moment.t)},
                                {"time", number(moment.time)}});
@@ -224,9 +121,9 @@ public:
 
 private:
     Result<void> add_moment(const Simulation& simulation) override {
-        const Moment moment = moment_of(simulation);
+        const ArrayMoment moment = array_moment(simulation);
         const Precision precision = simulation.domain().program->domain.precision;
-        std::vector<std::string> cells = {moment.stage, fmt::format("{}", moment.step),
+        std::vector<std::string> cells = {moment.stage_name, fmt::format("{}", moment.step),
                                           csv_number(moment.t, precision)};
         for (const Field& field : values(simulation)) {
             for (std::int64_t i = 0; i < simulation.domain().grid.width; ++i) {
@@ -234,7 +131,7 @@ private:
             }
         }
         if (file_) return file_->append(csv_row(cells));
-        auto file = begun(path(), head(simulation.domain().grid) + csv_row(cells));
+        auto file = begin_growing(path(), head(simulation.domain().grid) + csv_row(cells));
         if (!file) return tl::unexpected(file.error());
         file_ = *std::move(file);
         return file_->appear();

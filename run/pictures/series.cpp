@@ -12,6 +12,7 @@
 #include "picture/xml_text.h"
 #include "run/domain/domain_mask.h"
 #include "run/pictures/array_series.h"
+#include "run/pictures/hdf5_series.h"
 #include "run/pictures/model_files.h"
 #include "run/pictures/refined_model.h"
 #include "surface/cell_filter.h"
@@ -246,6 +247,7 @@ struct SeriesRow {
 constexpr std::array series_writers = {
     SeriesRow{FileFormat::pvd, ParaviewSeries::create},
     SeriesRow{FileFormat::npy, make_npy_series},
+    SeriesRow{FileFormat::h5, make_hdf5_series},
     SeriesRow{FileFormat::csv, make_csv_series},
 };
 static_assert(has_all_of(series_writers, FormatKind::series));
@@ -253,8 +255,12 @@ static_assert(has_all_of(series_writers, FormatKind::series));
 }  // namespace
 
 std::vector<std::filesystem::path> files_of_series(const std::filesystem::path& path) {
-    if (!is_of_format(path, FileFormat::npy)) return {path};
-    return {path, std::filesystem::path(path).replace_extension(".json")};
+    const auto beside = [&](const char* ending) {
+        return std::vector{path, std::filesystem::path(path).replace_extension(ending)};
+    };
+    if (is_of_format(path, FileFormat::npy)) return beside(".json");
+    if (is_of_format(path, FileFormat::h5)) return beside(".xdmf");
+    return {path};
 }
 
 Result<std::unique_ptr<SeriesWriter>> make_series(const std::filesystem::path& path,

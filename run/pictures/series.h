@@ -35,6 +35,9 @@ double time_since_start(const Simulation& simulation);
 /// Fields for a series. They can be computed at any moment of a run.
 struct SeriesFields {
     std::vector<std::string> names;
+    std::vector<std::string> expressions;  ///< What the fields are, as texts.
+    /// Texts for formats that hold them, such as the script.
+    std::map<std::string, std::string> texts;
     /// Returns a field for each name, in all cells of the domain. A field is empty if its name has
     /// no meaning in the shown stage.
     std::function<std::vector<Field>(const Simulation& simulation)> values;
@@ -66,7 +69,8 @@ public:
 /// all species for each moment, .vti for a grid or .vtp for a model. The triangles of the model are
 /// refined for its colours.
 ///
-/// .npy and .csv contain the fields as one array (run/pictures/array_series.h).
+/// .npy and .csv contain the fields as one array (run/pictures/array_series.h), .h5 each field as a
+/// dataset (run/pictures/hdf5_series.h).
 ///
 /// Fails if a resumed run would replace an earlier series, or if a folder cannot be made.
 Result<std::unique_ptr<SeriesWriter>> make_series(const std::filesystem::path& path,

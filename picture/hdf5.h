@@ -1,0 +1,95 @@
+// Writes fields over time as HDF5 files (The HDF Group, "HDF5 File Format Specification", version
+// 1), in the layout of netCDF-4, which h5py, xarray, R, MATLAB and ParaView read. Cascade calls the
+// library in a module, which is built if libhdf5-dev is installed and loaded when the first file is
+// checked or written.
+#pragma once
+
+#include "core/precision.h"
+#include "core/result.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace cascade {
+
+using Hdf5Attribute = std::variant<double, std::int64_t, std::string>;
+/// Attributes by name. Their texts must be shorter than 64 kB.
+using Hdf5Attributes = std::map<std::string, Hdf5Attribute>;
+
+/// Numbers along an axis of the cells.
+struct Hdf5Column {
+    std::string name;
+    std::string long_name;
+    std::vector<double> values;
+};
+
+/// What a file contains besides its moments.
+struct Hdf5Layout {
+    /// The axes of the cells, the slowest first, with the positions of the cells. The names are
+    /// those of dimension scales.
+    std::vector<Hdf5Column> axes;
+    /// Further numbers along the last axis, such as the positions of a model's cells.
+    std::vector<Hdf5Column> coordinates;
+    /// The fields: names of datasets, with their attributes.
+    std::vector<std::pair<std::string, Hdf5Attributes>> fields;
+    Precision precision = Precision::single;
+    /// The names of the stages, by number, with the attributes of their groups.
+    std::vector<std::pair<std::string, Hdf5Attributes>> stages;
+    Hdf5Attributes about;                      ///< The attributes of the file.
+    std::map<std::string, std::string> texts;  ///< Datasets of one text each, of any length.
+};
+
+/// A moment of a run.
+struct Hdf5Moment {
+    double time = 0;         ///< Since the run began. NaN if there is none.
+    double t = 0;            ///< Since the stage began. NaN if there is none.
+    std::int64_t step = 0;   ///< Of the stage.
+    std::int32_t stage = 0;  ///< The index in Hdf5Layout::stages.
+};
+
+/// An open file. After each call it can be read, even if the process is killed. If a call fails,
+/// the file keeps the moments that it has.
+class Hdf5File {
+public:
+    Hdf5File() = default;
+    Hdf5File(const Hdf5File&) = delete;
+    Hdf5File& operator=(const Hdf5File&) = delete;
+    virtual ~Hdf5File() = default;
+
+    /// Adds a moment. `fields` has the bytes of each field, in the layout's precision. A field
+    /// without bytes is NaN at this moment. If this fails, nothing more can be added.
+    virtual Result<void> add(const Hdf5Moment& moment, const std::vector<std::string>& fields) = 0;
+    /// Adds numbers to the attributes of a stage's group, /stages/NAME.
+    virtual Result<void> describe(std::size_t stage,
+                                  const std::map<std::string, double>& numbers) = 0;
+    /// Writes what is left and closes the file. Must be the last call.
+    virtual Result<void> close() = 0;
+};
+
+/// The name of the module's only symbol, which takes the version of its caller and returns the
+/// function that makes files, or null if the module has another version.
+inline constexpr const char* hdf5_opener_symbol = "cascade_hdf5_opener";
+using Hdf5Opener = Result<std::unique_ptr<Hdf5File>>(const std::filesystem::path& path,
+                                                     const Hdf5Layout& layout);
+using Hdf5OpenerEntry = Hdf5Opener*(std::string_view version);
+
+/// Loads the module. Fails if this build has no module or if the HDF5 library is missing. The error
+/// is about the output file `path`, and says what to install.
+Result<void> check_hdf5(const std::filesystem::path& path);
+
+/// Begins a file without moments, replacing a file of this name. Fails like check_hdf5(), and if
+/// the file cannot be written. Errors name the file `shown`.
+Result<std::unique_ptr<Hdf5File>> begin_hdf5(const std::filesystem::path& path,
+                                             const Hdf5Layout& layout,
+                                             const std::filesystem::path& shown);
+
+/// Whether a dataset of a file may have this name beside the datasets that every file has.
+bool is_hdf5_name(std::string_view name);
+
+}  // namespace cascade

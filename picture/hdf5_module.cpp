@@ -1,0 +1,342 @@
+// The module that uses HDF5 (picture/hdf5.h).
+//
+// Files have the format that the library writes by default. After a flush such a file opens at
+// once, even if its writer was killed. Files of newer formats first need h5clear.
+#include "core/version.h"
+#include "picture/hdf5.h"
+#include "picture/hdf5_driver.h"
+
+#include <hdf5.h>
+#include <hdf5_hl.h>
+
+#include <algorithm>
+#include <limits>
+#include <new>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+namespace cascade {
+
+namespace {
+
+/// The innermost error of the library's last call.
+std::string hdf5_reason() {
+    std::string text = "unknown error of HDF5";
+    H5Ewalk2(
+        H5E_DEFAULT, H5E_WALK_UPWARD,
+        [](unsigned n, const H5E_error2_t* error, void* into) -> herr_t {
+            if (n == 0 && error->desc) *static_cast<std::string*>(into) = error->desc;
+            return 0;
+        },
+        &text);
+    return text;
+}
+
+/// Throws if a call of the library has failed.
+template <typename Number>
+Number good(Number result) {
+    if (result < 0) throw std::runtime_error(hdf5_reason());
+    return result;
+}
+
+/// An identifier of the library, which is closed at the end of its life.
+class Handle {
+public:
+    using Close = herr_t (*)(hid_t);
+    Handle() = default;
+    Handle(hid_t id, Close close) : id_(good(id)), close_(close) {}
+    Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+    Handle& operator=(Handle&& other) noexcept {
+        std::swap(id_, other.id_);
+        std::swap(close_, other.close_);
+        return *this;
+    }
+    Handle(const Handle&) = delete;
+    Handle& operator=(const Handle&) = delete;
+    ~Handle() {
+        if (id_ >= 0) close_(id_);
+    }
+    operator hid_t() const { return id_; }
+
+private:
+    hid_t id_ = -1;
+    Close close_ = nullptr;
+};
+
+Handle space_of(const std::vector<hsize_t>& sizes) {
+    return {H5Screate_simple(static_cast<int>(sizes.size()), sizes.data(), nullptr), H5Sclose};
+}
+
+/// The type of texts of any length in UTF-8.
+Handle text_type() {
+    Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+    good(H5Tset_size(type, H5T_VARIABLE));
+    good(H5Tset_cset(type, H5T_CSET_UTF8));
+    return type;
+}
+
+void write_attribute(hid_t object, const std::string& name, hid_t type, const void* value,
+                     std::size_t count = 1) {
+    const Handle space = count == 1 ? Handle(H5Screate(H5S_SCALAR), H5Sclose) : space_of({count});
+    const Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
+                           H5Aclose);
+    good(H5Awrite(attribute, type, value));
+}
+
+void write_text(hid_t object, const std::string& name, const std::string& text) {
+    const char* const bytes = text.c_str();
+    write_attribute(object, name, text_type(), &bytes);
+}
+
+void write_attributes(hid_t object, const Hdf5Attributes& attributes) {
+    for (const auto& [name, value] : attributes) {
+        if (const auto* number = std::get_if<double>(&value)) {
+            write_attribute(object, name, H5T_NATIVE_DOUBLE, number);
+        } else if (const auto* whole = std::get_if<std::int64_t>(&value)) {
+            write_attribute(object, name, H5T_NATIVE_INT64, whole);
+        } else {
+            write_text(object, name, std::get<std::string>(value));
+        }
+    }
+}
+
+/// The number of rows in a chunk of about a mebibyte, the size of the library's cache.
+std::vector<hsize_t> chunk_of(std::vector<hsize_t> sizes, std::size_t bytes) {
+    constexpr std::size_t most = std::size_t{1} << 20;
+    std::size_t whole = bytes;
+    for (auto size = sizes.rbegin(); size != sizes.rend(); ++size) {
+        *size = std::clamp<hsize_t>(most / whole, 1, *size);
+        whole *= *size;
+    }
+    return sizes;
+}
+
+/// Calls a function that throws the library's errors.
+template <typename Act>
+Result<void> attempt_hdf5(const Act& act) {
+    try {
+        act();
+        return {};
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& error) {
+        return failure(error.what());
+    }
+}
+
+class File final : public Hdf5File {
+public:
+    File(const std::filesystem::path& path, const Hdf5Layout& layout);
+
+    Result<void> add(const Hdf5Moment& moment, const std::vector<std::string>& fields) override;
+    Result<void> describe(std::size_t stage, const std::map<std::string, double>& numbers) override;
+    ~File() override;
+    Result<void> close() override;
+
+private:
+    /// A dataset that becomes longer with each moment.
+    struct Growing {
+        Handle dataset;
+        hid_t type = -1;
+        std::vector<hsize_t> sizes;  ///< Of one moment.
+    };
+
+    void make_axes(const Hdf5Layout& layout);
+    void write_column(const Hdf5Column& column, hid_t axis);
+    Growing make_growing(const std::string& name, hid_t type, std::vector<hsize_t> sizes,
+                         const void* fill, hsize_t moments_in_chunk);
+    void append(Growing& growing, const void* values);
+    template <typename Act>
+    Result<void> attempt(const Act& act) {
+        auto done = attempt_hdf5(act);
+        is_whole_ = is_whole_ && done;
+        return done;
+    }
+    void flush() { good(flush_in_order(file_, written_)); }
+
+    Handle file_;
+    std::vector<Handle> axes_, groups_;
+    Growing time_, t_, step_, stage_;
+    std::vector<Growing> fields_;
+    hsize_t moments_ = 0;
+    std::set<haddr_t> written_;
+    bool is_whole_ = true;  ///< Whether no call has failed.
+};
+
+File::File(const std::filesystem::path& path, const Hdf5Layout& layout) {
+    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    // Readers may open the file while it grows, and do not hinder the run.
+    good(H5Pset_file_locking(access, false, true));
+    good(H5Pset_fclose_degree(access, H5F_CLOSE_STRONG));
+    good(H5Pset_driver(access, good(hdf5_driver(path.c_str())), nullptr));
+    file_ = Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
+    write_attributes(file_, layout.about);
+    for (const auto& [name, text] : layout.texts) {
+        const Handle type = text_type();
+        const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+        const Handle dataset(H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT,
+                                        H5P_DEFAULT),
+                             H5Dclose);
+        const char* const bytes = text.c_str();
+        good(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, &bytes));
+    }
+    make_axes(layout);
+    std::vector<hsize_t> sizes;
+    for (const Hdf5Column& axis : layout.axes) sizes.push_back(axis.values.size());
+    const bool is_single = layout.precision == Precision::single;
+    const hid_t type = is_single ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const float short_nan = std::numeric_limits<float>::quiet_NaN();
+    for (const auto& [name, attributes] : layout.fields) {
+        Growing field = make_growing(name, type, sizes,
+                                     is_single ? static_cast<const void*>(&short_nan) : &nan, 1);
+        for (std::size_t k = 0; k < axes_.size(); ++k) {
+            good(H5DSattach_scale(field.dataset, axes_[k], static_cast<unsigned>(k) + 1));
+        }
+        write_attributes(field.dataset, attributes);
+        fields_.push_back(std::move(field));
+    }
+    flush();
+}
+
+/// Writes the positions of the cells and the groups of stages. Makes the axis of time and the
+/// numbers along it.
+void File::make_axes(const Hdf5Layout& layout) {
+    constexpr hsize_t in_chunk = 512;
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    time_ = make_growing("time", H5T_IEEE_F64LE, {}, &nan, in_chunk);
+    good(H5DSset_scale(time_.dataset, "time"));
+    write_text(time_.dataset, "long_name", "time from the beginning of the run");
+    t_ = make_growing("t", H5T_IEEE_F64LE, {}, &nan, in_chunk);
+    write_text(t_.dataset, "long_name", "time from the beginning of the stage");
+    step_ = make_growing("step", H5T_STD_I64LE, {}, nullptr, in_chunk);
+    write_text(step_.dataset, "long_name", "number of complete steps of the stage");
+    stage_ = make_growing("stage", H5T_STD_I32LE, {}, nullptr, in_chunk);
+    write_text(stage_.dataset, "long_name", "stage, by its number from 0");
+    std::vector<std::int32_t> numbers;
+    std::string names;
+    const Handle all(H5Gcreate2(file_, "stages", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+    for (const auto& [name, attributes] : layout.stages) {
+        numbers.push_back(static_cast<std::int32_t>(numbers.size()));
+        names += (names.empty() ? "" : " ") + name;
+        groups_.emplace_back(H5Gcreate2(all, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                             H5Gclose);
+        write_attributes(groups_.back(), attributes);
+    }
+    write_attribute(stage_.dataset, "flag_values", H5T_STD_I32LE, numbers.data(), numbers.size());
+    write_text(stage_.dataset, "flag_meanings", names);
+    for (const Hdf5Column& axis : layout.axes) write_column(axis, -1);
+    for (const Hdf5Column& column : layout.coordinates) write_column(column, axes_.back());
+}
+
+/// Writes numbers along an axis. Without an axis they become an axis.
+void File::write_column(const Hdf5Column& column, hid_t axis) {
+    const Handle space = space_of({column.values.size()});
+    Handle dataset(H5Dcreate2(file_, column.name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT,
+                              H5P_DEFAULT, H5P_DEFAULT),
+                   H5Dclose);
+    good(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, column.values.data()));
+    write_text(dataset, "long_name", column.long_name);
+    if (axis >= 0) {
+        good(H5DSattach_scale(dataset, axis, 0));
+        return;
+    }
+    good(H5DSset_scale(dataset, column.name.c_str()));
+    axes_.push_back(std::move(dataset));
+}
+
+File::Growing File::make_growing(const std::string& name, hid_t type, std::vector<hsize_t> sizes,
+                                 const void* fill, hsize_t moments_in_chunk) {
+    std::vector<hsize_t> chunk = chunk_of(sizes, H5Tget_size(type));
+    chunk.insert(chunk.begin(), moments_in_chunk);
+    std::vector<hsize_t> now = sizes;
+    now.insert(now.begin(), 0);
+    std::vector<hsize_t> most = sizes;
+    most.insert(most.begin(), H5S_UNLIMITED);
+    const Handle space(H5Screate_simple(static_cast<int>(now.size()), now.data(), most.data()),
+                       H5Sclose);
+    const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    good(H5Pset_chunk(creation, static_cast<int>(chunk.size()), chunk.data()));
+    if (fill) good(H5Pset_fill_value(creation, type, fill));
+    // Without a cache, numbers are written, and their places found, before the next flush.
+    const Handle use(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+    good(H5Pset_chunk_cache(use, 0, 0, 1));
+    Growing growing{{H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, creation, use),
+                     H5Dclose},
+                    type,
+                    std::move(sizes)};
+    if (name != "time") good(H5DSattach_scale(growing.dataset, time_.dataset, 0));
+    return growing;
+}
+
+/// Adds the values of a moment to a dataset. Without values it only becomes longer.
+void File::append(Growing& growing, const void* values) {
+    std::vector<hsize_t> all = growing.sizes;
+    all.insert(all.begin(), moments_ + 1);
+    good(H5Dset_extent(growing.dataset, all.data()));
+    if (!values) return;
+    std::vector<hsize_t> begin(all.size(), 0);
+    begin[0] = moments_;
+    all[0] = 1;
+    const Handle there(H5Dget_space(growing.dataset), H5Sclose);
+    good(H5Sselect_hyperslab(there, H5S_SELECT_SET, begin.data(), nullptr, all.data(), nullptr));
+    good(H5Dwrite(growing.dataset, growing.type, space_of(all), there, H5P_DEFAULT, values));
+}
+
+Result<void> File::add(const Hdf5Moment& moment, const std::vector<std::string>& fields) {
+    return attempt([&] {
+        for (std::size_t k = 0; k < fields_.size(); ++k) {
+            append(fields_[k], fields[k].empty() ? nullptr : fields[k].data());
+        }
+        append(t_, &moment.t);
+        append(step_, &moment.step);
+        append(stage_, &moment.stage);
+        flush();
+        // `time` is as long as there are complete moments.
+        append(time_, &moment.time);
+        flush();
+        ++moments_;
+    });
+}
+
+Result<void> File::describe(std::size_t stage, const std::map<std::string, double>& numbers) {
+    return attempt([&] {
+        for (const auto& [name, number] : numbers) {
+            write_attribute(groups_[stage], name, H5T_IEEE_F64LE, &number);
+        }
+        flush();
+    });
+}
+
+Result<void> File::close() {
+    return attempt([&] { flush(); });
+}
+
+/// Closes the file. What is written after a failure would not be in order, so it is dropped.
+File::~File() {
+    const DroppedWrites dropped(!is_whole_);
+    fields_.clear();
+    axes_.clear();
+    groups_.clear();
+    for (Growing* growing : {&time_, &t_, &step_, &stage_}) growing->dataset = Handle();
+    file_ = Handle();
+}
+
+Result<std::unique_ptr<Hdf5File>> open_hdf5(const std::filesystem::path& path,
+                                            const Hdf5Layout& layout) {
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    std::unique_ptr<Hdf5File> file;
+    const auto made = attempt_hdf5([&] { file = std::make_unique<File>(path, layout); });
+    if (!made) return tl::unexpected(made.error());
+    return file;
+}
+
+}  // namespace
+
+}  // namespace cascade
+
+extern "C" __attribute__((visibility("default"))) cascade::Hdf5Opener* cascade_hdf5_opener(
+    std::string_view version) {
+    return version == cascade::version() ? &cascade::open_hdf5 : nullptr;
+}
