@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
 #include <string>
 #include <vector>
 
@@ -86,6 +87,16 @@ bool is_place(const Node& node) {
     return builtin != nullptr && *builtin <= Builtin::sz;
 }
 
+/// How many operands of a shape, noise or a lattice are places and lengths: the first ones. 0 for
+/// other functions.
+std::size_t places_and_lengths(const Node& node) {
+    if (node.calls(Function::noise)) return 1;
+    if (node.calls(Function::lattice) || node.calls(Function::diamond)) return 2;
+    const bool is_shape =
+        node.calls(Function::disc) || node.calls(Function::gauss) || node.calls(Function::box);
+    return is_shape ? node.operand_count : 0;
+}
+
 }  // namespace
 
 void ExpressionChecker::check_places() {
@@ -124,11 +135,10 @@ void ExpressionChecker::warn_of_place(Span span, std::string_view place) {
          has_lengths ? fmt::format("write domain.{} for a length", place) : "");
 }
 
-/// Warns of disc, gauss and box if their numbers are far outside the domain.
+/// Warns of shapes, noise and lattices if their places or lengths are far outside the domain.
 void ExpressionChecker::check_shape_in_domain(const Node& node) {
-    if (!node.calls(Function::disc) && !node.calls(Function::gauss) && !node.calls(Function::box)) {
-        return;
-    }
+    const std::size_t count = places_and_lengths(node);
+    if (count == 0) return;
     std::vector<double> numbers;
     for (const NodeId operand : node.reads()) {
         if (!parts_[operand].constant) return;
@@ -136,7 +146,7 @@ void ExpressionChecker::check_shape_in_domain(const Node& node) {
     }
     constexpr double far = 2;
     const auto is_far = [](double value) { return std::abs(value) > far; };
-    if (std::ranges::none_of(numbers, is_far)) return;
+    if (std::ranges::none_of(numbers | std::views::take(count), is_far)) return;
     const DomainSettings& domain = work_.program.domain;
     std::string hint;
     if (!domain.model && !domain.surface) {
@@ -145,8 +155,9 @@ void ExpressionChecker::check_shape_in_domain(const Node& node) {
         for (const double side : {cells * grid.spacing, cells}) {
             std::vector<std::string> shares;
             for (const double number : numbers) {
-                if (number < 0 || number > side) break;
-                shares.push_back(fmt::format("{:.3g}", number / side));
+                const bool is_length = shares.size() < count;
+                if (is_length && (number < 0 || number > side)) break;
+                shares.push_back(fmt::format("{:.3g}", is_length ? number / side : number));
             }
             if (shares.size() < numbers.size()) continue;
             hint =
