@@ -15,10 +15,24 @@ draw() {
 # Recipes of Appendix C, on four times the cells of the thesis and in colours; finer at the end.
 draw_recipe() { draw "$1" --grid 128x128 --detail 3 --palette "$2"; }
 
+# Covers are 1600 × 1200 and drawn with many rays, each in a different setting.
+draw_cover() {
+    local setting
+    case $1 in
+        zebra) setting=(--view 60,8 --light outdoors --background '#d9c8a0') ;;
+        delft) setting=(--view 0,14 --light studio --background '#e8e4dc') ;;
+        thorns) setting=(--view 0,10 --light studio --background '#23262b') ;;
+        lamp) setting=(--view 0,14 --light studio --background '#15161c') ;;
+        frog) setting=(--view 35,18 --light outdoors --background '#3d4a2c') ;;
+        emperor) setting=(--view 62,8 --light studio --background '#0d3a52') ;;
+    esac
+    draw "covers/$1" --size 1600x1200 --quality fine "${setting[@]}"
+}
+
 draw_one() {
     case $1 in
         pearson_map) draw "$1" ;;
-        materials/lava) draw "$1" --displace --light studio ;;
+        materials/lava) draw "$1" --displace --light studio --background '#120c0a' ;;
         witkin_kass/replication) draw "$1" --copies 2x2 ;;
         witkin_kass/* | surfaces/* | bodies/*) draw "$1" ;;
         on_models/torus) draw "$1" --view 30,40 ;;
@@ -27,12 +41,14 @@ draw_one() {
         on_models/leopard | on_models/cheetah | on_models/genet) draw "$1" --view 60,12 --size 960x560 ;;
         on_models/angelfish | on_models/emperor) draw "$1" --view 70,10 ;;
         on_models/*) draw "$1" --view 55,15 ;;  # Animals, from the side.
-        cells/fur | cells/leopard_thorns) draw "$1" --view 55,15 ;;
+        cells/fur) draw "$1" --view 55,15 --light studio ;;
+        cells/leopard_thorns) draw "$1" --view 55,15 ;;
         cells/bear) draw "$1" --view 20,10 ;;
         cells/feathers) draw "$1" --view 62,14 ;;
-        cells/thorny_head) draw "$1" --view 25,5 ;;
+        cells/thorny_head) draw "$1" --view 25,5 --light studio --background '#c9ced3' ;;
         cells/grown_body) draw "$1" --view 30,20 ;;
         cells/*) draw "$1" ;;
+        covers/*) draw_cover "${1#*/}" ;;
         models/kdv) "$program" run -q lang/systems/kdv.cascade -o examples/models/kdv.png --space-time ;;
         models/*) "$program" run -q "lang/systems/${1#*/}.cascade" -o "examples/$1.png" ;;
         figure_3_2) draw "$1" --space-time --scale 4 ;;
@@ -89,6 +105,7 @@ else
     for script in examples/on_models/*.cascade; do
         draw_one "on_models/$(basename "$script" .cascade)"
     done
+    for script in examples/covers/*.cascade; do draw_one "covers/$(basename "$script" .cascade)"; done
     for script in examples/cells/*.cascade; do draw_one "cells/$(basename "$script" .cascade)"; done
     for script in examples/*.cascade; do draw_one "$(basename "$script" .cascade)"; done
     sweep_gray_scott

@@ -30,7 +30,7 @@ if [ "$CASCADE_JIT" = 1 ]; then
         same "$sheet" swept/sheet.png && cmp "${sheet%.png}.csv" swept/features.csv || failed=1
     done
 fi
-for script in "$SOURCE"/examples/*.cascade "$SOURCE"/examples/{witkin_kass,surfaces,materials,bodies,on_models,cells}/*.cascade; do
+for script in "$SOURCE"/examples/*.cascade "$SOURCE"/examples/{witkin_kass,surfaces,materials,bodies,on_models,cells,covers}/*.cascade; do
     if [ ! -f "${script%.cascade}.png" ]; then
         echo "gallery: $script has no picture beside it"
         failed=1
