@@ -11,10 +11,13 @@ const program = () => vscode.workspace.getConfiguration("cascade").get("path");
 let client, pictures;
 const views = new Map();  // The live views by script.
 
-/** The path of the saved script in the active editor. Empty if there is none. */
+/** Saves the script in the active editor, or else a script that is visible beside a picture or a page, and returns its
+ * path. Empty if there is none. */
 async function activeScript() {
-    const document = vscode.window.activeTextEditor?.document;
-    if (document?.languageId !== "cascade" || document.uri.scheme !== "file" || !(await document.save())) {
+    const { activeTextEditor, visibleTextEditors } = vscode.window;
+    const document = [activeTextEditor, ...visibleTextEditors].map((editor) => editor?.document)
+        .find((document) => document?.languageId === "cascade" && document.uri.scheme === "file");
+    if (!(await document?.save())) {
         vscode.window.showInformationMessage("Save the script in a file first.");
         return undefined;
     }
@@ -36,7 +39,8 @@ async function run() {
             stop.onCancellationRequested(() => child.kill("SIGINT"));
         }));
     if (failure) vscode.window.showErrorMessage(failure.slice(0, 1000));
-    else await vscode.commands.executeCommand("vscode.open", vscode.Uri.file(picture), vscode.ViewColumn.Beside);
+    else await vscode.commands.executeCommand("vscode.open", vscode.Uri.file(picture),
+        { viewColumn: vscode.ViewColumn.Beside, preserveFocus: true });
 }
 
 /** Shows the page of `cascade view` beside the text. The page takes part in changes of the text when it is saved. */
