@@ -5,6 +5,7 @@
 #include "lang/syntax/picture_expression.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -110,6 +111,14 @@ MaterialCells Material::cells() const {
     MaterialCells cells;
     for (std::size_t k = 0; k < material_parts; ++k) cells[k] = parts[k];
     return cells;
+}
+
+std::string material_said(const Script& script) {
+    std::vector<std::string> names;
+    for (const char* const name : {"roughness", "metalness", "opacity", "emission", "height"}) {
+        if (picture_expression(script.tree, name)) names.push_back(fmt::format("'{}'", name));
+    }
+    return fmt::format("{}", fmt::join(names, names.size() == 2 ? " and " : ", "));
 }
 
 MapSet maps_said(const Script& script, bool has_bumps) {

@@ -52,6 +52,10 @@ struct Material {
     MaterialCells cells() const;
 };
 
+/// The names of the settings of a material that the picture block has, in quotes and joined:
+/// "'height' and 'opacity'". Empty if it has none.
+std::string material_said(const Script& script);
+
 /// The maps of a baked picture of fields: one for each setting in the script, and the occlusion by
 /// bumps.
 MapSet maps_said(const Script& script, bool has_bumps);

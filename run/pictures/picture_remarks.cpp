@@ -131,4 +131,13 @@ std::string remark_on_look(const Painter& painter, const Simulation& simulation,
         options);
 }
 
+std::string remark_on_material(const Painter& painter, const Script& script, const Canvas& canvas) {
+    if (painter.is_flat() || canvas.cells || script.program->domain.model) return {};
+    const std::string settings = material_said(script);
+    if (settings.empty()) return {};
+    return fmt::format(
+        "the picture does not show {}: pictures of models do, such as of 'surface: implicit(…)'",
+        settings);
+}
+
 }  // namespace cascade
