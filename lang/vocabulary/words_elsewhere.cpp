@@ -101,6 +101,8 @@ constexpr WordElsewhere rows[] = {
     {Context::function, "sqr squared", "write 'u^2'"},
     {Context::function, "sigmoid logistic", "write '1 / (1 + exp(-u))'"},
     {Context::function, "lerp interpolate", "did you mean 'mix'?"},
+    {Context::function, "ramp interp interp1 interp1d lookup table timeseries",
+     "use \"light.csv\" makes each column of a table a function of the first, such as light(t)"},
     {Context::function, "where select ifelse piecewise", "write 'if(u > v, u, v)'"},
     {Context::function, "average avg", "write 'mean(u over domain)'"},
     {Context::function, "integrate", "write 'integral(u over domain)'"},
@@ -117,6 +119,9 @@ constexpr WordElsewhere rows[] = {
      "a parameter is 'name: value' in a system; 'let name = value' is one of the script"},
     {Context::statement, "output save plot print show",
      "the command line names files: cascade run SCRIPT -o out.png"},
+    {Context::statement, "at when event events",
+     "an event begins a stage: one ends with 'duration: 50', and 'stage next: mine { u: u + 1 }' "
+     "goes on from it"},
     {Context::statement, "for while loop repeat",
      "there are no loops; i: 1..3 makes u[i] a family of species"},
     {Context::statement, "diff dif derivative d", "a rate is written u' = …"},

@@ -10,6 +10,7 @@
 #include "lang/check/unread_stages.h"
 #include "lang/program/stage_kinds.h"
 #include "lang/syntax/parse.h"
+#include "lang/syntax/parse_table.h"
 #include "picture/image.h"
 #include "run/script/embedded_script.h"
 #include "run/script/option_statements.h"
@@ -27,7 +28,8 @@ namespace cascade {
 
 namespace {
 
-// Reads the files that a script names in `use "file.cascade"`. They contain systems and functions.
+// Reads the files that a script names in `use "file.cascade"` or `use "table.csv"`. They contain
+// systems and functions.
 
 constexpr std::size_t most_files = 1000;
 
@@ -70,7 +72,8 @@ std::optional<std::string> UsedFiles::text_of(const std::string& path, const ast
     const auto found = std::find_if(known.begin(), known.end(),
                                     [&](const auto& each) { return each.first == path; });
     if (found != known.end()) return found->second;
-    auto text = GrantedFiles(script_.folder, script_.overrides.reads).read(path, largest_script);
+    auto text = GrantedFiles(script_.folder, script_.overrides.reads)
+                    .read(path, is_table_name(path) ? largest_table_text : largest_script);
     if (!text) {
         script_.diagnostics.error(use.span, text.error().message, text.error().hint);
         return std::nullopt;
@@ -84,6 +87,9 @@ void UsedFiles::add(const std::filesystem::path& path, const std::string& text) 
     const SourceId source = script_.sources.add(name, text);
     folders_[source] = path.parent_path();
     const auto first = static_cast<ast::ExprId>(script_.tree.expressions.size());
+    if (is_table_name(name)) {
+        return parse_table(source, script_.sources, script_.tree, script_.diagnostics);
+    }
     parse_used(source, script_.sources, script_.tree, script_.diagnostics);
     set_folder_of_files(first, path.parent_path());
 }

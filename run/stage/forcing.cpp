@@ -32,6 +32,7 @@ void Forcing::add(const std::vector<double>& values) {
     const double most = most_of_range * (*high - *low);
     if (!(most > 0) || !std::isfinite(most)) return;
     begin_reach();
+    has_rest_ = has_rest_ || std::adjacent_find(values.begin(), values.end()) != values.end();
     for (std::size_t n = 0; n < intervals; ++n) {
         std::size_t& reach = reach_[n];
         const std::size_t end = std::min(reach, intervals - n);

@@ -36,6 +36,8 @@ public:
     void add_jumps(const std::vector<Jump>& jumps);
     /// Whether a part that varies in space changes.
     bool has_motion() const { return has_motion_; }
+    /// Whether a uniform part changes at some times and rests at others.
+    bool has_rest() const { return has_rest_; }
 
     /// The longest step from `t` in which no part changes by more than three tenths of its range.
     /// At least one interval and at most a quarter of the duration. Infinite if no part changes.
@@ -49,7 +51,7 @@ private:
     void begin_reach();
 
     double interval_ = 0;
-    bool has_motion_ = false;
+    bool has_motion_ = false, has_rest_ = false;
     /// For each interval, the number of intervals that a step may pass over. Empty if nothing
     /// changes.
     std::vector<std::size_t> reach_;

@@ -88,9 +88,10 @@ StageTimer::StageTimer(const Program& program, std::uint32_t stage, StageState& 
     state_.time.clock.step = uniform_speed_ ? speed_ : 0;
     state_.time.control.step = speed_;
     state_.time.stages = is_stabilised(stage_.time.solver) ? 3 : 0;
-    // The edge of a source that moves can reach cells in which nothing else happens. The relative
-    // error of a step over that moment does not depend on the length of the step.
-    if (is_adaptive(stage_.time.solver) && forcing_.has_motion()) {
+    // The edge of a source that moves can reach cells in which nothing else happens, and a source
+    // can begin where a species is 0. The relative error of a step over that moment does not depend
+    // on the length of the step.
+    if (is_adaptive(stage_.time.solver) && (forcing_.has_motion() || forcing_.has_rest())) {
         state_.time.least_step = least_of_duration * duration_;
     }
     if (chooses_by_error()) set_first_step();

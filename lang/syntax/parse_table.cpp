@@ -1,0 +1,303 @@
+// The expression of a function is a tree of `if`, in which a number finds its two rows after
+// log₂(rows) comparisons.
+#include "lang/syntax/parse_table.h"
+
+#include "core/counted.h"
+#include "core/csv.h"
+#include "core/decimal.h"
+#include "core/printable.h"
+#include "core/utf8.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace cascade {
+
+namespace {
+
+constexpr std::string_view argument_of_tables = "t";
+
+std::optional<double> number_in(std::string_view text) {
+    if (text.starts_with('+')) text.remove_prefix(1);
+    double value = 0;
+    const auto [end, error] = from_decimal(text.data(), text.data() + text.size(), value);
+    const bool is_whole = error == std::errc() && end == text.data() + text.size();
+    return is_whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+/// The name in a cell such as "light [lux]". Empty if functions cannot have it.
+std::string_view function_name(std::string_view text) {
+    text = text.substr(0, text.find_first_of("(["));
+    while (text.ends_with(' ')) text.remove_suffix(1);
+    const auto is_letter = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+    };
+    const bool is_name = !text.empty() && is_letter(text.front()) &&
+                         std::all_of(text.begin(), text.end(), [&](char c) {
+                             return is_letter(c) || (c >= '0' && c <= '9');
+                         });
+    return is_name ? text : std::string_view();
+}
+
+/// The name of a file without folders and ending.
+std::string_view stem_of(std::string_view path) {
+    path.remove_prefix(path.find_last_of("/\\") + 1);
+    return path.substr(0, path.rfind('.'));
+}
+
+/// A table of numbers, column by column, with the span of each cell.
+struct NumberTable {
+    std::vector<std::vector<double>> columns;
+    std::vector<std::vector<Span>> spans;
+};
+
+class TableParser {
+public:
+    TableParser(SourceId source, const Sources& sources, ast::Script& script,
+                Diagnostics& diagnostics)
+        : source_(source),
+          text_(sources[source].text()),
+          stem_(stem_of(sources[source].name())),
+          script_(script),
+          diagnostics_(diagnostics) {
+        lines_.push_back(text_.starts_with("\xef\xbb\xbf") ? 3 : 0);
+        for (std::size_t k = 0; k < text_.size(); ++k) {
+            const bool ends =
+                text_[k] == '\n' || (text_[k] == '\r' && !text_.substr(k + 1).starts_with('\n'));
+            if (ends) lines_.push_back(k + 1);
+        }
+    }
+
+    void run() {
+        if (text_.size() > largest_table_text) {
+            refuse({source_, 0, 0}, fmt::format("this table has {} bytes; at most {} can be read",
+                                                text_.size(), largest_table_text));
+            return;
+        }
+        auto rows = read_csv(text_);
+        if (!rows) return refuse_text(rows.error());
+        rows_ = *std::move(rows);
+        if (!take_names() || !take_numbers()) return;
+        for (std::size_t column = 1; column < table_.columns.size(); ++column) add(column);
+    }
+
+private:
+    bool take_names();
+    bool take_numbers();
+    bool take_row(const std::vector<CsvCell>& row);
+    void add(std::size_t column);
+    ast::ExprId between(std::size_t column, std::size_t first, std::size_t last);
+    ast::ExprId piece(std::size_t column, std::size_t number);
+
+    bool refuse(Span span, std::string message, std::string hint = "") {
+        diagnostics_.error(span, std::move(message), std::move(hint));
+        return false;
+    }
+    void refuse_text(const Failure& failure);
+    Span span_of(const CsvCell& cell) const;
+    ast::ExprId node(Span span, decltype(ast::Expr::node) kind) {
+        script_.expressions.push_back({span, std::move(kind)});
+        return static_cast<ast::ExprId>(script_.expressions.size() - 1);
+    }
+    ast::ExprId argument(Span span) { return node(span, ast::Name{argument_of_tables}); }
+
+    SourceId source_;
+    std::string_view text_, stem_;
+    ast::Script& script_;
+    Diagnostics& diagnostics_;
+    std::vector<std::size_t> lines_;  ///< The first byte of each line.
+    std::vector<std::vector<CsvCell>> rows_;
+    std::size_t first_row_ = 0;     ///< The first row of numbers.
+    std::vector<ast::Word> names_;  ///< Of the functions, by column. The first is not used.
+    NumberTable table_;
+};
+
+/// The bytes of a cell, whose place counts characters.
+Span TableParser::span_of(const CsvCell& cell) const {
+    std::size_t at = lines_[cell.line - 1];
+    for (std::size_t column = 1; column < cell.column; ++column) {
+        at += decode_utf8(text_, at).size;
+    }
+    const std::size_t rest = text_.substr(at + (cell.is_quoted ? 1 : 0)).starts_with(cell.text)
+                                 ? cell.text.size() + (cell.is_quoted ? 2 : 0)
+                                 : 1;
+    return {source_, static_cast<std::uint32_t>(at),
+            static_cast<std::uint32_t>(std::min(at + rest, text_.size()))};
+}
+
+/// Reports an error of read_csv(), whose message begins with "LINE:COLUMN: ".
+void TableParser::refuse_text(const Failure& failure) {
+    CsvCell place;
+    const std::string_view message = failure.message;
+    const std::size_t colon = message.find(':'), end = message.find(": ");
+    std::from_chars(message.data(), message.data() + colon, place.line);
+    std::from_chars(message.data() + colon + 1, message.data() + end, place.column);
+    refuse(span_of(place), std::string(message.substr(end + 2)), failure.hint);
+}
+
+/// Finds the names of the functions, and the first row of numbers.
+bool TableParser::take_names() {
+    const Span whole{source_, 0, 0};
+    if (rows_.empty()) return refuse(whole, "this table is empty", "its rows are time,value");
+    const auto& head = rows_.front();
+    const Span first = span_of(head.front());
+    if (head.size() == 1) {
+        const bool has_semicolons = head.front().text.find_first_of(";\t") != std::string::npos;
+        return refuse(first,
+                      has_semicolons ? "the cells of a table have commas between them"
+                                     : "this table has one column",
+                      has_semicolons ? "write 0,1.5 in place of 0;1.5"
+                                     : "the first column has times, and the others have values");
+    }
+    if (number_in(head.front().text)) {
+        if (head.size() > 2) {
+            return refuse(first, "this table has several columns of values and no names",
+                          "the first row names them, as in time,lamp,shade");
+        }
+        if (function_name(stem_) != stem_) {
+            return refuse(first,
+                          fmt::format("'{}' cannot be the name of a function",
+                                      printable(std::string(stem_))),
+                          "a first row gives the function another name, as in time,lamp");
+        }
+        names_ = {{}, {first, stem_}};
+        return true;
+    }
+    for (const CsvCell& cell : head) {
+        const Span span = span_of(cell);
+        const std::string_view name = function_name(cell.text);
+        if (name.empty() && &cell != &head.front()) {
+            return refuse(
+                span, fmt::format("'{}' cannot be the name of a function", printable(cell.text)),
+                "a name has letters, digits and _, as in time,lamp_2");
+        }
+        const std::size_t begin = span.begin + (cell.is_quoted ? 1 : 0);
+        names_.push_back({{source_, static_cast<std::uint32_t>(begin),
+                           static_cast<std::uint32_t>(begin + name.size())},
+                          text_.substr(begin, name.size())});
+    }
+    first_row_ = 1;
+    const bool has_units =
+        rows_.size() > 1 && std::none_of(rows_[1].begin(), rows_[1].end(), [](const CsvCell& cell) {
+            return number_in(cell.text).has_value();
+        });
+    if (has_units) first_row_ = 2;
+    return true;
+}
+
+bool TableParser::take_numbers() {
+    const std::size_t count = rows_.size() - first_row_;
+    if (count < 2) {
+        return refuse(span_of(rows_.back().front()),
+                      fmt::format("this table has {} of numbers",
+                                  counted(static_cast<std::int64_t>(count), "row")),
+                      "a function is drawn between two rows or more");
+    }
+    if (count > most_table_rows) {
+        return refuse(span_of(rows_[first_row_ + most_table_rows].front()),
+                      fmt::format("this table has {} rows of numbers; at most {} can be read",
+                                  count, most_table_rows),
+                      "leave out rows between which the values are nearly linear");
+    }
+    table_.columns.resize(names_.size());
+    table_.spans.resize(names_.size());
+    for (std::size_t row = first_row_; row < rows_.size(); ++row) {
+        if (!take_row(rows_[row])) return false;
+    }
+    return true;
+}
+
+bool TableParser::take_row(const std::vector<CsvCell>& row) {
+    if (row.size() != names_.size()) {
+        const CsvCell& there = row.size() < names_.size() ? row.back() : row[names_.size()];
+        return refuse(span_of(there),
+                      fmt::format("this row has {}, and the first row has {}",
+                                  counted(static_cast<std::int64_t>(row.size()), "cell"),
+                                  names_.size()));
+    }
+    for (std::size_t column = 0; column < row.size(); ++column) {
+        const Span span = span_of(row[column]);
+        const auto number = number_in(row[column].text);
+        if (!number) {
+            return refuse(span,
+                          row[column].text.empty()
+                              ? std::string("there is no number in this cell")
+                              : fmt::format("'{}' is not a number", printable(row[column].text)),
+                          "every cell below the names is a number such as 0.025 or 2e-3");
+        }
+        auto& numbers = table_.columns[column];
+        if (column == 0 && !numbers.empty() && !(*number > numbers.back())) {
+            return refuse(span, fmt::format("{} comes after {}, but the first column must rise",
+                                            row[0].text, numbers.back()));
+        }
+        numbers.push_back(*number);
+        table_.spans[column].push_back(span);
+    }
+    return true;
+}
+
+/// Adds the function of a column.
+void TableParser::add(std::size_t column) {
+    ast::FunctionDefinition function;
+    function.name = names_[column];
+    function.parameters = {{names_[column].span, argument_of_tables}};
+    function.body.first = static_cast<ast::ExprId>(script_.expressions.size());
+    function.body.root = between(column, 0, table_.columns[0].size());
+    function.span = names_[column].span;
+    function.doc = fmt::format("The column '{}' of a table.", function.name.text);
+    script_.functions.push_back(std::move(function));
+}
+
+/// Adds the expression that has piece `first` … `last`, and returns its root. Piece k ends at
+/// row k, and the last piece does not end.
+ast::ExprId TableParser::between(std::size_t column, std::size_t first, std::size_t last) {
+    if (first == last) return piece(column, first);
+    const std::size_t middle = (first + last) / 2;
+    const Span span = table_.spans[0][middle];
+    const ast::ExprId here = argument(span);
+    const ast::ExprId end = node(span, ast::Number{table_.columns[0][middle]});
+    const ast::ExprId is_before = node(span, ast::Binary{Function::less, here, end});
+    const ast::ExprId before = between(column, first, middle);
+    const ast::ExprId after = between(column, middle + 1, last);
+    const auto arguments = static_cast<std::uint32_t>(script_.arguments.size());
+    script_.arguments.insert(script_.arguments.end(), {is_before, before, after});
+    return node(span, ast::Call{{span, "if"}, arguments, 3});
+}
+
+/// Adds the expression of a piece: constant before the first row and after the last row, otherwise
+/// linear between the two rows.
+ast::ExprId TableParser::piece(std::size_t column, std::size_t number) {
+    const auto& times = table_.columns[0];
+    const auto& values = table_.columns[column];
+    const std::size_t row = number > 0 ? number - 1 : 0;
+    const Span span = table_.spans[column][row];
+    const ast::ExprId value = node(span, ast::Number{values[row]});
+    if (number == 0 || number == times.size() || values[row] == values[number]) return value;
+    const double slope = (values[number] - values[row]) / (times[number] - times[row]);
+    const ast::ExprId slope_node = node(span, ast::Number{slope});
+    const ast::ExprId here = argument(span);
+    const ast::ExprId begin = node(span, ast::Number{times[row]});
+    const ast::ExprId since = node(span, ast::Binary{Function::subtract, here, begin});
+    const ast::ExprId change = node(span, ast::Binary{Function::multiply, slope_node, since});
+    return node(span, ast::Binary{Function::add, value, change});
+}
+
+}  // namespace
+
+bool is_table_name(std::string_view path) {
+    return path.ends_with(".csv") || path.ends_with(".CSV");
+}
+
+void parse_table(SourceId source, const Sources& sources, ast::Script& script,
+                 Diagnostics& diagnostics) {
+    TableParser(source, sources, script, diagnostics).run();
+}
+
+}  // namespace cascade

@@ -1,0 +1,31 @@
+// Turns a table of numbers into functions: use "light.csv".
+#pragma once
+
+#include "core/diagnostics.h"
+#include "core/source.h"
+#include "lang/syntax/ast.h"
+
+#include <cstddef>
+#include <string_view>
+
+namespace cascade {
+
+/// The most rows of numbers in a table. Each becomes a part of an expression.
+inline constexpr std::size_t most_table_rows = 1000;
+
+/// The largest size of a table, in bytes.
+inline constexpr std::size_t largest_table_text = std::size_t{1} << 20;
+
+/// Whether a file of this name is a table: its name ends with .csv.
+bool is_table_name(std::string_view path);
+
+/// Parses comma-separated values (core/csv.h) and adds a function of one number to `script` for
+/// each column after the first. Between two rows the function is linear in the numbers of the first
+/// column, which must rise, and outside the rows it is constant. The first row may have names,
+/// which are the names of the functions, and the next row units. Text after a ( or [ in a name is a
+/// unit. If a table of two columns has no names, its function is called like the file. Reports
+/// errors to `diagnostics`, at the cell.
+void parse_table(SourceId source, const Sources& sources, ast::Script& script,
+                 Diagnostics& diagnostics);
+
+}  // namespace cascade
