@@ -158,7 +158,9 @@ Spectrum radial_spectrum(const Samples& samples) {
                 if (ring >= spectrum.power.size()) {
                     spectrum.power.resize(ring + 1);
                     spectrum.moment.resize(ring + 1);
+                    spectrum.modes.resize(ring + 1);
                 }
+                ++spectrum.modes[ring];
                 spectrum.power[ring] += power;
                 spectrum.moment[ring] += power * magnitude;
             }
@@ -179,6 +181,8 @@ Spectrum in_wide_rings(const Spectrum& spectrum) {
         const auto to = static_cast<std::size_t>(std::lround(static_cast<double>(ring) / times));
         wide.power.resize(std::max(wide.power.size(), to + 1));
         wide.moment.resize(wide.power.size());
+        wide.modes.resize(wide.power.size());
+        wide.modes[to] += spectrum.modes[ring];
         wide.power[to] += spectrum.power[ring];
         wide.moment[to] += spectrum.moment[ring];
     }
@@ -188,6 +192,16 @@ Spectrum in_wide_rings(const Spectrum& spectrum) {
 double peak_wavelength(const Spectrum& spectrum) {
     const Peak peak = peak_of(spectrum);
     return peak.power > 0 ? peak.power / peak.moment : std::numeric_limits<double>::quiet_NaN();
+}
+
+double first_moment_length(const Spectrum& spectrum) {
+    double sum = 0, moment = 0;
+    for (std::size_t ring = 1; ring < spectrum.power.size(); ++ring) {
+        if (!(spectrum.modes[ring] > 0)) continue;
+        sum += spectrum.power[ring] / spectrum.modes[ring];
+        moment += spectrum.moment[ring] / spectrum.modes[ring];
+    }
+    return moment > 0 ? sum / moment : std::numeric_limits<double>::quiet_NaN();
 }
 
 double peak_share(const Spectrum& spectrum) {

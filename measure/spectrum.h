@@ -17,6 +17,7 @@ struct Spectrum {
     /// variance.
     std::vector<double> power;
     std::vector<double> moment;  ///< moment[n] is Σ power · |k| over the modes of ring n.
+    std::vector<double> modes;   ///< The number of modes in ring n.
 };
 
 /// Subtracts the mean. Then uses the discrete Fourier transform along periodic axes, and the cosine
@@ -33,6 +34,14 @@ double peak_wavelength(const Spectrum& spectrum);
 /// The spectrum in wider rings. About twelve of them are below the strongest one. In a large domain
 /// rings are so narrow that chance decides which ring of a broad peak is the strongest.
 Spectrum in_wide_rings(const Spectrum& spectrum);
+
+/// The characteristic length of a coarsening pattern, Σ S / Σ |k| S, in the unit of length. The
+/// sums run over all rings, and S is the structure factor averaged over a ring: its power divided
+/// by its number of modes. This is 2π divided by the first moment of S(q), where q = 2π |k| (J.
+/// Zhu, L.-Q. Chen, J. Shen and V. Tikare, "Coarsening kinetics from a variable-mobility
+/// Cahn-Hilliard equation", Physical Review E 60, 1999). Averages over rings, unlike sums over
+/// modes, depend little on the width of interfaces. NaN for a uniform field.
+double first_moment_length(const Spectrum& spectrum);
 
 /// The fraction of the variance in the rings over which peak_wavelength() takes the mean, 0 … 1.
 /// Near 1 for a single regular wave.

@@ -37,7 +37,11 @@ Result<void> check_rows(const Script& script, const LogRequest& request) {
     return {};
 }
 
+/// The number of the characteristic length, which follows the features.
+constexpr std::size_t number_of_length = measure::feature_count;
+
 std::optional<std::size_t> feature_called(std::string_view name) {
+    if (name == "length") return number_of_length;
     const auto& names = measure::feature_names();
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) return std::nullopt;
@@ -49,11 +53,17 @@ std::optional<std::size_t> feature_called(std::string_view name) {
 /// Makes a column for each expression. If the script has an item with the name of a feature, the
 /// name means the item.
 std::vector<RunLog::Column> RunLog::columns_of(Script& script, const LogRequest& request,
-                                               std::vector<std::string>& expressions) {
+                                               std::vector<std::string>& expressions,
+                                               Probes& probes) {
     std::vector<Column> columns;
     for (const std::string& text : request.expressions) {
         auto [name, value] = named_expression(text);
         Column column{std::move(name)};
+        if (probes.take(script, "--log", value)) {
+            column.is_probe = true;
+            columns.push_back(std::move(column));
+            continue;
+        }
         const auto feature = feature_called(value);
         if (feature && !StageFormulas::fits_some(script, "--log", value)) column.feature = feature;
         else expressions.push_back(std::move(value));
@@ -70,11 +80,15 @@ Result<RunLog> RunLog::create(Script& script, const LogRequest& request,
     for (const Stage& stage : script.program->stages) log.stage_names_.push_back(stage.name);
     if (auto fits = check_rows(script, request); !fits) return tl::unexpected(fits.error());
     std::vector<std::string> expressions;
-    log.columns_ = columns_of(script, request, expressions);
+    log.columns_ = columns_of(script, request, expressions, log.probes_);
+    if (auto good = log.probes_.check(script, "--log"); !good) return tl::unexpected(good.error());
     auto numbers = UniformNumbers::create(script, "--log", expressions);
     if (!numbers) return tl::unexpected(numbers.error());
     log.numbers_ = *std::move(numbers);
-    if (expressions.size() == log.columns_.size()) return log;
+    const bool has_features =
+        std::any_of(log.columns_.begin(), log.columns_.end(),
+                    [](const Column& column) { return column.feature.has_value(); });
+    if (!has_features) return log;
     auto painter = Painter::create(script, picture);
     if (!painter) return tl::unexpected(painter.error());
     log.painter_ = *std::move(painter);
@@ -91,11 +105,17 @@ void RunLog::record(const Simulation& simulation, std::uint32_t stage) {
     rows_.push_back({stage, step});
     values_.push_back(t);
     const std::vector<double> numbers = numbers_.at(simulation, stage);
-    const auto features = painter_ ? measure::to_array(measure_shown(*painter_, simulation))
-                                   : std::array<double, measure::feature_count>();
-    auto number = numbers.begin();
+    std::optional<std::array<double, measure::feature_count>> features;
+    const auto feature = [&](std::size_t k) {
+        if (k == number_of_length) return shown_length(*painter_, simulation);
+        if (!features) features = measure::to_array(measure_shown(*painter_, simulation));
+        return (*features)[k];
+    };
+    const std::vector<double> probed = probes_.at(simulation, stage);
+    auto number = numbers.begin(), probe = probed.begin();
     for (const Column& column : columns_) {
-        values_.push_back(column.feature ? features[*column.feature] : *number++);
+        if (column.is_probe) values_.push_back(*probe++);
+        else values_.push_back(column.feature ? feature(*column.feature) : *number++);
     }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/result.h"
+#include "run/commands/probe.h"
 #include "run/commands/uniform_numbers.h"
 #include "run/pictures/painter.h"
 #include "run/script/script.h"
@@ -55,14 +56,16 @@ private:
         std::string name;
         /// The feature in this column. If empty, the column has the next expression.
         std::optional<std::size_t> feature = {};
+        bool is_probe = false;  ///< Whether the column has the next probe.
     };
     static std::vector<Column> columns_of(Script& script, const LogRequest& request,
-                                          std::vector<std::string>& expressions);
+                                          std::vector<std::string>& expressions, Probes& probes);
 
     LogRequest request_;
     std::vector<std::string> stage_names_;
     std::vector<Column> columns_;
     UniformNumbers numbers_;
+    Probes probes_;
     std::optional<Painter> painter_;  ///< Present if a column has a feature.
     std::vector<Row> rows_;
     std::vector<double> values_;  ///< By row: first t, then one value for each column.

@@ -2,6 +2,7 @@
 #include "run/pictures/measured.h"
 
 #include "core/spread.h"
+#include "measure/spectrum.h"
 #include "run/pictures/drawn_cells.h"
 #include "tissue/tissue.h"
 
@@ -54,6 +55,19 @@ measure::Features measure_shown(Painter& painter, const Simulation& simulation) 
     if (const auto& model = simulation.domain().model)
         return without_places(cell_values(shown, *model->cells));
     return measure::measure(measure::to_samples(shown, simulation.domain().grid));
+}
+
+double shown_length(Painter& painter, const Simulation& simulation) {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    if (simulation.state(shown_stage(simulation)).tissue() || simulation.domain().model)
+        return none;
+    const measure::Samples samples =
+        measure::to_samples(shown_number(painter, simulation), simulation.domain().grid);
+    const Spread spread = spread_of([&](const auto& take) {
+        for (const double value : samples.values) take(value);
+    });
+    if (spread.is_uniform()) return none;
+    return measure::first_moment_length(measure::radial_spectrum(samples));
 }
 
 }  // namespace cascade

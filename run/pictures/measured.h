@@ -25,4 +25,8 @@ std::string name_of_number(const Script& script, std::uint32_t stage,
 /// columns, only the mean, deviation, smallest and largest value are measured.
 measure::Features measure_shown(Painter& painter, const Simulation& simulation);
 
+/// The characteristic length of shown_number() (measure/spectrum.h). NaN if the number is uniform,
+/// on a model and for crawling cells.
+double shown_length(Painter& painter, const Simulation& simulation);
+
 }  // namespace cascade
