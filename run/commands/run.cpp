@@ -243,7 +243,7 @@ Result<RunReport> Runner::run() {
         // A sheet shows numbers, so palette and range have an effect.
         if (request_.sheet.empty()) remark(remark_on_look(painter(), shown(), canvas));
         if (request_.picture.show.empty() && request_.sheet.empty())
-            remark(remark_on_material(painter(), script_, canvas));
+            remark(remark_on_material(script_, canvas));
         if (frames_ && frames_->holds_starts_alone()) {
             remark(fmt::format(
                 "{} nothing but starting values: 'interval' is longer than each stage",

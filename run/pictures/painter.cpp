@@ -140,7 +140,7 @@ Canvas Painter::canvas(const Simulation& simulation) {
     if (shows_cells_) return canvas_of_cells(simulation, std::move(canvas));
     if (shows_body_) return canvas_of_body(simulation, std::move(canvas));
     for (Field& field : canvas.fields) field = shown(std::move(field), request_);
-    if (model_) canvas.material = material(simulation, evaluation_in(simulation));
+    if (!is_plane()) canvas.material = material(simulation, evaluation_in(simulation));
     if (model_ && request_.bump != 0 && canvas.is_colour()) {
         const std::uint32_t stage = shown_stage(simulation);
         auto usual = simulation.evaluate(simulation.domain().stage(stage).show, stage);
@@ -344,13 +344,9 @@ Image Painter::image(const Canvas& canvas, std::optional<ValueRange> range, Imag
         if (request_.copies == PictureCopies()) return copy;
         return repeated(copy, request_.copies.across, request_.copies.down);
     }
-    const Image flat = texture(canvas, range);
-    const DomainSettings& domain = script_->program->domain;
-    const DrawOptions options = draw_options();
-    const Boundaries& sides = domain.grid.boundary;
     Team team(hardware_threads());
-    return draw_on_surface(function_of(*domain.surface), flat, sides.x == Boundary::periodic,
-                           sides.y == Boundary::periodic, options, team);
+    return draw_on_surface(function_of(*script_->program->domain.surface), texture(canvas, range),
+                           grid_material(canvas, script_->program->domain), draw_options(), team);
 }
 
 Image Painter::image_beside_cells(const Canvas& canvas, std::optional<ValueRange> range) {

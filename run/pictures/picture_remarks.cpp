@@ -131,13 +131,12 @@ std::string remark_on_look(const Painter& painter, const Simulation& simulation,
         options);
 }
 
-std::string remark_on_material(const Painter& painter, const Script& script, const Canvas& canvas) {
-    if (painter.is_flat() || canvas.cells || script.program->domain.model) return {};
+std::string remark_on_material(const Script& script, const Canvas& canvas) {
+    if (!canvas.body) return {};
     const std::string settings = material_said(script);
     if (settings.empty()) return {};
-    return fmt::format(
-        "the picture does not show {}: pictures of models do, such as of 'surface: implicit(…)'",
-        settings);
+    return fmt::format("the picture does not show {}: pictures of surfaces and models do",
+                       settings);
 }
 
 }  // namespace cascade

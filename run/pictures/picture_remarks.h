@@ -19,8 +19,8 @@ std::string remark_on_picture(Painter& painter, const Simulation& simulation, co
 std::string remark_on_look(const Painter& painter, const Simulation& simulation,
                            const Canvas& canvas);
 
-/// A remark if the picture block describes a material that the picture does not show: the picture
-/// of a bent grid or of a body. Otherwise empty. Planes show no material either, but it is baked.
-std::string remark_on_material(const Painter& painter, const Script& script, const Canvas& canvas);
+/// A remark if the picture block describes a material and the picture shows a body, which has none.
+/// Otherwise empty.
+std::string remark_on_material(const Script& script, const Canvas& canvas);
 
 }  // namespace cascade

@@ -32,4 +32,14 @@ PlaneLook::PlaneLook(const Canvas& canvas, ValueRange range, const Palette& pale
     }
 }
 
+GridMaterial grid_material(const Canvas& canvas, const DomainSettings& domain) {
+    const PlaneLayout& layout = canvas.fields[0].layout();
+    GridMaterial result{Material(canvas.material, in_rows_of_picture), layout.width, layout.height};
+    result.is_periodic_x = domain.grid.boundary.x == Boundary::periodic;
+    result.is_periodic_y = domain.grid.boundary.y == Boundary::periodic;
+    result.unit = domain.surface->unit;
+    result.detail = domain.detail;
+    return result;
+}
+
 }  // namespace cascade

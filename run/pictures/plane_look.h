@@ -1,8 +1,9 @@
-// The appearance of a plane, or of a slice of a volume, in maps.
+// The appearance of a plane, or of a slice of a volume, in maps, and of a grid on a surface.
 #pragma once
 
 #include "export/flat_cells.h"
 #include "run/pictures/cell_look.h"
+#include "run/pictures/surface_finish.h"
 
 namespace cascade {
 
@@ -13,5 +14,11 @@ struct PlaneLook : CellLook {
     /// The fields of the canvas must have as many columns and rows as `plane`.
     PlaneLook(const Canvas& canvas, ValueRange range, const Palette& palette, FlatCells plane);
 };
+
+/// The material of a canvas of a grid with a surface.
+GridMaterial grid_material(const Canvas& canvas, const DomainSettings& domain);
+
+/// The material of a canvas of a grid with a surface.
+GridMaterial grid_material(const Canvas& canvas, const DomainSettings& domain);
 
 }  // namespace cascade

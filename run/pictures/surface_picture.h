@@ -4,14 +4,15 @@
 #include "core/parallel.h"
 #include "picture/image.h"
 #include "render/draw.h"
+#include "run/pictures/surface_finish.h"
 #include "surface/parameter_surface.h"
 
 namespace cascade {
 
-/// Draws `surface` with `texture`, which has a pixel for each cell. Colours are interpolated
-/// linearly between the centres of cells, also across joined sides. Between the outermost centres
-/// and any other side they are constant. Throws std::bad_alloc.
-Image draw_on_surface(const SurfaceFunction& surface, const Image& texture, bool periodic_x,
-                      bool periodic_y, const DrawOptions& options, Team& team);
+/// Draws `surface` with `texture`, which has a pixel for each cell, and with the material of the
+/// cells. Colours are interpolated linearly between the centres of cells, also across joined sides.
+/// Between the outermost centres and any other side they are constant. Throws std::bad_alloc.
+Image draw_on_surface(const SurfaceFunction& surface, const Image& texture,
+                      const GridMaterial& material, const DrawOptions& options, Team& team);
 
 }  // namespace cascade
