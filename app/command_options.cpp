@@ -61,6 +61,15 @@ void sweep(CLI::App& command, Options& options) {
     groups::add_json(command, options);
 }
 
+void follow(CLI::App& command, Options& options) {
+    groups::add_script(command, options, "A script, or a picture that Cascade drew");
+    groups::add_follow(command, options);
+    groups::add_overrides(command, options.overrides);
+    groups::add_simulation(command, options, "Threads of the run; by default all cores");
+    groups::add_quiet(command, options);
+    groups::add_limits(command, options);
+}
+
 void check(CLI::App& command, Options& options) {
     add_scripts(command, options, "Scripts, pictures that Cascade drew, or -");
     groups::add_overrides(command, options.overrides);

@@ -11,6 +11,7 @@ namespace cascade::command_options {
 
 void run(CLI::App& command, Options& options);
 void sweep(CLI::App& command, Options& options);
+void follow(CLI::App& command, Options& options);
 void check(CLI::App& command, Options& options);
 void analyze(CLI::App& command, Options& options);
 void bench(CLI::App& command, Options& options);

@@ -9,11 +9,13 @@ namespace cascade {
 
 std::span<const CommandEntry> command_table() {
     using enum AtPrompt;
-    static const std::array<CommandEntry, 17> all = {{
+    static const std::array<CommandEntry, 18> all = {{
         {Command::run, "run", run_command, absent, help::run, help::run_examples,
          command_options::run},
         {Command::sweep, "sweep", sweep_command, of_script, help::sweep, help::sweep_examples,
          command_options::sweep},
+        {Command::follow, "continue", continue_command, of_script, help::follow,
+         help::follow_examples, command_options::follow},
         {Command::check, "check", check_command, of_script, help::check, help::check_examples,
          command_options::check},
         {Command::analyze, "analyze", analyze_command, of_script, help::analyze,

@@ -19,6 +19,7 @@ namespace cascade {
 
 int run_command(const Options& options, Console& console);
 int sweep_command(const Options& options, Console& console);
+int continue_command(const Options& options, Console& console);
 int check_command(const Options& options, Console& console);
 int analyze_command(const Options& options, Console& console);
 int bench_command(const Options& options, Console& console);

@@ -64,6 +64,16 @@ All goes into one folder: sheet.png, features.csv (wavelength, spots, area, dire
 picture shows), and a small result of every run, so that the same command goes on where a sweep was
 stopped, and one with more values runs only what is new.)";
 
+const std::string_view follow =
+    "Follows steady states through a parameter, with folds, branch points and their stability.";
+const std::string_view follow_examples = R"(Examples:
+  cascade continue hills.cascade --vary r=-0.5..0.2            hills_branches.csv and .svg
+  cascade continue hills.cascade --vary r=-0.5..0.2 --flat --branches 4
+  cascade continue hills.cascade --vary r=-0.5..0.2 --curve max -o hills.pdf -o hills.csv
+
+The first state is the end of the script's run, or with --flat the state in which all cells are
+equal.)";
+
 const std::string_view check = "Checks scripts for errors, and runs nothing.";
 const std::string_view check_examples = R"(Examples:
   cascade check *.cascade

@@ -11,6 +11,7 @@ extern const std::string_view about;
 extern const std::string_view examples;
 extern const std::string_view run, run_examples;
 extern const std::string_view sweep, sweep_examples;
+extern const std::string_view follow, follow_examples;
 extern const std::string_view check, check_examples;
 extern const std::string_view analyze, analyze_examples;
 extern const std::string_view bench, bench_examples;

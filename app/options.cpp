@@ -250,10 +250,10 @@ Leave Parser::wrong_use(const std::string& program, const CLI::ParseError& error
 /// The name of a required argument that is missing. Empty if none is. CLI11 cannot check this.
 std::string missing_argument(const Options& options) {
     const bool needs_script =
-        options.command == Command::sweep || options.command == Command::check ||
-        options.command == Command::analyze || options.command == Command::bench ||
-        options.command == Command::compile || options.command == Command::format ||
-        options.command == Command::export_page ||
+        options.command == Command::sweep || options.command == Command::follow ||
+        options.command == Command::check || options.command == Command::analyze ||
+        options.command == Command::bench || options.command == Command::compile ||
+        options.command == Command::format || options.command == Command::export_page ||
         (options.command == Command::run && options.run.resume.empty() && options.device != "list");
     if (needs_script && options.scripts.empty()) return "a script is missing";
     if (options.command == Command::import_model && options.scripts.empty()) {

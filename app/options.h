@@ -5,6 +5,7 @@
 #include "lang/format/format_script.h"
 #include "run/commands/analyze.h"
 #include "run/commands/bench.h"
+#include "run/commands/follow.h"
 #include "run/commands/run.h"
 #include "run/commands/sweep.h"
 #include "run/domain/describe_model.h"
@@ -25,6 +26,7 @@ namespace cascade {
 enum class Command {
     run,
     sweep,
+    follow,
     check,
     analyze,
     bench,
@@ -97,8 +99,9 @@ struct Options {
     ModelFileOptions mesh_files;                           ///< `mesh --unwrap`.
     std::filesystem::path mesh_output;                     ///< `mesh -o`.
     AnalyzeRequest analyze;
-    BenchRequest bench;  ///< Its member `simulation` contains the defaults.
-    bool csv = false;    ///< `bench --csv`
+    FollowRequest follow;  ///< `continue`; its member `simulation` contains the defaults.
+    BenchRequest bench;    ///< Its member `simulation` contains the defaults.
+    bool csv = false;      ///< `bench --csv`
     CompileRequest compile;
     bool no_browser = false;       ///< `view --no-browser`
     bool prints_words = false;     ///< `lsp --words`

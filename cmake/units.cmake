@@ -13,7 +13,8 @@
 set(unit_size 130000)
 
 # Files whose templates alone take as much memory as one compiler process may use.
-set(units_of_one_file analysis/eigenvalues analysis/linear_algebra view/local_server)
+set(units_of_one_file analysis/eigenvalues analysis/linear_algebra continuation/factors continuation/modes
+  view/local_server)
 list(TRANSFORM units_of_one_file PREPEND ${PROJECT_SOURCE_DIR}/)
 list(TRANSFORM units_of_one_file APPEND .cpp)
 

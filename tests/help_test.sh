@@ -13,7 +13,7 @@ expect_named() {
     fi
 }
 
-for command in run sweep check analyze bench compile systems new import fmt mesh repl view lsp export; do
+for command in run sweep continue check analyze bench compile systems new import fmt mesh repl view lsp export; do
     for option in $("$CASCADE" $command --help | grep -oE '^ +(-[a-z],)?--[a-z-]+' | grep -oE -- '--[a-z-]+'); do
         [ "$option" = --help ] || expect_named "$option"
     done

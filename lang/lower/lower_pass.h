@@ -6,6 +6,7 @@
 // these cells or faces.
 #pragma once
 
+#include "lang/lower/crossings.h"
 #include "lang/lower/lower_node.h"
 #include "lang/lower/pass_planner.h"
 
@@ -100,9 +101,6 @@ private:
 ValueId lower_stencil(const PassView& pass, KernelAssembly& assembly, const NodeValues& values,
                       NodeId id);
 
-/// The number of rows of a tensor. The operands of the node are the tensor's entries.
-int tensor_size(const Node& tensor);
-
 /// Lowers vectors at faces, and their divergence (lower_vectors.cpp).
 class Fluxes {
 public:
@@ -117,15 +115,6 @@ private:
     struct AtFace;
     ValueId gradient(NodeId operand, Face face) const;
     ValueId through_sides(NodeId flux, Face face, ValueId value);
-    /// Facts about a flux through the sides of the grid.
-    struct Crossing {
-        bool goes_across = false;  ///< Whether the flux may differ from 0 even if all fields are
-                                   ///< mirrored.
-        bool has_species = false;
-        std::array<bool, wall_count> is_open{};  ///< For each side, whether the flux reads a
-                                                 ///< species that is not mirrored there.
-    };
-    void find_what_crosses_sides();
 
     const PlanGraph& graph_;
     const GridAxes& axes_;

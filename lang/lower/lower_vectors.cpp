@@ -13,19 +13,6 @@
 
 namespace cascade::lowering {
 
-namespace {
-
-/// The index of an entry in the list a11, a12, a22, or a11, a12, a13, a22, a23, a33.
-std::size_t entry_of(int size, int row, int column) {
-    constexpr std::array<std::array<std::size_t, 3>, 3> in_space{{{0, 1, 2}, {1, 3, 4}, {2, 4, 5}}};
-    if (size == 2) return static_cast<std::size_t>(row + column);
-    return in_space[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)];
-}
-
-}  // namespace
-
-int tensor_size(const Node& tensor) { return tensor.operand_count == 6 ? 3 : 2; }
-
 Fluxes::Fluxes(const PassView& pass, KernelAssembly& assembly, const NodeValues& values)
     : graph_(pass.graph),
       axes_(pass.planner.axes()),
@@ -88,7 +75,7 @@ struct Fluxes::AtFace {
         if (where.component >= size) return builder().number(0);
         std::optional<ValueId> sum;
         for (int column = 0; column < size; ++column) {
-            const std::size_t entry = entry_of(size, where.component, column);
+            const std::size_t entry = tensor_entry(size, where.component, column);
             const ValueId term =
                 builder().multiply(average(own.graph_[tensor].operands[entry]),
                                    own.values_.face(vector, {where.axis, column, where.side}));
@@ -102,52 +89,8 @@ ValueId Fluxes::at_face(NodeId id, Face where) const {
     return vector_by(AtFace{*this, where}, graph_, graph_[id]);
 }
 
-/// Finds which fluxes cross the sides. Nothing flows through a side, or the border of a mask, at
-/// which all species of a flux are mirrored. Differences across such a side are 0 by themselves.
-/// Other vectors, and components that a tensor turns towards such a side, are set to 0 at the side.
-void Fluxes::find_what_crosses_sides() {
-    const System& system = graph_.program().system_of(graph_.stage());
-    IdVector<ItemId, SideKinds> of_item;
-    for (const ItemId item : system.items()) {
-        of_item.push_back(side_kinds(graph_.program(), graph_.stage(), item));
-    }
-    crossings_.assign(graph_.size(), {});
-    for (const NodeId id : graph_.ids()) {
-        const Node& node = graph_[id];
-        Crossing& crossing = crossings_[id];
-        const bool is_vector = node.type == ValueType::vector;
-        crossing.goes_across = is_vector && node.calls(Function::vector);
-        if (const auto* item = node.as<ItemId>(); item != nullptr && system.is_species(*item)) {
-            crossing.has_species = true;
-            for (std::size_t side = 0; side < side_count; ++side) {
-                crossing.is_open[side] = of_item[*item][side] != SideKind::no_flux;
-            }
-        }
-        const DefinitionSides* own = graph_.sides(id);
-        for (std::size_t side = 0; own != nullptr && side < side_count; ++side) {
-            crossing.has_species = true;
-            crossing.is_open[side] = own->sides[side].kind != SideKind::no_flux;
-        }
-        if (node.calls(Function::bordered)) {
-            crossing = crossings_[node.operands[0]];
-            crossing.is_open[static_cast<std::size_t>(Side::border)] = true;
-            continue;
-        }
-        for (const NodeId read : node.reads()) {
-            if (own != nullptr) break;
-            const Crossing& operand = crossings_[read];
-            const bool turns = graph_[read].type == ValueType::tensor;
-            crossing.goes_across |= is_vector && (operand.goes_across || turns);
-            crossing.has_species |= operand.has_species;
-            for (std::size_t side = 0; side < wall_count; ++side) {
-                crossing.is_open[side] |= operand.is_open[side];
-            }
-        }
-    }
-}
-
 ValueId Fluxes::through_sides(NodeId flux, Face face, ValueId value) {
-    if (crossings_.empty()) find_what_crosses_sides();
+    if (crossings_.empty()) crossings_ = crossings_of(graph_);
     const Crossing& crossing = crossings_[flux];
     if (!crossing.goes_across) return value;
     if (graph_.has_mask() && !crossing.is_open[static_cast<std::size_t>(Side::border)]) {

@@ -9,8 +9,8 @@
 #include "analysis/stage_analysis.h"
 #include "core/file.h"
 #include "core/file_format.h"
-#include "core/near_name.h"
 #include "run/commands/analyze_json.h"
+#include "run/commands/find_parameter.h"
 #include "run/simulation/other_cells.h"
 #include "run/simulation/stage_sizes.h"
 
@@ -26,36 +26,6 @@ using namespace analysis;
 
 /// The number of values along each side of a map.
 constexpr std::size_t values_along_map = 400;
-
-/// Finds a parameter by its name, such as "feed". The name of its stage or system may precede the
-/// name.
-Result<ParameterSpan> find_parameter(const Program& program, std::uint32_t stage,
-                                     const VariedRange& range) {
-    const System& system = program.system_of(stage);
-    std::string_view name = range.name;
-    for (const std::string& owner : {program.stages[stage].name, system.name}) {
-        if (name.starts_with(owner) && name.substr(owner.size()).starts_with(".")) {
-            name.remove_prefix(owner.size() + 1);
-            break;
-        }
-    }
-    std::vector<std::string> names;
-    for (const ItemId item : system.quantities.ids()) {
-        const Quantity& quantity = system.quantities[item];
-        if (quantity.is_species) continue;
-        names.push_back(quantity.name);
-        if (quantity.name != name) continue;
-        if (!program.stages[stage].uniform[item]) {
-            return failure(
-                fmt::format("'{}' differs from cell to cell and cannot be varied", quantity.name));
-        }
-        return ParameterSpan{item, range.low, range.high};
-    }
-    const std::string near = nearest_name(std::string(name), names);
-    return failure(fmt::format("stage '{}' has no parameter '{}'", program.stages[stage].name,
-                               range.name),
-                   near.empty() ? "" : fmt::format("did you mean '{}'?", near));
-}
 
 class Analysis {
 public:
@@ -82,9 +52,9 @@ private:
     Result<void> vary(const StageAnalysis& analysis) {
         std::vector<ParameterSpan> spans;
         for (const VariedRange& range : request_.varied) {
-            auto span = find_parameter(program_, stage_, range);
-            if (!span) return tl::unexpected(span.error());
-            spans.push_back(*span);
+            auto item = find_parameter(program_, stage_, range.name);
+            if (!item) return tl::unexpected(item.error());
+            spans.push_back({*item, range.low, range.high});
         }
         if (analysis.states.empty()) {
             if (spans.empty()) return {};

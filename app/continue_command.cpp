@@ -1,0 +1,67 @@
+// The command `cascade continue` follows steady states, shows progress, and reports what it found.
+#include "app/commands.h"
+#include "app/exit_status.h"
+#include "app/interrupt.h"
+#include "app/last_moments.h"
+#include "app/limits.h"
+#include "app/option_values.h"
+#include "app/progress_display.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+
+namespace cascade {
+
+int continue_command(const Options& options, Console& console) {
+    Overrides overrides = options.overrides;
+    overrides.precision = Precision::binary64;
+    auto file = load(options.scripts[0], overrides, console, typed_of(options));
+    if (!file) return exit_status::wrong_script;
+    Script& script = file->script;
+    console.say(script.messages(console.error().colour));
+    if (!script.program) return exit_status::wrong_script;
+
+    FollowRequest request = options.follow;
+    if (!request.varied) {
+        console.fail({"nothing is varied", "say what with --vary, as in --vary feed=0.02..0.06"});
+        return exit_status::wrong_use;
+    }
+    request.simulation = options.run.simulation;
+    RunControl control;
+    ProgressDisplay display = make_progress_display(console, options.quiet);
+    control.report = [&](const Progress& progress) { display.show(progress); };
+    const LastMoments last(options.limit_seconds, control.hurry, control.may_end);
+    const InterruptGuard interrupt(control.cancel);
+    const TimeLimit limit(options.limit_seconds, control.cancel);
+    request.simulation.control = &control;
+    const auto report = follow_branches(script, request, control);
+    display.clear();
+    if (!report && script.diagnostics.has_errors()) {
+        console.say(script.messages(console.error().colour));
+        return exit_status::wrong_script;
+    }
+    if (!report) {
+        console.fail(report.error());
+        if (control.cancel && !limit.reached()) {
+            return exit_status::signal_base + std::max(interrupt.signal(), 2);
+        }
+        return limit.reached() ? exit_status::time_limit : exit_status::failed_run;
+    }
+    console.print(report->text);
+    if (!options.quiet) {
+        for (const auto& path : report->written) {
+            console.say(fmt::format("wrote {}\n", path.string()));
+        }
+    }
+    if (!control.cancel) return exit_status::success;
+    if (limit.reached()) {
+        console.say(fmt::format("cascade: the limit of {} is reached\n",
+                                describe_duration(options.limit_seconds)));
+        return exit_status::time_limit;
+    }
+    return exit_status::signal_base + std::max(interrupt.signal(), 2);
+}
+
+}  // namespace cascade

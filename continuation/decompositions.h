@@ -1,0 +1,60 @@
+// Decompositions of matrices. Each of Eigen's and Spectra's templates that take long to compile is
+// used in one file only.
+#pragma once
+
+#include "continuation/sparse_rows.h"
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace cascade::continuation {
+
+/// Unit column vectors, orthogonal to each other and to all columns of a matrix with few rows.
+/// Columns whose part along a direction is shorter than `tolerance`, all together, count as 0
+/// there.
+Matrix across_rows(const Matrix& matrix, double tolerance);
+
+/// The factors of a square sparse matrix.
+class Factors {
+public:
+    explicit Factors(const SparseColumns& matrix);
+    ~Factors();
+    Factors(Factors&&) noexcept;
+
+    /// Whether the matrix has an inverse, as far as the elimination shows. A sparse elimination
+    /// does not notice every singular matrix, so check what is solved.
+    bool is_regular() const;
+    Vector solve(const Vector& right) const;
+
+private:
+    struct Implementation;
+    std::unique_ptr<Implementation> self_;
+};
+
+/// A matrix with a border of a few columns and rows: (matrix, columns; rows, corner).
+SparseColumns with_border(const SparseColumns& matrix, const Matrix& columns, const Matrix& rows,
+                          const Matrix& corner);
+
+/// A direction that does not count among the eigenvectors: `right` is an eigenvector whose
+/// eigenvalue is 0, or `left` is one of the transposed matrix. Their scalar product is 1.
+struct NeutralMode {
+    Vector right, left;
+};
+
+struct Mode {
+    Complex value;
+    ComplexVector vector;  ///< Empty unless requested.
+};
+
+/// The eigenvalues of a square matrix with the largest real parts, by decreasing real part, at
+/// least `count` if there are so many. Neutral modes are left out. Small matrices are decomposed
+/// completely. Of larger ones, the eigenvalues nearest to 0 are found, and those nearest to the
+/// frequencies `turning` that are farther from 0. Empty if the search does not converge.
+std::vector<Mode> leading_modes(const SparseColumns& matrix, std::span<const NeutralMode> neutral,
+                                std::span<const double> turning, int count, bool with_vectors);
+
+/// The eigenvalues of a small dense matrix.
+std::vector<Complex> eigenvalues_of(const Matrix& matrix);
+
+}  // namespace cascade::continuation

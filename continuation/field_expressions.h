@@ -1,0 +1,85 @@
+// Computes expressions of a stage in all cells at once, with exact derivatives.
+//
+// The expressions are those from which kernels are lowered, after all graph passes. Numbers are
+// computed in double precision. Each function of numbers passes derivatives on by the rules of
+// calculus, and each operator by the sparse matrix of its differences.
+#pragma once
+
+#include "continuation/differences.h"
+#include "continuation/part.h"
+#include "core/result.h"
+#include "lang/calculus/algebra.h"
+#include "lang/lower/crossings.h"
+#include "lang/lower/plan_graph.h"
+
+#include <array>
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace cascade::continuation {
+
+/// The values of a formula that changes with no unknown, in all cells of the grid or once.
+using ConstantValues = std::function<std::vector<double>(const Formula& formula)>;
+
+/// The parts of the items that change: the species and the parameter. The values of a species
+/// include the halo.
+using ItemParts = std::map<ItemId, Part>;
+
+class FieldExpressions {
+public:
+    /// `changing` are the items that change. Fails with the reason if an expression cannot be
+    /// computed here: the rest of a sentence that begins with the stage.
+    static Result<FieldExpressions> create(lowering::Expressions expressions,
+                                           const lowering::PassContext& context,
+                                           const PaddedGrid& grid, std::span<const ItemId> changing,
+                                           const ConstantValues& constants);
+
+    /// Whether no value but those that change differs from cell to cell.
+    bool is_same_everywhere() const;
+    std::size_t root_count() const { return plan_->roots().size(); }
+    /// The parts of the roots. If `with_slopes` is false, no part has slopes.
+    std::vector<Part> roots(const ItemParts& items, bool with_slopes);
+
+private:
+    FieldExpressions(lowering::Expressions expressions, const lowering::PassContext& context,
+                     const PaddedGrid& grid);
+
+    Result<void> prepare(std::span<const ItemId> changing, const ConstantValues& constants);
+    Result<void> prepare_node(NodeId id, std::span<const ItemId> changing,
+                              const ConstantValues& constants);
+    Result<void> prepare_leaf(NodeId id, const ConstantValues& constants);
+    Result<void> prepare_call(NodeId id);
+    std::string name_of(NodeId id) const;
+
+    bool is_number_in_cell(NodeId id) const;
+    void compute(NodeId id, const ItemParts& items, bool with_slopes);
+    Values folded(const Node& node) const;
+    SparseRows chained(NodeId id) const;
+    Part operated(NodeId id);
+    Part upwind(NodeId velocity, NodeId operand, int axis, const Boundaries& beyond);
+    Part limited(NodeId operand, int axis, const Boundaries& beyond);
+    Part aggregated(const Node& node);
+    Part difference(NodeId operand, Difference kind, int first, int second,
+                    const Boundaries& beyond);
+
+    struct AtFace;
+    Part divergence(NodeId id);
+    Part through_sides(NodeId flux, int axis, Part at_faces);
+
+    std::shared_ptr<lowering::PlanGraph> plan_;
+    const PaddedGrid* grid_;
+    std::shared_ptr<Differences> differences_;
+    IdVector<NodeId, lowering::Crossing> crossings_;
+    Algebra algebra_;            ///< The nodes of the plan, then their derivatives.
+    std::vector<NodeId> order_;  ///< The nodes that change, in an order in which to compute them.
+    IdVector<NodeId, bool> changes_;
+    /// For each function of numbers: its derivatives with respect to its operands.
+    IdVector<NodeId, std::array<std::optional<NodeId>, most_operands>> slope_nodes_;
+    IdVector<NodeId, Part> parts_;
+};
+
+}  // namespace cascade::continuation

@@ -1,0 +1,191 @@
+// Operators of derivatives, fluxes and means over the domain.
+#include "continuation/field_expressions.h"
+#include "core/check.h"
+#include "lang/program/vector_functions.h"
+
+#include <span>
+
+namespace cascade::continuation {
+
+namespace {
+
+/// Takes rows of one part where a condition holds, and of another part elsewhere.
+Part chosen(const Values& is_first, const Part& first, const Part& second) {
+    Part a = product(Part{is_first, {}}, first);
+    return sum(a, product(Part{1 - is_first, {}}, second));
+}
+
+}  // namespace
+
+Part FieldExpressions::difference(NodeId operand, Difference kind, int first, int second,
+                                  const Boundaries& beyond) {
+    if (parts_[operand].is_uniform()) return {};
+    return applied(differences_->in_cells(kind, first, second, beyond), parts_[operand]);
+}
+
+Part FieldExpressions::operated(NodeId id) {
+    const Node& node = (*plan_)[id];
+    if (is_aggregate(node)) return aggregated(node);
+    if (node.calls(Function::div)) return divergence(id);
+    const Boundaries beyond = plan_->boundary(id);
+    const NodeId operand = node.reads().back();
+    if (const auto own = difference_of(node.function)) {
+        return difference(operand, own->difference, own->first, own->second, beyond);
+    }
+    const auto detail = node.as<Call>()->detail;
+    switch (node.function) {
+        case Function::beside:
+            if (parts_[operand].is_uniform()) return parts_[operand];
+            return applied(differences_->beside(Offset::of(detail), beyond), parts_[operand]);
+        case Function::grad2: {
+            Part squares;
+            for (const int axis : grid_->axes().present) {
+                const Part along = difference(operand, Difference::central, axis, 0, beyond);
+                squares = sum(squares, product(along, along));
+            }
+            return squares;
+        }
+        case Function::advect: {
+            Part all;
+            for (const int axis : grid_->axes().present) {
+                if (axis + 1 >= node.operand_count) continue;
+                const NodeId velocity = node.operands[static_cast<std::size_t>(axis)];
+                all = sum(all, upwind(velocity, operand, axis, beyond));
+            }
+            return all;
+        }
+        case Function::upwind:
+            return upwind(node.operands[0], operand, static_cast<int>(detail), beyond);
+        case Function::limited: return limited(operand, static_cast<int>(detail), beyond);
+        case Function::diffuse: {
+            const Node& tensor = (*plan_)[node.operands[0]];
+            const auto term = [&](std::size_t entry, Difference kind, int first, int second) {
+                return product(parts_[tensor.operands[entry]],
+                               difference(operand, kind, first, second, beyond));
+            };
+            return sum(sum(term(0, Difference::second, 0, 0), term(2, Difference::second, 1, 0)),
+                       scaled(term(1, Difference::mixed, 0, 1), 2));
+        }
+        default: break;
+    }
+    CHECK(false, "operators have been checked");
+}
+
+/// v · (v > 0 ? c − W : E − c) / h.
+Part FieldExpressions::upwind(NodeId velocity, NodeId operand, int axis, const Boundaries& beyond) {
+    const Part& v = parts_[velocity];
+    const Values is_forwards = (v.values > 0).cast<double>();
+    const Part backward = difference(operand, Difference::backward, axis, 0, beyond);
+    const Part forward = difference(operand, Difference::forward, axis, 0, beyond);
+    return product(v, chosen(is_forwards, backward, forward));
+}
+
+/// Van Leer's limiter, as in lang/lower/lower_operators.cpp.
+Part FieldExpressions::limited(NodeId operand, int axis, const Boundaries& beyond) {
+    const Part a =
+        scaled(difference(operand, Difference::forward, axis, 0, beyond), grid_->spacing());
+    const Part b =
+        scaled(difference(operand, Difference::backward, axis, 0, beyond), grid_->spacing());
+    const Values is_monotone = (a.values * b.values > 0).cast<double>();
+    // Where the slope is 0, any divisor but 0 will do.
+    const Part divisor = chosen(is_monotone, sum(a, b), Part{Values::Ones(1), {}});
+    const Part mean = scaled(quotient(product(a, b), divisor), 2);
+    return product(Part{is_monotone, {}}, mean);
+}
+
+Part FieldExpressions::aggregated(const Node& node) {
+    const Part& of = parts_[node.operands[0]];
+    const bool is_mean = node.calls(Function::domain_mean);
+    const auto count = static_cast<double>(grid_->cell_count());
+    const double factor = is_mean ? 1 / count : 1;
+    if (of.is_uniform()) return scaled(of, is_mean ? 1 : count);
+    std::vector<Eigen::Triplet<double>> entries;
+    for (const Index cell : grid_->cells()) entries.emplace_back(0, cell, factor);
+    SparseRows row(1, grid_->size());
+    row.setFromTriplets(entries.begin(), entries.end());
+    return applied(row, of);
+}
+
+/// Computes a component of a vector at all faces along an axis.
+struct FieldExpressions::AtFace {
+    FieldExpressions& own;
+    int axis = 0, component = 0;
+
+    Part flow(NodeId vector) const { return vector_by(*this, *own.plan_, (*own.plan_)[vector]); }
+    Part average(NodeId number) const {
+        const Part& part = own.parts_[number];
+        if (part.is_uniform()) return part;
+        return applied(own.differences_->at_faces(Difference::average, axis), part);
+    }
+
+    Part gradient(NodeId of) const {
+        const Part& part = own.parts_[of];
+        if (part.is_uniform() || !own.grid_->axes().has(component)) return {};
+        return applied(component == axis ? own.differences_->at_faces(Difference::across, axis)
+                                         : own.differences_->along_faces(axis, component),
+                       part);
+    }
+    Part components(std::span<const NodeId> parts) const {
+        const auto k = static_cast<std::size_t>(component);
+        return k < parts.size() ? average(parts[k]) : Part{};
+    }
+    Part negative(NodeId vector) const { return scaled(flow(vector), -1); }
+    Part sum(NodeId a, NodeId b) const { return continuation::sum(flow(a), flow(b)); }
+    Part difference(NodeId a, NodeId b) const {
+        return continuation::sum(flow(a), scaled(flow(b), -1));
+    }
+    Part quotient(NodeId vector, NodeId by) const {
+        const Part divisor = average(by);
+        if (divisor.is_uniform()) return continuation::quotient(flow(vector), divisor);
+        // Rows that belong to no face are 0.
+        const Values nowhere = (divisor.values == 0).cast<double>();
+        return continuation::quotient(flow(vector), continuation::sum(divisor, Part{nowhere, {}}));
+    }
+    Part product(NodeId a, NodeId b, bool is_vector_first) const {
+        return is_vector_first ? continuation::product(flow(a), average(b))
+                               : continuation::product(average(a), flow(b));
+    }
+    Part turned(NodeId tensor, NodeId vector) const {
+        const Node& entries = (*own.plan_)[tensor];
+        const int size = lowering::tensor_size(entries);
+        Part all;
+        for (int column = 0; component < size && column < size; ++column) {
+            const std::size_t entry = lowering::tensor_entry(size, component, column);
+            const AtFace aside{own, axis, column};
+            all = continuation::sum(all, continuation::product(average(entries.operands[entry]),
+                                                               aside.flow(vector)));
+        }
+        return all;
+    }
+};
+
+Part FieldExpressions::through_sides(NodeId flux, int axis, Part at_faces) {
+    const lowering::Crossing& crossing = crossings_[flux];
+    if (!crossing.goes_across || at_faces.is_uniform()) return at_faces;
+    for (const int side : {2 * axis, 2 * axis + 1}) {
+        const auto k = static_cast<std::size_t>(side);
+        const SideKind usual = SideRules(plan_->grid().boundary).at[k].kind;
+        const bool is_open =
+            crossing.has_species ? crossing.is_open[k] : usual == SideKind::periodic;
+        if (is_open) continue;
+        at_faces = product(at_faces, Part{1 - differences_->on_side(side), {}});
+    }
+    return at_faces;
+}
+
+Part FieldExpressions::divergence(NodeId id) {
+    const NodeId flux = (*plan_)[id].operands[0];
+    const Boundaries beyond = plan_->boundary(id);
+    Part all;
+    for (const int axis : grid_->axes().present) {
+        Part at_faces = AtFace{*this, axis, axis}.flow(flux);
+        if (at_faces.is_uniform()) {
+            at_faces = product(Part{Values::Ones(grid_->size()), {}}, at_faces);
+        }
+        at_faces = through_sides(flux, axis, std::move(at_faces));
+        all = sum(all, applied(differences_->between_faces(axis, beyond), at_faces));
+    }
+    return all;
+}
+
+}  // namespace cascade::continuation

@@ -1,0 +1,59 @@
+// A grid with a halo of one cell on both sides of every axis that has several cells.
+//
+// Values of expressions are stored for all cells of the padded grid. A value beyond a side then is
+// a number like any other, and derivatives pass through the rules of sides by themselves.
+#pragma once
+
+#include "continuation/sparse_rows.h"
+#include "core/grid.h"
+#include "lang/program/stencils.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace cascade::continuation {
+
+class PaddedGrid {
+public:
+    explicit PaddedGrid(const Grid& grid);
+
+    const GridAxes& axes() const { return axes_; }
+    double spacing() const { return spacing_; }
+    /// The number of cells of the padded grid, and of the grid.
+    Index size() const { return size_; }
+    Index cell_count() const { return static_cast<Index>(cells_.size()); }
+    /// The numbers of the grid's cells in the padded grid. x varies fastest, z slowest.
+    const std::vector<Index>& cells() const { return cells_; }
+    /// The number of cells along an axis.
+    std::int64_t length(int axis) const { return lengths_[static_cast<std::size_t>(axis)]; }
+    /// The difference between the numbers of a cell and of the cell at an offset.
+    Index shift(Offset offset) const;
+    /// The position of a cell of the padded grid along an axis: −1 or `length` in the halo.
+    std::int64_t position(Index padded, int axis) const;
+    /// The halo cells, in an order in which each comes after the cell that lies next to it, inwards
+    /// along the last axis on which it is beyond a side.
+    struct HaloCell {
+        Index cell = 0, inner = 0;  ///< `inner` is the next cell inwards.
+        Index opposite = 0;         ///< The cell at the other end of the axis.
+        int side = 0;               ///< The number of a Side.
+        Index beside = 0;           ///< The grid's cell whose value of the side counts.
+    };
+    const std::vector<HaloCell>& halo() const { return halo_; }
+
+    /// For each cell of the padded grid, the cell from which its value is copied if all sides are
+    /// periodic or mirrored.
+    std::vector<Index> sources(const Boundaries& boundary) const;
+
+private:
+    void find_halo();
+
+    GridAxes axes_;
+    double spacing_;
+    std::array<std::int64_t, 3> lengths_{}, padded_{}, strides_{};
+    Index size_ = 0;
+    std::vector<Index> cells_;
+    std::vector<HaloCell> halo_;
+};
+
+}  // namespace cascade::continuation

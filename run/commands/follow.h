@@ -1,0 +1,46 @@
+// The command `cascade continue` follows the steady states of a stage through a parameter.
+#pragma once
+
+#include "core/result.h"
+#include "core/run_control.h"
+#include "run/commands/variation.h"
+#include "run/script/script.h"
+#include "run/simulation/simulation.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cascade {
+
+struct FollowRequest {
+    /// The name of a stage, or its number, counted from 1. Empty: the last stage.
+    std::string stage;
+    std::optional<VariedRange> varied;  ///< Must be given.
+    bool from_flat = false;    ///< Whether the first state is flat, and not the end of the run.
+    double step = 0.05;        ///< The longest step, in parts of the range and of usual values.
+    std::size_t points = 400;  ///< The most points of a branch on each side of its first.
+    std::size_t branches = 1;  ///< The most branches.
+    std::string up;            ///< What the diagram shows upwards. Empty: the norm of a species.
+    /// Tables (.csv) and diagrams. If empty, SCRIPT_branches.csv and SCRIPT_branches.svg.
+    std::vector<std::filesystem::path> outputs;
+    std::filesystem::path save;  ///< The folder of states as saved runs. Empty: none.
+    SimulationOptions simulation;
+};
+
+/// Whether branches can be written to a file with this ending.
+bool is_branches_output(const std::filesystem::path& path);
+
+struct FollowReport {
+    std::string text;  ///< A line for each branch and each special point.
+    std::vector<std::filesystem::path> written;
+};
+
+/// Runs the stages up to the requested one, finds a steady state near the end of the run, and
+/// follows it. Fails before the run if the stage cannot have steady states, or has parts that are
+/// not supported. After a cancel, what was found is written. The script must have double precision.
+Result<FollowReport> follow_branches(Script& script, const FollowRequest& request,
+                                     RunControl& control);
+
+}  // namespace cascade
