@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Probes: --log 'u at (x, y)' has the value of the cell at this place, on lines, planes and volumes, in each stage.
+# Probes: --log 'u at (x, y)' has the value of the cell at this place, on lines, planes and volumes, in each stage. Also
+# speeds and rates from logs, compared with theory.
 set -u
 rm -rf ./*
 
@@ -31,6 +32,23 @@ run 0 run line.cascade -q -o line.png --log 'u at (0.5)' --log-file line.csv
 [ "$(tail -n 1 line.csv)" = a,1,1,0.5625 ] || fail "$(cat line.csv)"
 run 0 run volume.cascade -q -o volume.png --log 'u at (0, 0.5, 1)' --log-file volume.csv
 [ "$(tail -n 1 volume.csv)" = a,1,1,93.875 ] || fail "$(cat volume.csv)"
+
+# The speed of Fisher's front is 2 - 3/(2 t) for long times t (Bramson, 1983), here on average 1.97 from 40 to 60. In
+# cells of length h its limit is the smallest (1 + (2 cosh(k h) - 2)/h^2)/k, which is 2.02 for h = 0.5.
+cat >front.cascade <<'END'
+system fisher { u: if(x < 0.1, 1, 0); u' = lap(u) + u * (1 - u) }
+domain { grid: 480, 1; spacing: 0.5; boundary: noflux }
+stage grow: fisher { solver: rk4; speed: 0.05; duration: 60 }
+END
+run 0 run front.cascade -q -o front.png --at 40,60 --log 'front=integral(u over domain)' --log-file front.csv
+awk -F, '$3 == 40 { a = $4 } $3 == 60 { v = ($4 - a) / 20; if (!(v > 1.97 && v < 2.01)) exit 1 }' front.csv ||
+    fail "the front: $(cat front.csv)"
+# A wave of 64 cells decays with the rate 2 - 2 cos(2 pi/64) = 0.0096305 of the difference equation, in steps of 1/4.
+echo "system s { u: sin(2 * pi * x); u' = lap(u) }" >wave.cascade
+printf 'domain { grid: 64; precision: double }\nstage a: s { solver: rk4; speed: 0.25; duration: 50 }\n' >>wave.cascade
+run 0 run wave.cascade -q -o wave.png --log deviation --log-file wave.csv
+awk -F, '$3 == 0 { a = log($4) } $3 == 50 { r = (log($4) - a) / 50; d = r + 0.0096305; if (d < 0) d = -d; if (d > 1e-6) exit 1 }' \
+    wave.csv || fail "the rate: $(cat wave.csv)"
 
 refused() {
     run 2 run "$1" -q -o refused.png --log "$2" --log-file refused.csv
