@@ -76,6 +76,14 @@ Handle text_type() {
     return type;
 }
 
+/// Properties of new datasets, without the time of their creation, so that the same run writes the
+/// same bytes.
+Handle dataset_properties() {
+    Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    good(H5Pset_obj_track_times(creation, false));
+    return creation;
+}
+
 void write_attribute(hid_t object, const std::string& name, hid_t type, const void* value,
                      std::size_t count = 1) {
     const Handle space = count == 1 ? Handle(H5Screate(H5S_SCALAR), H5Sclose) : space_of({count});
@@ -175,8 +183,8 @@ File::File(const std::filesystem::path& path, const Hdf5Layout& layout) {
     for (const auto& [name, text] : layout.texts) {
         const Handle type = text_type();
         const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-        const Handle dataset(H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT,
-                                        H5P_DEFAULT),
+        const Handle dataset(H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT,
+                                        dataset_properties(), H5P_DEFAULT),
                              H5Dclose);
         const char* const bytes = text.c_str();
         good(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, &bytes));
@@ -234,7 +242,7 @@ void File::make_axes(const Hdf5Layout& layout) {
 void File::write_column(const Hdf5Column& column, hid_t axis) {
     const Handle space = space_of({column.values.size()});
     Handle dataset(H5Dcreate2(file_, column.name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT,
-                              H5P_DEFAULT, H5P_DEFAULT),
+                              dataset_properties(), H5P_DEFAULT),
                    H5Dclose);
     good(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, column.values.data()));
     write_text(dataset, "long_name", column.long_name);
@@ -256,7 +264,7 @@ File::Growing File::make_growing(const std::string& name, hid_t type, std::vecto
     most.insert(most.begin(), H5S_UNLIMITED);
     const Handle space(H5Screate_simple(static_cast<int>(now.size()), now.data(), most.data()),
                        H5Sclose);
-    const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    const Handle creation = dataset_properties();
     good(H5Pset_chunk(creation, static_cast<int>(chunk.size()), chunk.data()));
     if (fill) good(H5Pset_fill_value(creation, type, fill));
     // Without a cache, numbers are written, and their places found, before the next flush.
