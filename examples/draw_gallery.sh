@@ -29,6 +29,17 @@ draw_cover() {
     draw "covers/$1" --size 1600x1200 --quality fine "${setting[@]}"
 }
 
+# Exhibits of the museum are small. Automata show their cells, and time runs downwards in lines.
+draw_exhibit() {
+    case $1 in
+        life_soup | cyclic_automaton | sandpile | lone_neighbour | forest_fire | ising_critical) draw "museum/$1" ;;
+        eden_cluster | forest_of_trees) draw "museum/$1" ;;
+        *_line | quantum_carpet | rule_thirty) draw "museum/$1" --space-time ;;
+        ball_of_spots | scroll_wave | alloy_sponge | scaled_egg) draw "museum/$1" --size 144x112 ;;
+        *) draw "museum/$1" --size 104 ;;
+    esac
+}
+
 draw_one() {
     case $1 in
         pearson_map) draw "$1" ;;
@@ -49,6 +60,7 @@ draw_one() {
         cells/grown_body) draw "$1" --view 30,20 ;;
         cells/*) draw "$1" ;;
         covers/*) draw_cover "${1#*/}" ;;
+        museum/*) draw_exhibit "${1#*/}" ;;
         models/kdv) "$program" run -q lang/systems/kdv.cascade -o examples/models/kdv.png --space-time ;;
         models/*) "$program" run -q "lang/systems/${1#*/}.cascade" -o "examples/$1.png" ;;
         figure_3_2) draw "$1" --space-time --scale 4 ;;
@@ -105,6 +117,7 @@ else
     for script in examples/on_models/*.cascade; do
         draw_one "on_models/$(basename "$script" .cascade)"
     done
+    for script in examples/museum/*.cascade; do draw_one "museum/$(basename "$script" .cascade)"; done
     for script in examples/covers/*.cascade; do draw_one "covers/$(basename "$script" .cascade)"; done
     for script in examples/cells/*.cascade; do draw_one "cells/$(basename "$script" .cascade)"; done
     for script in examples/*.cascade; do draw_one "$(basename "$script" .cascade)"; done

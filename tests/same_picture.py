@@ -62,16 +62,16 @@ def picture(path):
     return others, samples(compressed, width * pixel_bytes, pixel_bytes)
 
 
-def main():
-    if sys.argv[1] != "--surface":
-        return 0 if list(chunks(sys.argv[1])) == list(chunks(sys.argv[2])) else 1
-    (one, a), (other, b) = picture(sys.argv[2]), picture(sys.argv[3])
+def same(path, other_path, surface=False):
+    if not surface:
+        return list(chunks(path)) == list(chunks(other_path))
+    (one, a), (other, b) = picture(path), picture(other_path)
     if one != other or len(a) != len(b):
-        return 1
+        return False
     apart = [abs(x - y) for x, y in zip(a, b) if x != y]
     at_edges = sum(levels > 4 for levels in apart)
-    alike = 1000 * len(apart) <= len(a) and 5000 * at_edges <= len(a) and max(apart, default=0) <= 64
-    return 0 if alike else 1
+    return 1000 * len(apart) <= len(a) and 5000 * at_edges <= len(a) and max(apart, default=0) <= 64
 
 
-sys.exit(main())
+if __name__ == "__main__":
+    sys.exit(0 if same(sys.argv[-2], sys.argv[-1], sys.argv[1] == "--surface") else 1)
