@@ -24,14 +24,14 @@ cmp out "$SOURCE/examples/cells/fur.cascade" || fail "the last part of a name is
 run 0 examples leopard --path
 cmp "$(cat out)" "$SOURCE/examples/leopard.cascade" || fail "the path is wrong"
 
-run 0 examples emperor
+run 0 examples on_models/emperor
 says err "on_models/emperor reads maps/rings.png; 'cascade examples on_models/emperor -o FILE' copies it, too"
 mkdir fish
-run 0 examples emperor -o fish/emperor.cascade
+run 0 examples on_models/emperor -o fish/emperor.cascade
 says out 'wrote fish/emperor.cascade'
 cmp fish/maps/rings.png "$SOURCE/examples/on_models/maps/rings.png" || fail "the picture was not copied"
 run 0 check fish/emperor.cascade
-run 3 examples emperor -o fish/other.cascade
+run 3 examples on_models/emperor -o fish/other.cascade
 says err 'fish/maps/rings.png already exists'
 [ ! -e fish/other.cascade ] || fail "half of an example was written"
 run 3 examples leopard -o leopard.cascade
