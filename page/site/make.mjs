@@ -15,6 +15,7 @@ const unescape = (text) => text.replaceAll("&lt;", "<").replaceAll("&gt;", ">").
 /// Where each Markdown file is found on the site.
 const pages = new Map([
     ["docs/tutorial.md", "tutorial.html"], ["docs/site.md", "site.html"], ["examples/models/README.md", "systems.html"],
+    ["examples/museum/README.md", "museum.html"],
     ...list("spec", ".md").map((name) => [`spec/${name}`, `spec/${name.replace("README.md", "index.md").replace(/md$/, "html")}`]),
 ]);
 
@@ -44,7 +45,7 @@ function copied(path) {
 }
 
 function write_page(page, title, body, is_wide = false) {
-    const links = [["index.html", "Cascade"], ["tutorial.html", "Tutorial"], ["systems.html", "Systems"], ["spec/index.html", "Language"], ["live.html", "Open the page"]];
+    const links = [["index.html", "Cascade"], ["tutorial.html", "Tutorial"], ["systems.html", "Systems"], ["museum.html", "Museum"], ["spec/index.html", "Language"], ["live.html", "Open the page"]];
     const header = links.map(([to, name]) => `<a href="${path_to(page, to)}"${to === page ? ' aria-current="page"' : ""}>${name}</a>`).join("\n");
     mkdirSync(join(folder, dirname(page)), { recursive: true });
     writeFileSync(join(folder, page), `<!doctype html>
@@ -109,11 +110,20 @@ function with_systems(html, page) {
     });
 }
 
+/// Below the name of each exhibit of the museum: its script, to be grown.
+function with_exhibits(html, page) {
+    return html.replace(/<td><code>(\w+)<\/code>/g, (name_cell, name) => {
+        const script = read(`examples/museum/${name}.cascade`);
+        return is_live(script) ? `${name_cell}<br>${grow_link(page, script)}` : name_cell;
+    });
+}
+
 for (const [source, page] of pages) {
     const { status, stdout, stderr } = run(["cmark-gfm", "-e", "table", "--unsafe"], { input: read(source) });
     if (status !== 0) throw new Error(`${source}: ${stderr}`);
     let html = with_scripts(with_links(with_ids(stdout), source, page), page);
     if (page === "systems.html") html = with_systems(html, page);
+    if (page === "museum.html") html = with_exhibits(html, page);
     html = with_pictures(html, source, page).replaceAll("<table>", '<div class="table"><table>').replaceAll("</table>", "</table></div>");
     write_page(page, `${unescape(html.match(/<h1[^>]*>(.*?)<\/h1>/s)[1].replace(/<[^>]*>/g, ""))} · Cascade`, html);
 }
@@ -137,7 +147,7 @@ write_page("index.html", "Cascade", `<h1>Patterns that grow</h1>
 <p class="lead">Cascade is a language, a compiler and solvers for patterns of reaction and diffusion. Here all of it runs in your browser: a click on a picture
 grows it; then type, move sliders, paint, and go back and forth between stages.</p>
 <p><a href="live.html"><img class="film" src="${copied("page/film.webp")}" alt="A pattern grows, a slider changes it, a stroke is painted, the next stage begins"></a></p>
-<p><a class="grow" href="live.html">open the page</a> <a class="grow" href="tutorial.html">15 minutes</a> <a class="grow" href="systems.html">all systems</a></p>
+<p><a class="grow" href="live.html">open the page</a> <a class="grow" href="tutorial.html">15 minutes</a> <a class="grow" href="systems.html">all systems</a> <a class="grow" href="museum.html">100 states</a></p>
 <h2 id="lessons">Exercises</h2>
 <p>${lessons}</p>
 <h2>Gallery</h2>

@@ -38,7 +38,7 @@ try {
     for (const [name, width, scheme] of [["wide", 1280, "light"], ["dark", 1280, "dark"], ["phone", 390, "light"]]) {
         await browser.call("Emulation.setDeviceMetricsOverride", { width, height: 844, deviceScaleFactor: 1, mobile: width < 500 });
         await browser.call("Emulation.setEmulatedMedia", { features: [{ name: "prefers-color-scheme", value: scheme }] });
-        for (const page of ["index.html", "tutorial.html", "systems.html", "spec/stages.html"]) {
+        for (const page of ["index.html", "tutorial.html", "systems.html", "museum.html", "spec/stages.html"]) {
             await open(page);
             const overflow = await browser.evaluate("document.documentElement.scrollWidth - innerWidth");
             expect(overflow <= 0, `${name}: ${page} is ${overflow} pixels too wide`);
