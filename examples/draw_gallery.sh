@@ -29,11 +29,11 @@ draw_cover() {
     draw "covers/$1" --size 1600x1200 --quality fine "${setting[@]}"
 }
 
-# Exhibits of the museum are small. Automata show their cells, and time runs downwards in lines.
+# Exhibits of the museum are small. Automata and clocks show their cells, and time runs downwards in lines.
 draw_exhibit() {
     case $1 in
         life_soup | cyclic_automaton | sandpile | lone_neighbour | forest_fire | ising_critical) draw "museum/$1" ;;
-        eden_cluster | forest_of_trees) draw "museum/$1" ;;
+        eden_cluster | forest_of_trees | spiral_chimera) draw "museum/$1" ;;
         *_line | quantum_carpet | rule_thirty) draw "museum/$1" --space-time ;;
         ball_of_spots | scroll_wave | alloy_sponge | scaled_egg) draw "museum/$1" --size 144x112 ;;
         *) draw "museum/$1" --size 104 ;;

@@ -46,6 +46,8 @@ def script_in(picture):
             return zlib.decompress(text) if packed else text
 
 
+# Rays and Fourier transforms differ in their last bits from processor to processor.
+has_rounding = re.compile(rb"\b(surface|body|convolve|imex|vortices|young)\b|\b0 = ")
 shown, wrong = {}, []
 for picture in sorted(pathlib.Path(sys.argv[1]).glob("*.png")):
     name, script = picture.stem, picture.with_suffix(".cascade").read_bytes()
@@ -55,7 +57,7 @@ for picture in sorted(pathlib.Path(sys.argv[1]).glob("*.png")):
     if other != name:
         wrong.append(f"{name} and {other} are the same picture")
     again = pathlib.Path("again", picture.name)
-    if again.exists() and not same(picture, again, bool(re.search(rb"\b(surface|body):", script))):
+    if again.exists() and not same(picture, again, bool(has_rounding.search(script))):
         wrong.append(f"{name} does not grow again from its picture")
 for line in wrong:
     print("museum:", line)
