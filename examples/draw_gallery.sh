@@ -81,6 +81,7 @@ draw_one() {
         broken_lines) draw_recipe "$1" dart_frog ;;
         honeycomb) draw_recipe "$1" inferno ;;
         autocatalytic_spots | vary_spots) draw_recipe "$1" magma ;;
+        growing_fish) draw "$1" --size 320 -o "examples/$1.webp" ;;  # With a film of its growth.
         butterfly | fish) draw "$1" --detail 3 ;;  # With smooth outlines.
         automatic_cascade | brusselator | fitzhugh_nagumo | gray_scott_* | figure_3_3_cheetah | \
             figure_3_3_leopard | figure_3_4_mixed_stripes | figure_3_4_reticulation) draw "$1" --size 512 ;;

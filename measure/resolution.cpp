@@ -55,7 +55,7 @@ double unresolved_wavelength(const Samples& samples) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     if (!may_be_unresolved(samples)) return none;
     const Spectrum spectrum = radial_spectrum(samples);
-    const double cells = peak_wavelength(spectrum) / samples.spacing;
+    const double cells = peak_wavelength(spectrum) / samples.spacing[0];
     // A wave of two cells is a chequerboard, which other code reports.
     const bool is_short =
         cells > 2 && cells < fewest_cells_a_wave && peak_share(spectrum) >= regular_share;
@@ -66,7 +66,7 @@ double unresolved_part(const Samples& samples) {
     if (!may_be_unresolved(samples)) return 0;
     const Spectrum spectrum = radial_spectrum(samples);
     // The wave number of the longest unresolved wave.
-    const double longest = 1 / (fewest_cells_a_wave * samples.spacing);
+    const double longest = 1 / (fewest_cells_a_wave * samples.spacing[0]);
     double whole = 0, part = 0;
     for (std::size_t ring = 0; ring < spectrum.power.size(); ++ring) {
         whole += spectrum.power[ring];

@@ -10,7 +10,7 @@ Samples to_samples(const Field& field, const Grid& grid) {
     const Boundaries& boundary = grid.boundary;
     samples.periodic = {boundary.x == Boundary::periodic, boundary.y == Boundary::periodic,
                         boundary.z == Boundary::periodic};
-    samples.spacing = grid.spacing;
+    samples.spacing.fill(grid.spacing);
     samples.values.reserve(static_cast<std::size_t>(grid.cell_count()));
     field.visit([&](const auto& plane) {
         for (std::int64_t row = 0; row < plane.layout().row_count(); ++row) {

@@ -17,7 +17,8 @@ struct Samples {
     /// Whether the field is periodic along x, y and z. At sides that are not periodic it is
     /// mirrored.
     std::array<bool, 3> periodic{true, true, true};
-    double spacing = 1;  ///< The width of a cell in the unit of length.
+    /// The lengths of a cell along x, y and z in the unit of length.
+    std::array<double, 3> spacing{1, 1, 1};
     std::vector<double> values;
 
     std::size_t count() const { return values.size(); }

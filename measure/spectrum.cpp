@@ -88,7 +88,7 @@ struct AxisModes {
 AxisModes modes_of(const Samples& samples, std::size_t axis) {
     const std::size_t count = samples.cells[axis];
     const auto cells = static_cast<double>(count);
-    const double length = cells * samples.spacing;
+    const double length = cells * samples.spacing[axis];
     AxisModes modes;
     for (std::size_t n = 0; n < count; ++n) {
         if (samples.periodic[axis]) {
@@ -109,7 +109,7 @@ double ring_width_of(const Samples& samples) {
     double finest = std::numeric_limits<double>::infinity();
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (samples.cells[axis] == 1) continue;
-        const double length = static_cast<double>(samples.cells[axis]) * samples.spacing;
+        const double length = static_cast<double>(samples.cells[axis]) * samples.spacing[axis];
         finest = std::min(finest, 1 / (samples.periodic[axis] ? length : 2 * length));
     }
     return std::isfinite(finest) ? finest : 1;

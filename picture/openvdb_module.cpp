@@ -50,8 +50,11 @@ openvdb::GridBase::Ptr grid_of(const VolumeArray& array, const VdbVolume& volume
     grid->setName(array.name);
     grid->setGridClass(openvdb::GRID_FOG_VOLUME);
     // OpenVDB's voxels have their centres at whole numbers, but cells have theirs half-way between.
-    const auto place = openvdb::math::Transform::createLinearTransform(volume.spacing);
-    place->postTranslate(openvdb::Vec3d(volume.spacing / 2));
+    const openvdb::Vec3d side(volume.spacing.data());
+    const bool is_cube = side[0] == side[1] && side[0] == side[2];
+    const auto place = openvdb::math::Transform::createLinearTransform(is_cube ? side[0] : 1);
+    if (!is_cube) place->postScale(side);
+    place->postTranslate(side / 2);
     grid->setTransform(place);
     return grid;
 }

@@ -8,6 +8,7 @@
 #include "core/result.h"
 #include "picture/volume_array.h"
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -19,8 +20,8 @@ namespace cascade {
 
 /// The content of a .vdb file: a grid for each array, and metadata.
 struct VdbVolume {
-    std::span<const VolumeArray> arrays;  ///< At least one. All must have the same layout.
-    double spacing = 1;                   ///< The side of a cell.
+    std::span<const VolumeArray> arrays;     ///< At least one. All must have the same layout.
+    std::array<double, 3> spacing{1, 1, 1};  ///< The lengths of a cell along x, y and z.
     const Mask* inside = nullptr;  ///< A mask. Where it is 0, voxels are inactive. May be null.
     std::map<std::string, std::string> texts;
     std::string stage;

@@ -22,7 +22,8 @@ constexpr char hidden_cell = 32;
 
 }  // namespace
 
-std::string encode_vti(std::span<const VolumeArray> arrays, double spacing, const Mask* inside) {
+std::string encode_vti(std::span<const VolumeArray> arrays, const std::array<double, 3>& spacing,
+                       const Mask* inside) {
     CHECK(!arrays.empty(), "a volume has an array");
     const PlaneLayout layout = arrays.front().field->layout();
     const std::size_t bytes = bytes_of(arrays.front().field->precision());
@@ -34,10 +35,10 @@ std::string encode_vti(std::span<const VolumeArray> arrays, double spacing, cons
         "<?xml version=\"1.0\"?>\n"
         "<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\" "
         "header_type=\"UInt64\">\n"
-        "  <ImageData WholeExtent=\"{0}\" Origin=\"0 0 0\" Spacing=\"{1} {1} {1}\">\n"
+        "  <ImageData WholeExtent=\"{0}\" Origin=\"0 0 0\" Spacing=\"{1} {2} {3}\">\n"
         "    <Piece Extent=\"{0}\">\n"
-        "      <CellData Scalars=\"{2}\">\n",
-        extent, spacing, xml_escaped(arrays.front().name));
+        "      <CellData Scalars=\"{4}\">\n",
+        extent, spacing[0], spacing[1], spacing[2], xml_escaped(arrays.front().name));
     BlockSize offset = 0;
     for (const VolumeArray& array : arrays) {
         text += fmt::format(
@@ -75,7 +76,7 @@ std::string encode_vti(std::span<const VolumeArray> arrays, double spacing, cons
 }
 
 Result<void> write_vti(const std::filesystem::path& path, std::span<const VolumeArray> arrays,
-                       double spacing, const Mask* inside) {
+                       const std::array<double, 3>& spacing, const Mask* inside) {
     return write_encoded(path, [&] { return encode_vti(arrays, spacing, inside); });
 }
 

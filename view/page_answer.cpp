@@ -152,6 +152,8 @@ Json print_header(const Snapshot& snapshot) {
                    {"fields", snapshot.fields.size()},
                    {"low", range.low},
                    {"high", range.high}};
+    if (const auto [across, down] = snapshot.scales; across != down)
+        header["cell"] = {across * snapshot.grid.spacing, down * snapshot.grid.spacing};
     if (snapshot.cells) {
         header["cells"] = print_cells(*snapshot.cells);
     } else if (const Grid& grid = snapshot.grid; grid.depth > 1) {

@@ -37,7 +37,7 @@
       ("\\(?:\\<[0-9]+\\(?:\\.[0-9]+\\|\\.\\(?:[^.0-9]\\|$\\)\\)?\\)\\(?:[eE][+-]?[0-9]+\\)?"
        . font-lock-constant-face)
       ("\\<over\\s-+\\(?:touching\\|domain\\|near\\)\\>" . font-lock-keyword-face)
-      (,(concat (funcall any '("largest_step" "directions" "iterations" "laplacian" "metalness" "precision" "roughness" "tolerance" "boundary" "duration" "emission" "founders" "interval" "opacity" "spacing" "stencil" "stretch" "surface" "border" "bottom" "detail" "divide" "extent" "facing" "frozen" "height" "length" "metric" "remove" "solver" "about" "along" "cells" "check" "color" "every" "front" "reach" "right" "shape" "sides" "speed" "start" "title" "until" "width" "back" "body" "cite" "grid" "left" "mask" "mesh" "seed" "show" "size" "skin" "tilt" "unit" "die" "top" "up")) "\\s-*:") 1 font-lock-variable-name-face)
+      (,(concat (funcall any '("largest_step" "directions" "iterations" "laplacian" "metalness" "precision" "roughness" "tolerance" "undiluted" "boundary" "duration" "emission" "founders" "interval" "opacity" "spacing" "stencil" "stretch" "surface" "border" "bottom" "detail" "divide" "extent" "facing" "frozen" "height" "length" "metric" "remove" "solver" "about" "along" "cells" "check" "color" "every" "front" "reach" "right" "shape" "sides" "speed" "start" "title" "until" "width" "back" "body" "cite" "grid" "left" "mask" "mesh" "seed" "show" "size" "skin" "tilt" "unit" "die" "top" "up")) "\\s-*:") 1 font-lock-variable-name-face)
       (,(concat (funcall any '("system_name" "picture" "domain" "system" "cells" "shape" "stage" "let" "use" "fn")) "\\(?:\\s-+[[:alpha:]_\"]\\|\\s-*[{:]\\)")
        1 font-lock-keyword-face)
       (,(funcall any '("after" "over" "and" "not" "in" "or")) . font-lock-keyword-face)

@@ -26,7 +26,7 @@ class CascadeLexer(RegexLexer):
                 Number,
             ),
             (r"\bover\s+(?:touching|domain|near)\b", Keyword),
-            (r"\b(?:largest_step|directions|iterations|laplacian|metalness|precision|roughness|tolerance|boundary|duration|emission|founders|interval|opacity|spacing|stencil|stretch|surface|border|bottom|detail|divide|extent|facing|frozen|height|length|metric|remove|solver|about|along|cells|check|color|every|front|reach|right|shape|sides|speed|start|title|until|width|back|body|cite|grid|left|mask|mesh|seed|show|size|skin|tilt|unit|die|top|up)(?=\s*:)", Name.Attribute),
+            (r"\b(?:largest_step|directions|iterations|laplacian|metalness|precision|roughness|tolerance|undiluted|boundary|duration|emission|founders|interval|opacity|spacing|stencil|stretch|surface|border|bottom|detail|divide|extent|facing|frozen|height|length|metric|remove|solver|about|along|cells|check|color|every|front|reach|right|shape|sides|speed|start|title|until|width|back|body|cite|grid|left|mask|mesh|seed|show|size|skin|tilt|unit|die|top|up)(?=\s*:)", Name.Attribute),
             (r'\b(?:system_name|picture|domain|system|cells|shape|stage|let|use|fn)(?=\s+[A-Za-z_Α-ω"]|\s*[{:])', Keyword),
             (r"\b(?:after|over|and|not|in|or)\b(?!\s*[:(])", Keyword),
             (r"\b(?:smoothstep|symmetric|transport|convolve|distance|diamond|diffuse|lattice|palette|shifted|advect|length|normal|random|stripe|tensor|vector|along|atan2|clamp|cross|field|floor|gauss|grad2|hypot|image|noise|round|white|acos|asin|atan|attr|cbrt|ceil|cosh|curl|disc|grad|keys|mean|ring|sign|sinh|sqrt|step|tanh|unit|abs|box|cos|div|dot|dxx|dxy|dxz|dyy|dyz|dzz|exp|lap|log|max|min|mix|mod|own|pow|rgb|sin|sum|tan|dx|dy|dz|if)(?=\s*\()", Name.Builtin),

@@ -4,6 +4,7 @@
 #include "lang/program/models.h"
 
 #include "lang/check/blocks/check_blocks.h"
+#include "lang/check/blocks/check_growth.h"
 #include "lang/check/systems/check_systems.h"
 #include "lang/check/systems/check_coarse.h"
 #include "lang/check/blocks/check_shape.h"
@@ -12,6 +13,7 @@
 #include "lang/check/systems/check_time.h"
 #include "lang/check/expressions/user_functions.h"
 #include "lang/library/library.h"
+#include "lang/program/grown_lengths.h"
 #include "lang/program/stage_kinds.h"
 
 #include <fmt/format.h>
@@ -97,6 +99,7 @@ Workspace workspace_of(const Program& program, Diagnostics& diagnostics) {
         work.names.push_back(checking::names_of(system));
     }
     for (std::uint32_t i = 0; i < program.stages.size(); ++i) {
+        work.lengths_grow |= program.stages[i].growth.has_value();
         work.stages.emplace(program.stages[i].name, i);
         work.cell_stages.push_back(is_of_cells(program, i));
     }
@@ -121,6 +124,7 @@ std::optional<Program> check(const ast::Script& script, Sources& sources, Diagno
         }
         checking::check_domain(work, script);
         work.on_surface = measures_on_surface(program.domain);
+        work.lengths_grow = checking::lengths_may_grow(program, script);
         check_systems(work, script, library);
         checking::functions_of(work, script);  // Also checks functions that are never called.
         checking::check_names_of_constants(work, script);
@@ -131,6 +135,10 @@ std::optional<Program> check(const ast::Script& script, Sources& sources, Diagno
         // name may be missing from the program.
         if (!own.has_errors() && !diagnostics.has_errors()) {
             checking::warn_unread(work);
+            checking::check_growth(program, own);
+        }
+        if (!own.has_errors() && !diagnostics.has_errors()) {
+            let_lengths_grow(program);
             checking::check_side_values(program, own);
             for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
                 const Span solver = program.stages[k].time.solver_span;
@@ -161,10 +169,13 @@ std::optional<Formula> check_view(const ast::Script& script, ast::Expression exp
     checking::Scope scope;
     scope.context = checking::Context::picture;
     scope.stage = stage;
-    scope.system = program.stages[stage].system;
+    const auto& growth = program.stages[stage].growth;
+    scope.system = growth ? growth->written : program.stages[stage].system;
     scope.last_stage = last_stage;
     auto checked = checking::check_expression(work, script, expression, scope);
     if (!checked) return std::nullopt;
+    if (!checking::can_grow(program, stage, checked->formula, diagnostics)) return std::nullopt;
+    checked->formula = with_growth(program, stage, checked->formula);
     if (!has_meaning_on_domain(program, checked->formula, program.system_of(stage), diagnostics)) {
         return std::nullopt;
     }

@@ -147,12 +147,22 @@ void print_sides(const Program& program, std::uint32_t index, std::string_view n
     }
 }
 
+void print_growth(const Program& program, const Growth& growth, std::uint32_t index, Output out) {
+    const System& system = program.system_of(index);
+    const auto text = [&](const Formula& formula) {
+        return print_formula(program, system, formula, index);
+    };
+    fmt::format_to(out, "  lengths grow by: {}, {}, {}  # already in the rates\n",
+                   text(growth.scale[0]), text(growth.scale[1]), text(growth.scale[2]));
+}
+
 void print_stage(const Program& program, std::uint32_t index, Output out) {
     const Stage& stage = program.stages[index];
     const System& system = program.system_of(index);
     fmt::format_to(out, "stage {}: {} {{  # in order of computing\n", stage.name, system.name);
     fmt::format_to(out, "  iterations: {}\n  interval: {}\n", stage.iterations, stage.interval);
     print_time(program, system, stage, index, out);
+    if (stage.growth) print_growth(program, *stage.growth, index, out);
     if (stage.size) fmt::format_to(out, "  size: {}\n", stage.size->wanted);
     if (stage.cell_size > 0) fmt::format_to(out, "  size: {}\n", stage.cell_size);
     if (system.cells) print_start_of_cells(program, system, stage, index, out);

@@ -4,6 +4,7 @@
 #include "core/axis.h"
 #include "core/grid.h"
 #include "core/precision.h"
+#include "lang/program/growth.h"
 #include "lang/program/system.h"
 
 #include <array>
@@ -105,6 +106,7 @@ struct DomainSettings {
     std::optional<MaskSettings> mask;        ///< If not given, the domain is the whole grid.
     std::optional<SurfaceSettings> surface;  ///< If not given, the grid is flat.
     StencilKind stencil = StencilKind::cross;
+    std::optional<Growth> growth;  ///< For stages that set no lengths of their own.
     std::uint32_t seed = 1;
     Precision precision = Precision::single;  ///< The precision of all numbers of a run.
     bool fast = false;  ///< Whether steps use fewer roundings (ir/contraction.h).

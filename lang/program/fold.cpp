@@ -45,6 +45,7 @@ bool fold(Function function, const OperandColumns& operands, std::span<double> v
 }
 
 std::optional<double> fold(Function function, std::span<const double> operands) {
+    if (function == Function::grown) return std::nullopt;  // It may grow during a stage.
     [[maybe_unused]] const double a = operands[0], b = operands[1], c = operands[2];
     switch (function) {
         // clang-format off

@@ -1,6 +1,7 @@
 // A checked stage: its starting values, its time, and its sides.
 #pragma once
 
+#include "lang/program/growth.h"
 #include "lang/program/system.h"
 
 #include <cstdint>
@@ -92,6 +93,9 @@ struct Stage {
     std::int64_t coarse = 1;
     Span coarse_span;  ///< Where the script sets `grid: coarse(…)`.
     std::optional<StageSize> size;
+    std::optional<Growth> growth;  ///< If empty, lengths do not change.
+    /// The species that growth does not dilute, in any order.
+    std::vector<ItemId> undiluted;
     /// The rules for each species. Empty if the rules of the domain apply to all species.
     IdVector<SpeciesId, SideSettings> sides;
     std::vector<DefinitionSides> definition_sides;  ///< In the order of the definitions.

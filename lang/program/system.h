@@ -74,6 +74,8 @@ struct Settings {
     std::optional<Formula> frozen;
     std::optional<Formula> speed;
     std::optional<Formula> show;  ///< The default formula for pictures of a stage.
+    /// The species that growth does not dilute.
+    std::optional<std::vector<ItemId>> undiluted;
     TimeSettings time;
 };
 

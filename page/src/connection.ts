@@ -18,6 +18,7 @@ export interface Snapshot {
     columns: number; rows: number; low: number; high: number; planes: Float32Array[];
     repeats: [boolean, boolean];  ///< Whether the planes repeat along x, and along y.
     surface: number;    ///< The number of the surface on which the cells lie; 0 for none.
+    cell?: [number, number];  ///< The lengths of a cell along columns and rows, if they differ.
     is_model: boolean;  ///< The cells are those of a model, and have no columns and rows.
     cells?: Cells;  ///< Cells that crawl. Planes then have one row with a value for each cell.
     slice?: { axis: "x" | "y" | "z"; number: number; sides: [number, number, number] };  ///< Of a volume.

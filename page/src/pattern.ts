@@ -21,6 +21,7 @@ interface Form { scale: number; is_smooth: boolean }
 export class Pattern {
     private readonly painter = new PlanePainter();
     private readonly lines: LineDrawer;
+    private ratio = 0;      ///< The width of the canvas divided by its height.
     private drawn_as = "";  ///< The form of the plane on the canvas.
     readonly time = new TimeRows();
     snapshot?: Snapshot;
@@ -58,11 +59,12 @@ export class Pattern {
         if (this.is_solid || snapshot.cells) return solid.draw(shown, palette, look);
         const form = this.form_of(columns, rows), { scale, is_smooth } = form;
         canvas.style.imageRendering = scale > 1 || is_smooth ? "auto" : "";
-        if (canvas.width !== columns * scale || canvas.height !== rows * scale) {
+        // The canvas fills its frame, with the proportions of the domain.
+        const [across, down] = is_row(snapshot) ? [1, 1] : snapshot.cell ?? [1, 1], ratio = columns * across / (rows * down);
+        if (canvas.width !== columns * scale || canvas.height !== rows * scale || this.ratio !== ratio) {
             canvas.width = columns * scale;
             canvas.height = rows * scale;
-            // The canvas fills its frame, with the proportions of the grid.
-            const ratio = columns / rows;
+            this.ratio = ratio;
             canvas.style.width = `min(100cqw, ${100 * ratio}cqh)`;
             canvas.style.height = `min(100cqh, ${100 / ratio}cqw)`;
         }

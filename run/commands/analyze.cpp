@@ -2,6 +2,7 @@
 #include "run/commands/analyze.h"
 
 #include "analysis/describe_parameters.h"
+#include "analysis/growing_domain.h"
 #include "analysis/dispersion_plot.h"
 #include "analysis/map_plot.h"
 #include "analysis/negative_diffusion.h"
@@ -95,6 +96,7 @@ private:
         if (const auto why = negative_diffusion(program_, stage_)) {
             text += fmt::format("\nno pattern has a length: {}\n", *why);
         }
+        text += waves_of_growing_domain(program_, stage_);
         if (!scans_.empty()) {
             text += fmt::format("\nby parameters, the flat state {}\n",
                                 values_text(analysis.model, state_to_show(analysis).state.species));

@@ -4,6 +4,7 @@
 #include "run/commands/run_results.h"
 #include "run/pictures/figure.h"
 #include "run/pictures/measured.h"
+#include "run/simulation/grown_domain.h"
 
 #include <fmt/format.h>
 
@@ -54,18 +55,20 @@ std::optional<ColourBar> bar_of(const Script& script, const Simulation& simulati
 
 /// The extent of a flat picture, which may show several copies of the plane, in the script's unit
 /// of length.
-PlaneExtent extent_of(const Grid& grid, const PictureRequest& request) {
+PlaneExtent extent_of(const Simulation& simulation, const PictureRequest& request) {
+    constexpr std::array names{"x", "y", "z"};
+    const Grid& grid = simulation.domain().grid;
     const PlaneLayout layout(grid);
-    const Grid shown = grid.depth == 1 ? grid : slice_grid(layout, request.slice);
-    const auto length = [&](std::int64_t cells, int copies) {
-        return static_cast<double>(cells * copies) * grid.spacing;
+    const bool is_slice = grid.depth > 1;
+    const Grid shown = is_slice ? slice_grid(layout, request.slice) : grid;
+    const std::size_t across = is_slice && request.slice.axis == Axis::x ? 2 : 0;
+    const std::size_t down = is_slice && request.slice.axis == Axis::y ? 2 : 1;
+    const auto cells = cell_lengths(simulation, shown_stage(simulation));
+    const auto length = [&](std::int64_t count, int copies, std::size_t axis) {
+        return static_cast<double>(count * copies) * cells[axis];
     };
-    PlaneExtent plane{length(shown.width, request.copies.across),
-                      length(shown.height, request.copies.down), "x", "y"};
-    if (grid.depth == 1) return plane;
-    if (request.slice.axis == Axis::x) plane.across = "z";
-    if (request.slice.axis == Axis::y) plane.down = "z";
-    return plane;
+    return {length(shown.width, request.copies.across, across),
+            length(shown.height, request.copies.down, down), names[across], names[down]};
 }
 
 }  // namespace
@@ -78,12 +81,12 @@ Drawing RunResults::figure_of(Painter& of, const Canvas& canvas, const std::stri
         std::vector<double> values;
         const Field& line = canvas.fields[0];
         for (std::int64_t k = 0; k < line.layout().width; ++k) values.push_back(line.at(k, 0));
-        return draw_curve_figure(values, static_cast<double>(grid.width) * grid.spacing, title,
-                                 name);
+        const double cell = cell_lengths(simulation, shown_stage(simulation))[0];
+        return draw_curve_figure(values, static_cast<double>(grid.width) * cell, title, name);
     }
     const Image picture = of.image(canvas);
     std::optional<PlaneExtent> plane;
-    if (of.is_flat()) plane = extent_of(grid, wanted);
+    if (of.is_flat()) plane = extent_of(simulation, wanted);
     const auto bar = canvas.is_colour() ? bar_of(script, simulation, of.formula(simulation))
                                         : ColourBar{&of.palette(), of.range_of(canvas), name};
     return draw_figure(picture, title, plane, bar);

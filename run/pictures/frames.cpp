@@ -58,8 +58,17 @@ void FrameRecorder::record(const Canvas& canvas, const std::string& stage, std::
     if (failure_) return;
     const PlaneLayout layout = canvas.fields[0].layout();
     if (const Field* number = canvas.number()) values_.add(spread_of(*number));
-    frames_.push_back(
-        {stage, step, std::move(label), canvas.fields.size(), {}, layout, kept_, canvas.cells});
+    for (std::size_t axis = 0; axis < largest_.size(); ++axis)
+        largest_[axis] = std::max(largest_[axis], canvas.scales[axis]);
+    frames_.push_back({canvas.scales,
+                       stage,
+                       step,
+                       std::move(label),
+                       canvas.fields.size(),
+                       {},
+                       layout,
+                       kept_,
+                       canvas.cells});
     if (file_) {
         bool is_kept = true;
         for (const Field& field : canvas.fields) is_kept = is_kept && keep(field);
@@ -134,6 +143,7 @@ bool FrameRecorder::keep_body(const SurfaceMesh& body, Frame& frame) {
 
 Result<Canvas> FrameRecorder::read_back(const Frame& frame, std::vector<Field> planes) {
     Canvas canvas;
+    canvas.scales = frame.scales;
     canvas.cells = frame.cells;
     if (::fseeko(file_.get(), frame.place, SEEK_SET) != 0) {
         return cascade::failure("the frames cannot be read back");
@@ -231,6 +241,7 @@ void FrameRecorder::draw_one(Painter& painter, std::size_t number, const Canvas&
     // with cells.
     image = shows_cells() ? painter.image_beside_cells(canvas, range())
                           : painter.image(canvas, range(), std::move(image));
+    if (painter.is_flat()) image = in_largest(image, canvas.scales, largest_);
     const std::string& label = frames_[number].label;
     if (!label.empty() && has_room_for_caption(image.width, image.height)) {
         draw_caption(image, label);

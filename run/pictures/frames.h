@@ -4,6 +4,7 @@
 
 #include "core/result.h"
 #include "run/pictures/painter.h"
+#include "run/pictures/proportions.h"
 
 #include <atomic>
 #include <bitset>
@@ -65,6 +66,7 @@ public:
 
 private:
     struct Frame {
+        PlaneScales scales{1, 1};  ///< Canvas::scales.
         std::string stage;
         std::int64_t step = 0;
         std::string label;
@@ -111,7 +113,8 @@ private:
     std::int64_t kept_ = 0;  ///< Bytes in the file.
     std::vector<Frame> frames_;
     std::vector<Canvas> rows_;
-    Spread values_;  ///< The spread of the values of all frames.
+    PlaneScales largest_{0, 0};  ///< The largest scales of all frames.
+    Spread values_;              ///< The spread of the values of all frames.
     std::optional<Failure> failure_;
 };
 

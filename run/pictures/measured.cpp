@@ -4,6 +4,7 @@
 #include "core/spread.h"
 #include "measure/spectrum.h"
 #include "run/pictures/drawn_cells.h"
+#include "run/simulation/grown_domain.h"
 #include "tissue/tissue.h"
 
 #include <array>
@@ -54,7 +55,9 @@ measure::Features measure_shown(Painter& painter, const Simulation& simulation) 
     if (tissue) return without_places(number_order(shown, *tissue));
     if (const auto& model = simulation.domain().model)
         return without_places(cell_values(shown, *model->cells));
-    return measure::measure(measure::to_samples(shown, simulation.domain().grid));
+    measure::Samples samples = measure::to_samples(shown, simulation.domain().grid);
+    samples.spacing = cell_lengths(simulation, shown_stage(simulation));
+    return measure::measure(samples);
 }
 
 double shown_length(Painter& painter, const Simulation& simulation) {

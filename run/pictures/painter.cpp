@@ -12,6 +12,8 @@
 #include "run/pictures/model_picture.h"
 #include "run/pictures/drawn_cells.h"
 #include "run/pictures/picture_size.h"
+#include "run/pictures/proportions.h"
+#include "run/pictures/shown_field.h"
 #include "run/pictures/plane_look.h"
 #include "run/pictures/surface_picture.h"
 #include "run/pictures/tissue_picture.h"
@@ -28,13 +30,6 @@ namespace cascade {
 
 namespace {
 
-/// Prepares a field for painting: converts it to binary32, and cuts the requested slice of a
-/// volume.
-Field shown(Field field, const PictureRequest& request) {
-    if (field.precision() != Precision::single) field = field.converted(Precision::single);
-    return field.layout().depth > 1 ? cut(field, request.slice) : std::move(field);
-}
-
 /// The last stage whose values formulas may read: the shown stage or the last started one.
 std::uint32_t last_to_read(const Simulation& simulation, std::uint32_t stage) {
     std::uint32_t last = stage;
@@ -50,11 +45,6 @@ EvaluateFormula evaluation_in(const Simulation& simulation) {
     return [&simulation](const Formula& formula) {
         return simulation.evaluate(formula, shown_stage(simulation));
     };
-}
-
-/// Prepares a copy of a field for painting. Cells outside the mask become NaN.
-Field as_shown(const Field& field, const DomainMask* mask, const PictureRequest& request) {
-    return shown(mask ? with_outside(field, *mask, nothing_outside) : field.clone(), request);
 }
 
 }  // namespace
@@ -134,9 +124,12 @@ Canvas Painter::canvas(const Simulation& simulation) {
     look_at_domain(simulation);
     if (is_flat() && request_.size) {
         const PictureSize copy = copy_size(simulation.domain().grid, request_);
-        return canvas_of_plane(simulation, std::max(copy.width, copy.height), false);
+        Canvas plane = canvas_of_plane(simulation, std::max(copy.width, copy.height), false);
+        plane.scales = scales_of_plane(simulation, request_.slice);
+        return plane;
     }
     Canvas canvas = values(simulation);
+    if (is_flat()) canvas.scales = scales_of_plane(simulation, request_.slice);
     if (shows_cells_) return canvas_of_cells(simulation, std::move(canvas));
     if (shows_body_) return canvas_of_body(simulation, std::move(canvas));
     for (Field& field : canvas.fields) field = shown(std::move(field), request_);
@@ -328,7 +321,7 @@ Image Painter::with_cells(const Canvas& canvas, std::optional<ValueRange> range)
 
 bool Painter::has_pixel_per_cell(const Canvas& canvas) const {
     return !canvas.cells && !canvas.body && has_square_cells() && request_.scale == 1 &&
-           request_.copies == PictureCopies();
+           request_.copies == PictureCopies() && canvas.scales[0] == canvas.scales[1];
 }
 
 Image Painter::image(const Canvas& canvas, std::optional<ValueRange> range, Image earlier) {
@@ -341,6 +334,7 @@ Image Painter::image(const Canvas& canvas, std::optional<ValueRange> range, Imag
         Image copy = request_.size
                          ? smooth(canvas, range)
                          : enlarge(texture(canvas, range, std::move(earlier)), request_.scale);
+        copy = in_proportion(std::move(copy), canvas.scales);
         if (request_.copies == PictureCopies()) return copy;
         return repeated(copy, request_.copies.across, request_.copies.down);
     }

@@ -5,6 +5,7 @@
 #include "picture/image.h"
 #include "render/draw.h"
 #include "run/pictures/material.h"
+#include "run/pictures/proportions.h"
 #include "run/script/picture_request.h"
 #include "run/simulation/simulation.h"
 
@@ -28,6 +29,9 @@ struct Canvas {
     /// For a colour with bumps, the number from which the heights are computed.
     Field relief = {};
     MaterialFields material = {};  ///< Has values for models and in the result of map_canvas().
+    /// The lengths of a cell of a plane or slice, across and down, divided by the spacing. They
+    /// differ from 1 in a domain that grows.
+    PlaneScales scales{1, 1};
     /// The number of parts of a cell along each axis. Above 1 in maps and smooth pictures.
     std::int64_t parts = 1;
     /// The cells of a stage of crawling cells, in the order of the values in the fields. Otherwise

@@ -15,6 +15,7 @@
 #include "run/pictures/hdf5_series.h"
 #include "run/pictures/model_files.h"
 #include "run/pictures/refined_model.h"
+#include "run/simulation/grown_domain.h"
 #include "surface/cell_filter.h"
 
 #include <fmt/format.h>
@@ -120,9 +121,9 @@ Result<void> write_volume(const std::filesystem::path& path, const Simulation& s
     const FormatRow* const format = find_format(path);
     const VolumeRow* const writer = format ? row_of(volume_writers, format->format) : nullptr;
     CHECK(writer != nullptr, "the file has the ending of a volume format");
-    return writer->write(path, {arrays, domain.grid.spacing, mask ? &mask->inside : nullptr, texts,
-                                domain.stage(stage).name, simulation.state(stage).steps,
-                                time_of(simulation, stage)});
+    return writer->write(path, {arrays, cell_lengths(simulation, stage),
+                                mask ? &mask->inside : nullptr, texts, domain.stage(stage).name,
+                                simulation.state(stage).steps, time_of(simulation, stage)});
 }
 
 namespace {

@@ -197,6 +197,7 @@ std::shared_ptr<const Snapshot> Turns::snapshot() {
     const Simulation& simulation = run_->simulation();
     Canvas seen = canvas();
     made->fields = std::move(seen.fields);
+    made->scales = seen.scales;
     made->grid = simulation.domain().grid;
     made->slice = slice_;
     made->model = simulation.domain().shared_model();

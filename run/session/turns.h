@@ -72,6 +72,7 @@ struct Snapshot {
     std::shared_ptr<const ShownCells> cells;       ///< Null if fields are shown.
     Grid grid;                                     ///< The grid of the domain.
     Slice slice;                                   ///< The slice of a volume that is shown.
+    PlaneScales scales{1, 1};                      ///< Canvas::scales.
     std::shared_ptr<const ModelCells> model;       ///< Null on grids.
     std::shared_ptr<const SurfaceSource> surface;  ///< Null if the domain is not a surface.
     /// A different number for each surface. 0 if there is none.

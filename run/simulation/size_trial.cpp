@@ -169,7 +169,7 @@ private:
         const StageView view(environment_, states_, stage_);
         measure::Samples samples =
             measure::to_samples(view.evaluate(stage().show)[0], environment_.grid);
-        samples.spacing = 1;
+        samples.spacing.fill(1);
         const Spread spread = spread_of([&](const auto& take) {
             for (const double value : samples.values) take(value);
         });

@@ -4,6 +4,7 @@
 
 #include "core/parallel.h"
 #include "run/simulation/coarse_start.h"
+#include "run/simulation/grown_domain.h"
 #include "run/simulation/kernel_maker.h"
 #include "run/simulation/other_cells.h"
 #include "run/simulation/stage_doubts.h"
@@ -48,6 +49,9 @@ Failure explain(const StepTooShort& place, const StageView& view) {
 /// start of the stage.
 Failure explain(const StageOutcome& outcome, const StageView& view, StageState& state,
                 const std::atomic<bool>& cancel) {
+    const double step = outcome.steps > 0 ? outcome.t / static_cast<double>(outcome.steps) : 0;
+    if (auto shrinks = shrinks_to_nothing(view.environment(), view.number(), outcome.t, step))
+        return *shrinks;
     if (!outcome.not_finite) return explain(*outcome.too_short, view);
     NotFiniteReport report;
     report.stage = view.stage().name;

@@ -213,6 +213,41 @@ stage g0: s0 { iterations: 5; speed: 0.125
     expect_same(expected, run_script("sixfold", text, overrides, options), text);
 }
 
+/// Random scripts in domains that grow, along all axes alike or not.
+TEST(Agreement, RandomScriptsInGrowingDomains) {
+    int scripts = 0, failed = 0;
+    for (std::uint64_t seed = 0; seed < 20000 && scripts < 40; ++seed) {
+        std::string text = random_script(seed);
+        const std::size_t spacing = text.find("spacing: "), end = text.find(';', spacing);
+        const Script plain = load_script("random", text, ".");
+        if (!plain.program) continue;
+        const Grid& grid = plain.program->domain.grid;
+        const auto side = [&](std::int64_t cells) {
+            return static_cast<double>(cells) * grid.spacing;
+        };
+        std::string extent = fmt::format("extent: {} * (1 + t / 3)", side(grid.width));
+        if (seed % 2 == 1) extent += fmt::format(", {} * exp(t / 5)", side(grid.height));
+        if (seed % 2 == 1 && grid.depth > 1) extent += fmt::format(", {}", side(grid.depth));
+        text.replace(spacing, end - spacing, extent);
+        Overrides overrides;
+        overrides.precision = seed % 3 == 0 ? Precision::binary64 : Precision::single;
+        // Scripts that cannot grow are refused. Of the others only scripts that read neighbours are
+        // run.
+        if (!load_script("random", text, ".", overrides).program) continue;
+        const bool reads_neighbours =
+            text.find("lap(") != text.npos || text.find("grad") != text.npos;
+        if (!reads_neighbours) continue;
+        overrides.fast = ++scripts % 4 == 3;
+        const Outcome expected = run_script("random", text, overrides, interpreted());
+        const SimulationOptions options = compiled_some_way(static_cast<std::uint64_t>(scripts));
+        expect_same(expected, run_script("random", text, overrides, options), text);
+        failed += expected.failure.empty() ? 0 : 1;
+        if (::testing::Test::HasFailure()) break;
+    }
+    EXPECT_EQ(scripts, 40);
+    EXPECT_LT(failed, 28);
+}
+
 std::filesystem::path small_torus() {
     const auto path =
         std::filesystem::path(::testing::TempDir()) / fmt::format("small_torus_{}.obj", getpid());

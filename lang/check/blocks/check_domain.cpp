@@ -2,6 +2,7 @@
 #include "core/resample.h"
 #include "ir/multiply_add.h"
 #include "lang/check/blocks/check_blocks.h"
+#include "lang/check/blocks/check_growth.h"
 #include "lang/check/expressions/setting_words.h"
 #include "lang/check/blocks/side_rules.h"
 #include "lang/program/models.h"
@@ -18,10 +19,6 @@ namespace cascade::checking {
 namespace {
 
 constexpr double most_cells = 2147483648.0;  // 2^31: the number of a cell fits into a 32-bit word.
-constexpr double same_length = 1e-6;     // The relative tolerance for lengths that are rounded in a
-                                         // script.
-constexpr double least_spacing = 1e-15;  // The square and inverse square of this number are normal
-                                         // numbers.
 
 /// The number of cells along one side of the grid. Reports errors.
 std::optional<double> check_side(Workspace& work, const ast::Script& script,
@@ -118,33 +115,6 @@ void check_boundary(Workspace& work, const ast::Script& script, const ast::State
     target = Boundaries(along[0]);
     if (along.size() > 1) target.y = along[1];
     if (along.size() > 1) target.z = along.size() > 2 ? along[2] : Boundary::periodic;
-}
-
-/// Sets the spacing so that the sides of the grid have these lengths. The grid must be known.
-void check_extent(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
-    Grid& grid = work.draft->domain.grid;
-    const std::array sides{grid.width, grid.height, grid.depth};
-    for (std::size_t axis = 0; axis < statement.values.size(); ++axis) {
-        const Span span = span_of(script, statement.values[axis]);
-        if (axis == 3) return work.diagnostics.error(span, "the domain has three sides at most");
-        const auto length =
-            check_constant(work, script, statement.values[axis], "a side of the domain");
-        if (!length) return;
-        const double spacing = *length / static_cast<double>(sides[axis]);
-        if (!(spacing >= least_spacing && spacing <= 1 / least_spacing)) {
-            return work.diagnostics.error(span, *length > 0
-                                                    ? "cells must be from 1e-15 to 1e15 long"
-                                                    : "the length of a side must be above 0");
-        }
-        if (axis == 0) grid.spacing = spacing;
-        if (std::abs(spacing - grid.spacing) <= same_length * grid.spacing) continue;
-        return work.diagnostics.error(
-            span,
-            fmt::format("cells would be {:.6g} long along one side and {:.6g} along another",
-                        grid.spacing, spacing),
-            fmt::format("cells are as long as wide: with this grid the side is {:.6g} long",
-                        grid.spacing * static_cast<double>(sides[axis])));
-    }
 }
 
 /// Sets the mask. The domain consists of the cells in which the mask is not 0.

@@ -1,6 +1,7 @@
 // Checks the `picture` block: the colour, the material of fields, and the shape of cells that crawl
 // with its quantities.
 #include "lang/check/blocks/check_blocks.h"
+#include "lang/check/blocks/check_growth.h"
 #include "lang/check/expressions/read_setting.h"
 #include "lang/check/names/unknown_names.h"
 #include "lang/check/blocks/check_shape.h"
@@ -152,6 +153,7 @@ private:
                                     is_colour ? "rgb(…) and palette(…) make colours" : "");
             return;
         }
+        if (scope.stage) can_grow(work_.program, *scope.stage, checked->formula, work_.diagnostics);
         mark_reads(work_, checked->formula, scope.system);
     }
 

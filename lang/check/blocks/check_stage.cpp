@@ -1,6 +1,7 @@
 // Checks stages: their statements, defaults, the order of their items, and the uniform items.
 #include "lang/check/blocks/cell_stages.h"
 #include "lang/check/blocks/check_blocks.h"
+#include "lang/check/blocks/check_growth.h"
 #include "lang/check/systems/check_systems.h"
 #include "lang/check/systems/check_coarse.h"
 #include "lang/check/expressions/check_convolution.h"
@@ -8,6 +9,7 @@
 #include "lang/check/expressions/check_expression.h"
 #include "lang/check/systems/check_time.h"
 #include "lang/check/names/note_uses.h"
+#include "lang/check/names/unknown_names.h"
 #include "lang/check/expressions/read_setting.h"
 #include "lang/check/expressions/setting_words.h"
 #include "lang/program/dependencies.h"
@@ -194,6 +196,8 @@ void StageChecker::set_of_fields(const ast::Statement& statement) {
         return;
     }
     if (statement.values.empty()) return;
+    if (statement.name.text == "extent")
+        return check_stage_extent(work_, script_, statement, stage());
     const auto coarse = check_coarse(work_, script_, statement.values[0], "grid",
                                      "the 'grid' of a stage takes coarse(N), for wider cells");
     if (!coarse || !has_one_value(work_, script_, statement)) return;
@@ -238,16 +242,12 @@ void StageChecker::set(const Declaration& declaration) {
 }
 
 void StageChecker::report_unknown(const Declaration& declaration) {
-    Diagnostic diagnostic;
-    diagnostic.span = declaration.span();
-    if (auto explained = explain_family(work_, system(), declaration.name)) {
-        work_.diagnostics.error(declaration.span(), std::move(explained->message),
-                                std::move(explained->hint));
-        return;
-    }
+    if (auto explained = explain_family(work_, system(), declaration.name))
+        return work_.diagnostics.error(declaration.span(), std::move(explained->message),
+                                       std::move(explained->hint));
     if (is_incomplete(work_, stage().system)) return;
-    diagnostic.message =
-        fmt::format("'{}' is not a parameter of {}", declaration.name, system().name);
+    Diagnostic diagnostic{
+        Severity::error, declaration.span(), not_a_parameter(declaration.name, system()), {}, {}};
     if (!is_hopeless(work_)) {
         std::vector<std::string> names = quantity_names(system());
         diagnostic.notes.push_back(
@@ -305,6 +305,7 @@ void StageChecker::fill_defaults() {
     take_default(from.speed_item(), pick(defaults.speed, std::nullopt), 1);
 
     Stage& target = stage();
+    if (!from.cells) fill_growth(target, work_.program.domain, settings_, defaults);
     if (from.cells) {
         fill_cell_time(work_, index_, settings_, defaults);
     } else {

@@ -104,10 +104,18 @@ void Expander::visit(ast::ExprId part) {
 void Expander::emit_length(Span span, const ast::Word& name) {
     const auto length = domain_length(work_, scope_, name);
     if (!length) return emit(span, ast::Garbage{});
-    if (length->builtin.empty()) return emit(span, ast::Number{length->factor});
+    const ast::ExprId factor =
+        append_grown(span, append(span, ast::Number{length->factor}), length->axis);
+    if (length->builtin.empty()) return results_.push_back(factor);
     const ast::ExprId place = append(span, ast::Name{length->builtin});
-    const ast::ExprId factor = append(span, ast::Number{length->factor});
     emit(span, ast::Binary{Function::multiply, place, factor});
+}
+
+/// A length that grows along an axis, if the domain may grow.
+ast::ExprId Expander::append_grown(Span span, ast::ExprId length, int axis) {
+    if (!work_.lengths_grow) return length;
+    const ast::ExprId along = append(span, ast::Number{static_cast<double>(axis)});
+    return append(span, ast::Binary{Function::grown, length, along});
 }
 
 /// Expands a name: a parameter of the function, a constant, an index with a value, or any other
@@ -238,7 +246,11 @@ void Expander::finish(const Task& task) {
         }
         const ast::Word sum{over->function.span, "sum"};
         const ast::ExprId total = append(here.span, ast::Over{sum, take(), over->index, {}});
-        const ast::ExprId content = append(here.span, ast::Number{content_of_cell(work_.program)});
+        ast::ExprId content = append(here.span, ast::Number{content_of_cell(work_.program)});
+        const Stencil stencil = work_.program.domain.grid.stencil();
+        if (stencil.x) content = append_grown(here.span, content, 0);
+        if (stencil.y) content = append_grown(here.span, content, 1);
+        if (stencil.z) content = append_grown(here.span, content, 2);
         return emit(here.span, ast::Binary{Function::multiply, total, content});
     }
     if (const auto* call = std::get_if<ast::Call>(&here.node)) return finish_call(here, *call);

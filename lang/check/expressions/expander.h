@@ -66,6 +66,7 @@ private:
     void visit_call(ast::ExprId part, const ast::Call& call);
     void visit_over(ast::ExprId part, const ast::Over& over);
     void emit_length(Span span, const ast::Word& name);
+    ast::ExprId append_grown(Span span, ast::ExprId length, int axis);
     void finish(const Task& task);
     void finish_call(const ast::Expr& expr, const ast::Call& call);
     void finish_member(const ast::Expr& expr, const ast::Indexed& member, std::size_t before);

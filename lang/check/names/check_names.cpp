@@ -34,6 +34,7 @@ std::optional<Node> resolve_builtin(Workspace& work, const Scope& scope, std::st
                                     Span span) {
     if (name == "pi") return Node{std::numbers::pi, span};
     if (scope.context == Context::constant) {
+        if (scope.is_length && name == "t") return Node{Builtin::t, span};
         report_constant(work, scope, name, span);
         return std::nullopt;
     }

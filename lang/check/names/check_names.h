@@ -72,7 +72,8 @@ struct Workspace {
                                          ///< cells.
     /// The functions of cells (lang/library/library.h); null if the script has no cells.
     const ast::Script* cell_functions = nullptr;
-    NameUses* uses = nullptr;  ///< Receives the uses of names, for editors; may be null.
+    NameUses* uses = nullptr;   ///< Receives the uses of names, for editors; may be null.
+    bool lengths_grow = false;  ///< Whether lengths of the domain may change in a stage.
 };
 
 /// Whether the name is a value that every crawling cell has. A function of a script with such cells
@@ -110,6 +111,7 @@ struct Scope {
     bool reads_volumes = false;  ///< Whether the expression describes a surface, which may read
                                  ///< arrays by `field`.
     std::vector<IndexValue> indices = {};  ///< The indices of a statement of a family.
+    bool is_length = false;  ///< Whether the constant is a length of the domain, which may read t.
 };
 
 /// The names of a system.

@@ -17,21 +17,22 @@ namespace {
 struct Row {
     std::string_view name, builtin;
     double (*factor)(const Grid& grid);
+    int axis;
 };
 
 double longest(const Grid& grid) { return grid.spacing * static_cast<double>(grid.longest_side()); }
 
 constexpr std::array rows = {
-    Row{"x", "x", longest},
-    Row{"y", "y", longest},
-    Row{"z", "z", longest},
+    Row{"x", "x", longest, 0},
+    Row{"y", "y", longest, 1},
+    Row{"z", "z", longest, 2},
     Row{"width", "",
-        [](const Grid& grid) { return grid.spacing * static_cast<double>(grid.width); }},
+        [](const Grid& grid) { return grid.spacing * static_cast<double>(grid.width); }, 0},
     Row{"height", "",
-        [](const Grid& grid) { return grid.spacing * static_cast<double>(grid.height); }},
+        [](const Grid& grid) { return grid.spacing * static_cast<double>(grid.height); }, 1},
     Row{"depth", "",
-        [](const Grid& grid) { return grid.spacing * static_cast<double>(grid.depth); }},
-    Row{"spacing", "", [](const Grid& grid) { return grid.spacing; }},
+        [](const Grid& grid) { return grid.spacing * static_cast<double>(grid.depth); }, 2},
+    Row{"spacing", "", [](const Grid& grid) { return grid.spacing; }, all_axes},
 };
 
 }  // namespace
@@ -63,7 +64,7 @@ std::optional<DomainLength> domain_length(Workspace& work, const Scope& scope,
         return refuse("cells that crawl do not lie on the grid",
                       "p.x, p.y and p.z are their position");
     }
-    return DomainLength{row->builtin, row->factor(domain.grid)};
+    return DomainLength{row->builtin, row->factor(domain.grid), row->axis};
 }
 
 double content_of_cell(const Program& program) {

@@ -4,6 +4,8 @@
 //     domain.x            becomes   x * 10       on a grid whose longest side is 10 long
 //     domain.spacing      becomes   0.05
 //     integral(e over domain)       sum(e over domain) * 0.05^2    on a plane
+//
+// If lengths may grow, each of these numbers becomes (grown)(number, axis).
 #pragma once
 
 #include "lang/check/names/check_names.h"
@@ -17,10 +19,14 @@ inline constexpr std::string_view domain_word = "domain";
 /// The aggregate in which each cell counts with its length, area or volume.
 inline constexpr std::string_view integral_word = "integral";
 
+/// The second operand of `(grown)` for a length without a direction: the side of a cell.
+inline constexpr int all_axes = 3;
+
 /// A length: `factor`, multiplied by a built-in value if `builtin` names one.
 struct DomainLength {
     std::string_view builtin;  ///< Empty if there is none.
     double factor = 0;
+    int axis = all_axes;  ///< The axis along which the length grows, if the domain does.
 };
 
 /// The length to which the name after `domain.` refers. Reports an error if there is no such

@@ -72,6 +72,11 @@ void report_constant(Workspace& work, const Scope& scope, std::string_view name,
                "it can read t, s, part and its own numbers only");
         return;
     }
+    if (scope.is_length) {
+        report(work, span, fmt::format("{} cannot read '{}'", scope.subject, name),
+               "it is a formula of numbers and t: extent: 10 * exp(0.01 * t)");
+        return;
+    }
     if (reserved(name) == Reserved::builtin && varies_by_cell(name)) {
         report(work, span,
                fmt::format("{} must be one number, but '{}' varies by cell", scope.subject, name),

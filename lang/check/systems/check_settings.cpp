@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
+#include <vector>
 
 namespace cascade::checking {
 namespace {
@@ -27,10 +28,36 @@ bool asks_for_automatic(const Workspace& work, const ast::Script& script,
     return !has_names || find(work.names[scope.system], name->name) == nullptr;
 }
 
+/// The species that growth does not dilute. Reports other values.
+std::vector<ItemId> read_undiluted(Workspace& work, const ast::Script& script,
+                                   const ast::Statement& statement, const Scope& scope) {
+    std::vector<ItemId> species;
+    Scope names;
+    names.context = Context::rate;
+    names.system = scope.system;
+    for (const ast::Expression value : statement.values) {
+        const auto checked = check_expression(work, script, value, names);
+        if (!checked) continue;
+        const Node& node = checked->formula.nodes.back();
+        const auto* const item = node.as<ItemId>();
+        if (item != nullptr && work.program.systems[scope.system].is_species(*item)) {
+            species.push_back(*item);
+            continue;
+        }
+        work.diagnostics.error(span_of(script, value), "undiluted takes names of species",
+                               "as in undiluted: u, v");
+    }
+    return species;
+}
+
 }  // namespace
 
 void check_setting(Workspace& work, const ast::Script& script, const ast::Statement& statement,
                    const Scope& scope, Settings& settings) {
+    if (statement.name.text == "undiluted") {
+        settings.undiluted = read_undiluted(work, script, statement, scope);
+        return;
+    }
     if (!has_one_value(work, script, statement)) return;
     const std::string_view name = statement.name.text;
     const Setting setting = *setting_named(name);

@@ -27,6 +27,7 @@ inline constexpr HintCase hint_cases[] = {
     {"system", "u(0) = 2", "write 'u: …' for a starting value", "w: 2"},
     {"second", "u: a", "it is a stage: write a.u", "u: a.u"},
     {"stage", "until: 100", "write 'until: t > 100', or 'duration: 100'", "duration: 100"},
+    {"stage", "undiluted: 2", "as in undiluted: u, v", "undiluted: u, v"},
     {"stage", "solver: \"rk4\"", "write rk4 without quotes", "solver: rk4"},
     {"stage", "solver: crank_nicolson", "imex and ros2 are implicit: write 'solver: imex'",
      "solver: ros2"},

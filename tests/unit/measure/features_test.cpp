@@ -91,7 +91,7 @@ TEST(Features, ObliqueWavesBetweenMirrors) {
 
 TEST(Features, LengthsAreInTheUnitOfTheSpacing) {
     Samples samples = stripes(96, 64, 12, 0);
-    samples.spacing = 0.25;
+    samples.spacing.fill(0.25);
     EXPECT_NEAR(measure(samples).wavelength, 2, 1e-9);
 }
 

@@ -13,7 +13,7 @@ namespace {
 Samples sampled(const std::function<double(double x, double y)>& f) {
     Samples samples;
     samples.cells = {96, 60, 1};
-    samples.spacing = 0.5;
+    samples.spacing.fill(0.5);
     for (int j = 0; j < 60; ++j) {
         for (int i = 0; i < 96; ++i) samples.values.push_back(f(i, j));
     }

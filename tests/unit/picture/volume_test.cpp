@@ -64,7 +64,7 @@ TEST(Volume, FilesHoldTheirArraysWhereTheySay) {
     const Field second = places(2, 3, 4);
     first.at(1, 0, 0) = -std::nanf("7");
     const VolumeArray arrays[] = {{"u", &first}, {"a<b", &second}};
-    const std::string file = encode_vti(arrays, 0.25);
+    const std::string file = encode_vti(arrays, {0.25, 0.25, 0.25});
     EXPECT_THAT(file, HasSubstr("<ImageData WholeExtent=\"0 2 0 3 0 4\" Origin=\"0 0 0\" "
                                 "Spacing=\"0.25 0.25 0.25\">"));
     EXPECT_THAT(file, HasSubstr("Name=\"u\" format=\"appended\" offset=\"0\"/>"));
@@ -95,7 +95,7 @@ TEST(Volume, CellsOutsideAreHidden) {
     Mask inside(volume.layout());
     for (std::int64_t row = 0; row < 12; ++row) inside.row(row)[0] = 1;
     const VolumeArray arrays[] = {{"u", &volume}};
-    const std::string file = encode_vti(arrays, 1, &inside);
+    const std::string file = encode_vti(arrays, {1, 1, 1}, &inside);
     EXPECT_THAT(file, HasSubstr("<DataArray type=\"UInt8\" Name=\"vtkGhostType\" "
                                 "format=\"appended\" offset=\"104\"/>"));
     const std::size_t begin = file.find("\n_") + 2 + 104;

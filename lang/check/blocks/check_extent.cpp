@@ -1,0 +1,130 @@
+// Reads `extent` in the domain and in stages.
+#include "lang/calculus/growth_of_lengths.h"
+#include "lang/check/blocks/check_blocks.h"
+#include "lang/check/blocks/check_growth.h"
+#include "lang/check/expressions/setting_words.h"
+#include "lang/program/evaluate.h"
+#include "lang/program/nodes_of_rates.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+namespace cascade::checking {
+
+namespace {
+
+constexpr double same_length = 1e-6;     // The relative tolerance for lengths that are rounded in a
+                                         // script.
+constexpr double least_spacing = 1e-15;  // The square and inverse square of this number are normal
+                                         // numbers.
+
+/// The lengths as formulas of numbers and t. Reports errors.
+std::optional<std::vector<Formula>> read_lengths(Workspace& work, const ast::Script& script,
+                                                 const ast::Statement& statement) {
+    std::vector<Formula> lengths;
+    for (const ast::Expression value : statement.values) {
+        const Span span = span_of(script, value);
+        if (lengths.size() == 3) {
+            work.diagnostics.error(span, "the domain has three sides at most");
+            return std::nullopt;
+        }
+        Scope scope;
+        scope.context = Context::constant;
+        scope.subject = "a side of the domain";
+        scope.is_length = true;
+        auto checked = check_number(work, script, value, scope);
+        if (!checked) return std::nullopt;
+        if (checked->constant) checked->formula = {{Node{*checked->constant, span}}};
+        lengths.push_back(std::move(checked->formula));
+    }
+    return lengths;
+}
+
+bool reads_time(const Formula& length) { return holds_in(length, is_moment); }
+
+/// The growth of the domain with these lengths. Reports lengths without a derivative.
+std::optional<Growth> read_growth(Workspace& work, const std::vector<Formula>& lengths, Span span) {
+    auto growth = growth_of(lengths, work.program.domain.grid);
+    if (!growth) {
+        work.diagnostics.error(span, "there is no rule for the rate at which this length grows",
+                               "it may contain sums, products, powers, exp, log, sin and so on");
+        return std::nullopt;
+    }
+    growth->span = span;
+    return growth;
+}
+
+Span span_of_values(const ast::Script& script, const ast::Statement& statement) {
+    return join(span_of(script, statement.values.front()),
+                span_of(script, statement.values.back()));
+}
+
+}  // namespace
+
+bool lengths_may_grow(const Program& program, const ast::Script& script) {
+    const auto is_extent = [](const ast::Statement& statement) {
+        return statement.name.text == "extent";
+    };
+    return program.domain.growth ||
+           std::ranges::any_of(script.overrides, is_extent, &ast::Override::statement) ||
+           std::ranges::any_of(script.blocks, [&](const ast::Block& block) {
+               return block.kind != ast::BlockKind::domain &&
+                      std::ranges::any_of(block.statements, is_extent);
+           });
+}
+
+void check_extent(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
+    const auto lengths = read_lengths(work, script, statement);
+    if (!lengths) return;
+    Grid& grid = work.draft->domain.grid;
+    const std::array sides{grid.width, grid.height, grid.depth};
+    for (std::size_t axis = 0; axis < lengths->size(); ++axis) {
+        const Span span = span_of(script, statement.values[axis]);
+        const double length = evaluate((*lengths)[axis], BuiltinValues{});
+        const double spacing = length / static_cast<double>(sides[axis]);
+        if (!(spacing >= least_spacing && spacing <= 1 / least_spacing)) {
+            return work.diagnostics.error(span, length > 0
+                                                    ? "cells must be from 1e-15 to 1e15 long"
+                                                    : "the length of a side must be above 0");
+        }
+        if (axis == 0) grid.spacing = spacing;
+        if (std::abs(spacing - grid.spacing) <= same_length * grid.spacing) continue;
+        return work.diagnostics.error(
+            span,
+            fmt::format("cells would be {:.6g} long along one side and {:.6g} along another",
+                        grid.spacing, spacing),
+            fmt::format("cells are as long as wide{}: with this grid the side is {:.6g} long",
+                        std::ranges::any_of(*lengths, reads_time) ? " at t = 0" : "",
+                        grid.spacing * static_cast<double>(sides[axis])));
+    }
+    if (!std::ranges::any_of(*lengths, reads_time)) return;
+    work.draft->domain.growth = read_growth(work, *lengths, span_of_values(script, statement));
+}
+
+void check_stage_extent(Workspace& work, const ast::Script& script, const ast::Statement& statement,
+                        Stage& stage) {
+    const DomainSettings& domain = work.program.domain;
+    if (domain.model || domain.surface) {
+        return work.diagnostics.error(statement.name.span,
+                                      "the extent is that of a grid with straight axes",
+                                      domain.model ? "this domain is a model"
+                                                   : "this domain is a surface");
+    }
+    const auto lengths = read_lengths(work, script, statement);
+    if (!lengths) return;
+    stage.growth = read_growth(work, *lengths, span_of_values(script, statement));
+}
+
+void fill_growth(Stage& stage, const DomainSettings& domain, const Settings& own,
+                 const Settings& defaults) {
+    if (!stage.growth) stage.growth = domain.growth;
+    const auto& undiluted = own.undiluted ? own.undiluted : defaults.undiluted;
+    if (undiluted) stage.undiluted = *undiluted;
+}
+
+}  // namespace cascade::checking

@@ -1,0 +1,235 @@
+// Checks whether stages can run in a domain that grows.
+#include "lang/check/blocks/check_growth.h"
+
+#include "lang/check/names/domain_lengths.h"
+#include "lang/program/evaluate.h"
+#include "lang/program/models.h"
+#include "lang/program/stage_kinds.h"
+#include "lang/vocabulary/functions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+namespace cascade::checking {
+
+namespace {
+
+constexpr std::array axis_names{"x", "y", "z"};
+constexpr int looks = 256;  ///< The number of times at which lengths are checked before the run.
+constexpr double least_cell = 1e-15;    ///< The range of the lengths of cells, as for `spacing`.
+constexpr double smallest_jump = 1e-6;  ///< As a part of the length.
+
+double value_at(const Formula& formula, double t) {
+    BuiltinValues moment{};
+    moment[static_cast<std::size_t>(Builtin::t)] = t;
+    return evaluate(formula, moment);
+}
+
+/// The time until which the stage certainly runs; 0 if it is known only during the run.
+double certain_end(const Program& program, std::uint32_t index) {
+    const Stage& stage = program.stages[index];
+    const StageTime& time = stage.time;
+    if (time.until || time.steady || time.open_end) return 0;
+    if (time.duration) return *time.duration;
+    const Formula& speed = stage.items[program.system_of(index).speed_item()];
+    const auto* const step = speed.nodes.back().as<double>();
+    if (step == nullptr || time.automatic_speed) return 0;
+    const auto steps = static_cast<double>(time.duration_in_steps.value_or(stage.iterations));
+    return steps * *step;
+}
+
+void refuse_in(const Stage& stage, Span span, std::string_view what, std::string hint,
+               Diagnostics& diagnostics) {
+    diagnostics.error(span,
+                      fmt::format("stage '{}' runs in a domain that grows, {}", stage.name, what),
+                      std::move(hint));
+}
+
+/// Why a function has no meaning in a domain that grows; null if it has one.
+const char* obstacle(const Growth& growth, const Nodes& nodes, const Node& node) {
+    if (node.calls(Function::convolve)) return "where kernels of convolutions would change";
+    if (growth.is_uniform) return nullptr;
+    if (node.calls(Function::diffuse)) {
+        return "where diffuse needs axes that grow alike; div(tensor(…) * grad(u)) works";
+    }
+    const bool is_side_of_cell =
+        node.calls(Function::grown) && nodes[node.operands[1]].is(NodeKind(double{all_axes}));
+    return is_side_of_cell ? "where cells are not as long as wide, so domain.spacing has no value"
+                           : nullptr;
+}
+
+class GrowthCheck {
+public:
+    GrowthCheck(const Program& program, std::uint32_t stage, Diagnostics& diagnostics)
+        : program_(program),
+          index_(stage),
+          stage_(program.stages[stage]),
+          growth_(*stage_.growth),
+          diagnostics_(diagnostics) {}
+
+    void run() {
+        if (refuse_settings() || refuse_formulas() || refuse_border()) return;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            if (!is_sound_length(axis)) return;
+        }
+        is_sound_rate();
+    }
+
+private:
+    bool refuse(Span span, std::string_view what, std::string hint) {
+        refuse_in(stage_, span, what, std::move(hint), diagnostics_);
+        return true;
+    }
+
+    bool refuse_settings() {
+        const System& system = program_.system_of(index_);
+        if (stage_.size) {
+            return refuse(stage_.size->span, "so its pattern has no fixed size",
+                          "without size its wavelength is what the equations give");
+        }
+        if (stage_.time.coarse > 1) {
+            return refuse(stage_.time.coarse_span, "and cannot start on a coarser grid",
+                          "grid: coarse(2) works there");
+        }
+        if (!stage_.uniform[system.speed_item()]) {
+            return refuse(stage_.items[system.speed_item()].nodes.back().span,
+                          "so all cells need the same time", "a speed for all cells is one number");
+        }
+        const StencilKind stencil = program_.domain.stencil;
+        if (growth_.is_uniform || stencil != StencilKind::isotropic) return false;
+        return refuse(growth_.span, "and the stencil isotropic needs cells as long as wide",
+                      "stencil: cross works there");
+    }
+
+    bool refuse_formulas() {
+        return !std::ranges::all_of(formulas_of_stage(), [&](const Formula* formula) {
+            return can_grow(program_, index_, *formula, diagnostics_);
+        });
+    }
+
+    std::vector<const Formula*> formulas_of_stage() const {
+        const System& system = program_.system_of(index_);
+        std::vector<const Formula*> formulas{&stage_.show};
+        for (const Formula& rate : system.rates) formulas.push_back(&rate);
+        for (const Definition& each : system.definitions) formulas.push_back(&each.formula);
+        for (const Formula& item : stage_.items) formulas.push_back(&item);
+        if (stage_.time.until) formulas.push_back(&*stage_.time.until);
+        return formulas;
+    }
+
+    bool refuse_border() {
+        if (growth_.is_uniform) return false;
+        const auto needs_length = [](const SideSettings& sides) {
+            const SideKind kind = sides.back().kind;
+            return kind == SideKind::slope || kind == SideKind::flux;
+        };
+        const auto refused = [&](const SideSettings& sides) {
+            return needs_length(sides) &&
+                   refuse(sides.back().span, "where the border needs axes that grow alike",
+                          "fixed and noflux work there");
+        };
+        return std::ranges::any_of(stage_.sides, refused) ||
+               std::ranges::any_of(stage_.definition_sides, refused, &DefinitionSides::sides);
+    }
+
+    /// Reports a length that is not above 0, leaves the range of lengths, or jumps.
+    bool is_sound_length(std::size_t axis) {
+        const Formula& scale = growth_.scale[axis];
+        const Grid& grid = program_.domain.grid;
+        const std::array cells{grid.width, grid.height, grid.depth};
+        const double end = certain_end(program_, index_);
+        const double start = static_cast<double>(cells[axis]) * grid.spacing;
+        double before = value_at(scale, 0);
+        for (int look = 0; look <= (end > 0 ? looks : 0); ++look) {
+            const double t = end * look / looks, here = value_at(scale, t);
+            const double cell = here * grid.spacing;
+            if (!(cell >= least_cell && cell <= 1 / least_cell)) {
+                diagnostics_.error(growth_.span,
+                                   fmt::format("the length along {} would be {:.6g} at t = {:.6g}",
+                                               axis_names[axis], here * start, t),
+                                   fmt::format("stage '{}' runs until t = {:.6g}: a length must "
+                                               "stay above 0 and finite",
+                                               stage_.name, end));
+                return false;
+            }
+            if (look > 0 && jumps(scale, end * (look - 1) / looks, before, t, here)) {
+                diagnostics_.error(growth_.span,
+                                   fmt::format("the length along {} jumps near t = {:.6g}",
+                                               axis_names[axis], t),
+                                   "a domain grows without jumps");
+                return false;
+            }
+            before = here;
+        }
+        return true;
+    }
+
+    /// Whether the formula jumps between two times: halves the interval again and again, and takes
+    /// the half in which it changes more.
+    static bool jumps(const Formula& scale, double t0, double at0, double t1, double at1) {
+        const auto change = [&] { return std::abs(at1 - at0); };
+        const double limit = smallest_jump * std::max(at0, at1);
+        for (double last = t1 - t0; change() > limit && t1 - t0 > 0x1p-40 * last;) {
+            const double middle = t0 + (t1 - t0) / 2, value = value_at(scale, middle);
+            if (std::abs(value - at0) > std::abs(at1 - value)) {
+                t1 = middle;
+                at1 = value;
+            } else {
+                t0 = middle;
+                at0 = value;
+            }
+        }
+        return change() > limit;
+    }
+
+    void is_sound_rate() {
+        const double end = certain_end(program_, index_);
+        for (int look = 0; look <= (end > 0 ? looks : 0); ++look) {
+            const double t = end * look / looks, rate = value_at(growth_.dilution, t);
+            if (std::isfinite(rate)) continue;
+            diagnostics_.error(growth_.span,
+                               fmt::format("the domain grows infinitely fast at t = {:.6g}", t),
+                               "the derivative of a length must be finite");
+            return;
+        }
+    }
+
+    const Program& program_;
+    std::uint32_t index_;
+    const Stage& stage_;
+    const Growth& growth_;
+    Diagnostics& diagnostics_;
+};
+
+}  // namespace
+
+bool can_grow(const Program& program, std::uint32_t stage, const Formula& formula,
+              Diagnostics& diagnostics) {
+    const Stage& its = program.stages[stage];
+    if (!its.growth) return true;
+    for (const Node& node : formula.nodes) {
+        const char* const why = obstacle(*its.growth, formula.nodes, node);
+        if (why == nullptr) continue;
+        refuse_in(its, node.span, why, "", diagnostics);
+        return false;
+    }
+    return true;
+}
+
+void check_growth(const Program& program, Diagnostics& diagnostics) {
+    for (std::uint32_t stage = 0; stage < program.stages.size(); ++stage) {
+        if (is_of_cells(program, stage) && program.domain.growth) {
+            diagnostics.error(program.domain.growth->span,
+                              fmt::format("stage '{}' consists of cells that crawl, which need a "
+                                          "domain that does not grow",
+                                          program.stages[stage].name));
+        }
+        if (program.stages[stage].growth) GrowthCheck(program, stage, diagnostics).run();
+    }
+}
+
+}  // namespace cascade::checking

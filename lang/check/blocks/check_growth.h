@@ -1,0 +1,39 @@
+// Checks the lengths of the domain, which may be formulas of time (internal to the checker).
+#pragma once
+
+#include "core/diagnostics.h"
+#include "lang/check/names/check_names.h"
+#include "lang/program/program.h"
+
+#include <cstdint>
+
+namespace cascade::checking {
+
+/// Whether a statement of the script may let lengths of the domain change in a stage. The domain
+/// must have been checked.
+bool lengths_may_grow(const Program& program, const ast::Script& script);
+
+/// Checks `extent` in the domain: sets the spacing so that the sides of the grid have these lengths
+/// at t = 0. The grid must be known.
+void check_extent(Workspace& work, const ast::Script& script, const ast::Statement& statement);
+
+/// Checks `extent` in a stage.
+void check_stage_extent(Workspace& work, const ast::Script& script, const ast::Statement& statement,
+                        Stage& stage);
+
+/// Takes the growth of the domain, unless the stage sets lengths of its own, and the species that
+/// growth does not dilute.
+void fill_growth(Stage& stage, const DomainSettings& domain, const Settings& own,
+                 const Settings& defaults);
+
+/// Whether a formula of a stage has a meaning if the stage's domain grows. Otherwise reports an
+/// error at the first function that has none.
+bool can_grow(const Program& program, std::uint32_t stage, const Formula& formula,
+              Diagnostics& diagnostics);
+
+/// Reports stages that cannot run in their growing domain: lengths that are not above 0 or that
+/// jump, and parts of the stage for which growth has no meaning. The program must have no other
+/// errors, and growth must not have been written into its equations.
+void check_growth(const Program& program, Diagnostics& diagnostics);
+
+}  // namespace cascade::checking

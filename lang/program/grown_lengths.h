@@ -1,0 +1,30 @@
+// Writes the growth of a domain into equations: derivatives are divided by the scales of lengths,
+// lengths of the domain are multiplied by them, and species are diluted.
+#pragma once
+
+#include "lang/program/program.h"
+
+#include <array>
+#include <cstdint>
+
+namespace cascade {
+
+/// Changes every stage whose domain grows into the same stage on a grid that does not grow. With
+/// the scales s of lengths along the axes:
+/// - ∂/∂x becomes 1/s ∂/∂x, and a Laplacian the sum of second derivatives divided by s²;
+/// - lengths and contents of the domain, which the checker marks by `(grown)`, are multiplied;
+/// - slopes at sides are multiplied by s, and fluxes divided by s;
+/// - the rate of each species that is not in Stage::undiluted loses dilution · species.
+/// Starting values count with the lengths at t = 0. The stage gets its own copy of its system, and
+/// Growth::written is set to the original system. A rate that other formulas read becomes a
+/// definition, which leaves dilution out.
+void let_lengths_grow(Program& program);
+
+/// A formula of a stage, such as a picture, in which lengths grow. Its definitions must be those of
+/// Growth::written.
+Formula with_growth(const Program& program, std::uint32_t stage, const Formula& formula);
+
+/// The scales of lengths along the axes at the time t of a stage: 1 where they do not change.
+std::array<double, 3> scales_at(const Stage& stage, double t);
+
+}  // namespace cascade

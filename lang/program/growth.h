@@ -1,0 +1,25 @@
+// How the lengths of the domain change while a stage runs.
+#pragma once
+
+#include "lang/program/formula.h"
+
+#include <array>
+
+namespace cascade {
+
+/// The growth of the domain in a stage (spec/domain.md, Growth). Cells keep their number, so they
+/// become longer. let_lengths_grow() writes the growth into the stage's equations.
+struct Growth {
+    /// For each axis, the length of the domain divided by its length on the grid (cells · spacing):
+    /// a formula of numbers and `t`, 1 if the length does not change.
+    std::array<Formula, 3> scale;
+    /// The rate at which amounts are diluted, d/dt ln(content of the domain): a formula of numbers
+    /// and `t`.
+    Formula dilution;
+    /// Whether lengths along all axes with more than one cell grow by the same scale.
+    bool is_uniform = true;
+    SystemId written;  ///< The stage's system as it is written, whose lengths do not grow.
+    Span span;         ///< Where the script sets the lengths.
+};
+
+}  // namespace cascade

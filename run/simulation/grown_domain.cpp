@@ -1,0 +1,43 @@
+// Evaluates the scales of lengths, which are formulas of time.
+#include "run/simulation/grown_domain.h"
+
+#include "lang/program/grown_lengths.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace cascade {
+
+std::array<double, 3> cell_lengths(const Simulation& simulation, std::uint32_t stage) {
+    const SimulationDomain& domain = simulation.domain();
+    std::array<double, 3> lengths = scales_at(domain.stage(stage), simulation.state(stage).t);
+    for (double& length : lengths) length *= domain.grid.spacing;
+    return lengths;
+}
+
+std::optional<Failure> shrinks_to_nothing(const SimulationDomain& domain, std::uint32_t stage,
+                                          double t, double step) {
+    constexpr int steps = 100;  // Values are checked every 64 steps.
+    constexpr std::array names{"x", "y", "z"};
+    const Stage& its = domain.stage(stage);
+    const std::array cells{domain.grid.width, domain.grid.height, domain.grid.depth};
+    if (!its.growth) return std::nullopt;
+    for (int n = 0; n <= steps; ++n) {
+        const double moment = t + n * step;
+        const auto scales = scales_at(its, moment);
+        for (std::size_t axis = 0; axis < scales.size(); ++axis) {
+            if (scales[axis] > 0 && std::isfinite(scales[axis])) continue;
+            const double start = static_cast<double>(cells[axis]) * domain.grid.spacing;
+            return Failure{
+                fmt::format("stage '{}' ({}): the domain shrinks to nothing: the length along {} "
+                            "would be {:.6g} at t = {:.6g}",
+                            its.name, domain.program->system_of(stage).name, names[axis],
+                            start * scales[axis], moment),
+                "a length must stay above 0 while the stage runs"};
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace cascade
