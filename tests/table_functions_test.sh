@@ -69,6 +69,7 @@ bad() {
     printf "$table" >bad.csv
     run 2 check bad.cascade
     says err "bad.csv:$place: error: $message"
+    [ "$(grep -c 'error:' err)" = 1 ] || fail "more than one error: $table"
 }
 bad '' 1:1 'this table is empty'
 bad 't,bad\n' 1:1 'this table has 0 rows of numbers'
@@ -87,7 +88,7 @@ bad 't,bad\n1,2\n2,3,4\n' 3:5 'this row has 3 cells, and the first row has 2'
 bad 't,bad\n1,2\n2\n' 3:1 'this row has 1 cell, and the first row has 2'
 bad 't,bad\n1,2\n2,"3\n' 3:3 'this quoted cell has no end'
 bad 'zeit,bad,bad\n1,2,3\n2,3,4\n' 1:10 "there are two functions 'bad'"
-bad 't,sin\n1,2\n2,3\n' 1:3 ''
+bad 't,bad,sin\n1,2,3\n2,3,4\n' 1:7 "'sin' is a function of the language"
 seq 1001 | sed 's/$/,1/' >bad.csv
 run 2 check bad.cascade
 says err 'bad.csv:1001:1: error: this table has 1001 rows of numbers; at most 1000 can be read'

@@ -76,23 +76,21 @@ public:
     }
 
     void run() {
-        if (text_.size() > largest_table_text) {
-            refuse({source_, 0, 0}, fmt::format("this table has {} bytes; at most {} can be read",
-                                                text_.size(), largest_table_text));
+        if (read()) {
+            for (std::size_t column = 1; column < names_.size(); ++column) add(column);
             return;
         }
-        auto rows = read_csv(text_);
-        if (!rows) return refuse_text(rows.error());
-        rows_ = *std::move(rows);
-        if (!take_names() || !take_numbers()) return;
-        for (std::size_t column = 1; column < table_.columns.size(); ++column) add(column);
+        if (names_.size() < 2) names_ = {{}, {{source_, 0, 0}, stem_}};
+        for (std::size_t column = 1; column < names_.size(); ++column) add_damaged(column);
     }
 
 private:
+    bool read();
     bool take_names();
     bool take_numbers();
     bool take_row(const std::vector<CsvCell>& row);
     void add(std::size_t column);
+    void add_damaged(std::size_t column);
     ast::ExprId between(std::size_t column, std::size_t first, std::size_t last);
     ast::ExprId piece(std::size_t column, std::size_t number);
 
@@ -100,7 +98,7 @@ private:
         diagnostics_.error(span, std::move(message), std::move(hint));
         return false;
     }
-    void refuse_text(const Failure& failure);
+    bool refuse_text(const Failure& failure);
     Span span_of(const CsvCell& cell) const;
     ast::ExprId node(Span span, decltype(ast::Expr::node) kind) {
         script_.expressions.push_back({span, std::move(kind)});
@@ -133,13 +131,25 @@ Span TableParser::span_of(const CsvCell& cell) const {
 }
 
 /// Reports an error of read_csv(), whose message begins with "LINE:COLUMN: ".
-void TableParser::refuse_text(const Failure& failure) {
+bool TableParser::refuse_text(const Failure& failure) {
     CsvCell place;
     const std::string_view message = failure.message;
     const std::size_t colon = message.find(':'), end = message.find(": ");
     std::from_chars(message.data(), message.data() + colon, place.line);
     std::from_chars(message.data() + colon + 1, message.data() + end, place.column);
-    refuse(span_of(place), std::string(message.substr(end + 2)), failure.hint);
+    return refuse(span_of(place), std::string(message.substr(end + 2)), failure.hint);
+}
+
+bool TableParser::read() {
+    if (text_.size() > largest_table_text) {
+        return refuse({source_, 0, 0},
+                      fmt::format("this table has {} bytes; at most {} can be read", text_.size(),
+                                  largest_table_text));
+    }
+    auto rows = read_csv(text_);
+    if (!rows) return refuse_text(rows.error());
+    rows_ = *std::move(rows);
+    return take_names() && take_numbers();
 }
 
 /// Finds the names of the functions, and the first row of numbers.
@@ -252,6 +262,14 @@ void TableParser::add(std::size_t column) {
     function.body.root = between(column, 0, table_.columns[0].size());
     function.span = names_[column].span;
     function.doc = fmt::format("The column '{}' of a table.", function.name.text);
+    script_.functions.push_back(std::move(function));
+}
+
+/// Adds a function without a value, so that its calls are not reported as well.
+void TableParser::add_damaged(std::size_t column) {
+    ast::FunctionDefinition function;
+    function.name = names_[column];
+    function.body.first = function.body.root = node(names_[column].span, ast::Garbage{});
     script_.functions.push_back(std::move(function));
 }
 
