@@ -5,7 +5,7 @@
 The exponent of Lifshitz and Slyozov (1961) is n = 1/3. The window of the fit is the time from DURATION / 20 to
 DURATION. Lengths at several times of one run depend on each other, so the error of n is taken from the seeds: the
 standard deviation of the n of single runs, divided by the square root of their number. 64 cells, duration 400 and 2
-seeds gave n = 0.337 ± 0.051; 128, 2000 and 5 gave 0.377 ± 0.045. Larger grids have smaller errors. Writes lengths.csv (time and
+seeds gave n = 0.337 ± 0.051; 128, 2000 and 5 gave 0.377 ± 0.045. Writes lengths.csv (time and
 length for each seed), structure.csv (S over k) and pairs.csv (g over r), which are means over the seeds at the end.
 """
 
