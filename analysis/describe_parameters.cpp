@@ -24,10 +24,14 @@ std::string pattern_words(const System& system, const ParameterScan& scan,
     if (by.quadratic == 0) {
         return by.ends_in_stripes() ? "stripes, grow smoothly" : "spots or squares";
     }
-    const bool is_high = (by.quadratic > 0) == (by.wave[0] > 0);
-    const ItemId first = system.species()[SpeciesId(0)];
+    // The first species that takes part in the wave. Others may only fade, or follow.
+    constexpr double least_part = 1e-3;
+    int first = 0;
+    while (first + 1 < by.wave.size() && !(std::abs(by.wave[first]) > least_part)) ++first;
+    const bool is_high = (by.quadratic > 0) == (by.wave[first] > 0);
+    const ItemId species = system.species()[SpeciesId(static_cast<std::uint32_t>(first))];
     std::string text =
-        fmt::format("spots {} in {}", is_high ? "high" : "low", system.quantities[first].name);
+        fmt::format("spots {} in {}", is_high ? "high" : "low", system.quantities[species].name);
     if (change.stripes >= scan.span.low && change.stripes <= scan.span.high) {
         text += fmt::format(", stripes from {:.4g}", change.stripes);
     }

@@ -7,11 +7,16 @@
 #include "app/last_moments.h"
 #include "core/enough_memory.h"
 #include "core/file_format.h"
+#include "lang/vocabulary/settings.h"
 #include "run/domain/describe_model.h"
 #include "run/pictures/model_files.h"
 #include "run/pictures/plain_model.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <atomic>
+#include <filesystem>
 #include <optional>
 
 namespace cascade {
@@ -27,6 +32,14 @@ public:
 
     /// Describes a model. Prints nothing if the model cannot be used.
     Result<void> describe(const std::string& model) {
+        const std::vector<std::string> surfaces = words_taken_by(Setting::surface);
+        if (std::ranges::find(surfaces, model) != surfaces.end() &&
+            !std::filesystem::exists(model)) {
+            return failure(fmt::format("'{}' is a surface of Cascade, not a file", model),
+                           fmt::format("'cascade run SCRIPT --mesh {0} -o {0}.obj' writes it with "
+                                       "its pattern",
+                                       model));
+        }
         auto made = read_and_repair(model, options_.overrides.reads);
         if (!made) return tl::unexpected(made.error());
         std::vector<std::string> lines = describe_model(*made);

@@ -5,6 +5,7 @@
 #include "core/file_format.h"
 #include "core/near_name.h"
 #include "film/film.h"
+#include "lang/vocabulary/words_elsewhere.h"
 #include "run/pictures/frame_folder.h"
 
 #include <fmt/format.h>
@@ -40,7 +41,11 @@ bool read_two(std::string_view text, float& first, float& second) {
 Result<std::int64_t> parse_whole(std::string_view text, std::int64_t low, std::int64_t high) {
     std::int64_t number = 0;
     if (read_all(text, number) && number >= low && number <= high) return number;
-    return failure(fmt::format("'{}' is not a whole number from {} to {}", text, low, high));
+    double value = 0;  // 1e3 is a whole number, but no option reads it.
+    const bool is_short = read_all(text, value) && value == std::floor(value) &&
+                          value >= static_cast<double>(low) && value <= 1e15;
+    return failure(fmt::format("'{}' is not a whole number from {} to {}", text, low, high),
+                   is_short ? fmt::format("write {:.0f}", value) : "");
 }
 
 Result<GridSize> parse_grid(std::string_view text) {
@@ -295,9 +300,12 @@ Result<std::vector<std::string>> parse_names(std::string_view text) {
 
 Result<std::string> parse_choice(std::string_view text, std::span<const std::string> choices) {
     if (std::find(choices.begin(), choices.end(), text) != choices.end()) return std::string(text);
-    const std::string near = nearest_name(text, choices);
+    const bool is_precision = std::find(choices.begin(), choices.end(), "double") != choices.end();
+    std::string hint(is_precision ? advice_about(text, WordContext::precision) : "");
+    const std::string near = hint.empty() ? nearest_name(text, choices) : "";
+    if (!near.empty()) hint = fmt::format("did you mean '{}'?", near);
     return failure(fmt::format("'{}' is not one of {}", text, fmt::join(choices, ", ")),
-                   near.empty() ? "" : fmt::format("did you mean '{}'?", near));
+                   std::move(hint));
 }
 
 Result<float> parse_bump(std::string_view text) {

@@ -3,6 +3,7 @@
 
 #include "app/commands.h"
 #include "app/exit_status.h"
+#include "app/foreign_options.h"
 #include "app/help.h"
 #include "app/manual.h"
 #include "app/option_values.h"
@@ -114,9 +115,11 @@ std::string Parser::near_option(const std::string& word) {
     std::vector<std::string> names;
     CLI::App* where = chosen() ? chosen() : &app;
     for (const CLI::Option* option : where->get_options()) {
-        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+        for (const std::string& name : option->get_lnames()) names.push_back(name);
     }
-    return nearest_name(word.substr(0, word.find('=')), names);
+    const std::string bare = word.substr(0, word.find('=')).substr(word.find_first_not_of('-'));
+    const std::string near = nearest_name(bare, names);
+    return near.empty() ? "" : "--" + near;
 }
 
 /// The first argument that begins like an option but is not one.
@@ -148,38 +151,6 @@ std::string Parser::value_of(const std::string& option) const {
     return next.starts_with("--") || next.ends_with(".cascade") ? "" : next;
 }
 
-/// The option of this program that corresponds to an option of other programs, with the value that
-/// the user has written, or with an example. Empty if there is none.
-std::string option_elsewhere(std::string_view name, const std::string& value) {
-    struct Row {
-        std::string_view name, here, example;
-    };
-    constexpr Row rows[] = {
-        {"colormap", "--palette ", "viridis"},
-        {"cmap", "--palette ", "viridis"},
-        {"color", "--palette ", "viridis"},
-        {"colour", "--palette ", "viridis"},
-        {"dt", "--set speed=", "0.1"},
-        {"timestep", "--set speed=", "0.1"},
-        {"resolution", "--grid ", "64x64"},
-        {"nx", "--grid ", "64x64"},
-        {"param", "--set ", "NAME=…"},
-        {"parameter", "--set ", "NAME=…"},
-        {"out", "-o ", "out.png"},
-        {"outfile", "-o ", "out.png"},
-    };
-    for (const Row& row : rows) {
-        if (row.name != name) continue;
-        const bool is_side =
-            row.here == "--grid " && value.find_first_not_of("0123456789") == std::string::npos;
-        return fmt::format("{}{}", row.here,
-                           value.empty() ? row.example
-                           : is_side     ? fmt::format("{0}x{0}", value)
-                                         : value);
-    }
-    return "";
-}
-
 /// Describes an unknown option if there is one. An unexpected word after it may only be its value,
 /// so that word is not described. If all options are known, describes the first word that no option
 /// and no argument has used.
@@ -192,12 +163,24 @@ std::string Parser::describe_unexpected(const std::string& program) {
             return fmt::format("{}: there is no option --{}; write --set {}={}", where, setting,
                                setting, value.empty() ? "…" : value);
         }
-        if (const std::string meant = option_elsewhere(setting, value); !meant.empty()) {
-            return fmt::format("{}: there is no option --{}; write {}", where, setting, meant);
+        const auto is_option = [&](std::string_view name) {
+            return chosen() && chosen()->get_option_no_throw(std::string(name)) != nullptr;
+        };
+        if (const std::string advice = advice_about_option(*option, value, is_option);
+            !advice.empty()) {
+            return fmt::format("{}: there is no option {}; {}", where,
+                               option->substr(0, option->find('=')), advice);
         }
+        const auto file = std::ranges::find_if(words, [](const std::string& each) {
+            return each.ends_with(".cascade");
+        });
         const std::string near = near_option(*option);
+        const std::string meant = !near.empty() ? near
+                                  : !chosen() && file != words.end()
+                                      ? fmt::format("'{} run {} …'", program, *file)
+                                      : "";
         return fmt::format("{}: there is no option {}{}", where, *option,
-                           near.empty() ? "" : fmt::format("; did you mean {}?", near));
+                           meant.empty() ? "" : fmt::format("; did you mean {}?", meant));
     }
     const std::vector<std::string> left = app.remaining(true);
     const std::string word = left.empty() ? "" : left.front();

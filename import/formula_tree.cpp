@@ -24,8 +24,7 @@ Expression with_operands(Expression node) {
 }  // namespace
 
 std::string number_text(double value) {
-    // Scripts are in single precision. Nine digits are enough to distinguish its numbers.
-    return fmt::format("{:.9g}", value);
+    return fmt::format("{}", value);  // The fewest digits that give this number again.
 }
 
 Expression number(double value) {

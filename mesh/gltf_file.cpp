@@ -1,4 +1,5 @@
 // Reads glTF and GLB files with tinygltf, whose code is compiled in this file.
+#include "core/printable.h"
 #include "mesh/gltf_model.h"
 #include "mesh/gltf_requirements.h"
 #include "mesh/gltf_scene.h"
@@ -11,6 +12,8 @@
 #pragma GCC diagnostic pop
 #undef TINYGLTF_IMPLEMENTATION
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -19,13 +22,35 @@ namespace cascade {
 
 namespace {
 
+/// A little-endian number of four bytes.
+std::uint32_t number_at(std::string_view bytes, std::size_t at) {
+    std::uint32_t number = 0;
+    for (std::size_t k = 4; k-- > 0;)
+        number = number << 8 | static_cast<unsigned char>(bytes[at + k]);
+    return number;
+}
+
+/// Fails if a binary file is shorter than its header says. The length is at byte 8.
+Result<void> check_whole(std::string_view bytes) {
+    constexpr std::size_t header = 12;
+    const std::size_t length = bytes.size() < header ? header : number_at(bytes, 8);
+    if (bytes.size() >= length) return {};
+    return failure(fmt::format("the GLB file is {} bytes long, but it has at least {}",
+                               bytes.size(), length),
+                   "it may be truncated");
+}
+
+/// An error of tinygltf without the data of a buffer that it quotes.
+std::string without_data(std::string fault) {
+    const std::size_t data = fault.find("data:");
+    if (data == std::string::npos) return short_name(fault, 400);
+    return "the data of a buffer are not Base64, or not as long as its byteLength";
+}
+
 /// The JSON text of a binary file. Its length is at byte 12, its beginning at byte 20.
 std::string_view json_of(std::string_view bytes, bool is_binary) {
     if (!is_binary || bytes.size() < 20) return bytes;
-    std::uint32_t length = 0;
-    for (std::size_t k = 4; k-- > 0;)
-        length = length << 8 | static_cast<unsigned char>(bytes[12 + k]);
-    return bytes.substr(20, length);
+    return bytes.substr(20, number_at(bytes, 12));
 }
 
 /// Callbacks for reading external buffers. tinygltf's own callbacks open any file and use a shell.
@@ -53,6 +78,13 @@ public:
 
 private:
     bool read(const std::string& name, std::vector<unsigned char>& out) {
+        if (name.find("://") != std::string::npos) {
+            const Result<void> remote = cascade::failure(
+                fmt::format("the glTF file has its data at '{}'", short_name(name)),
+                "only files beside it are read: download it, and name it in 'uri'");
+            failure_ = remote.error();
+            return false;
+        }
         const Result<std::string> bytes = files_.read(name, largest_model_file);
         if (!bytes) failure_ = bytes.error();
         else out.assign(bytes->begin(), bytes->end());
@@ -84,6 +116,18 @@ bool load(std::string_view bytes, bool is_binary, Buffers& buffers, tinygltf::Mo
     }
 }
 
+/// Whether the meshes have parts, and each part consists of points or lines.
+bool has_lines_only(const tinygltf::Model& model) {
+    bool has_parts = false;
+    for (const tinygltf::Mesh& mesh : model.meshes) {
+        for (const tinygltf::Primitive& part : mesh.primitives) {
+            has_parts = true;
+            if (part.mode < 0 || part.mode >= TINYGLTF_MODE_TRIANGLES) return false;
+        }
+    }
+    return has_parts;
+}
+
 }  // namespace
 
 Result<PolygonSoup> read_gltf(std::string_view bytes, const GrantedFiles& files) {
@@ -95,6 +139,9 @@ Result<PolygonSoup> read_gltf(std::string_view bytes, const GrantedFiles& files)
         return failure("this is a GLB file of version 1, and only version 2 is read",
                        "most modelling programs write version 2");
     }
+    if (is_binary) {
+        if (auto whole = check_whole(bytes); !whole) return tl::unexpected(whole.error());
+    }
     const std::string_view json = json_of(bytes, is_binary);
     if (auto good = check_gltf_size(json); !good) return tl::unexpected(good.error());
     if (auto good = check_gltf_requirements(json); !good) return tl::unexpected(good.error());
@@ -105,7 +152,10 @@ Result<PolygonSoup> read_gltf(std::string_view bytes, const GrantedFiles& files)
         if (buffers.failure()) return tl::unexpected(*buffers.failure());
         while (fault.ends_with('\n')) fault.pop_back();
         std::replace(fault.begin(), fault.end(), '\n', ' ');
-        return failure("this is not a glTF file that can be read", fault);
+        return failure("this is not a glTF file that can be read", without_data(std::move(fault)));
+    }
+    if (has_lines_only(model)) {
+        return failure("the glTF file has points or lines only", "a model is a surface");
     }
     std::size_t size = bytes.size();
     for (const tinygltf::Buffer& buffer : model.buffers) size += buffer.data.size();

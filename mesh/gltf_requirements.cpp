@@ -77,6 +77,12 @@ Result<void> for_each_entry(const GltfJson* list, const Visit& visit) {
 }
 
 Result<void> check_version(const GltfJson& file) {
+    const GltfJson* const least = member(member(&file, "asset"), "minVersion");
+    if (least && least->is_string() && least->get_ref<const std::string&>() > "2.0") {
+        return failure(fmt::format("the glTF file requires version {}, and version 2.0 is read",
+                                   short_name(least->get_ref<const std::string&>(), 20)),
+                       "export it as version 2.0");
+    }
     const GltfJson* const version = member(member(&file, "asset"), "version");
     const GltfJson* const meshes = member(&file, "meshes");
     // Files of version 1 may omit the version, and have objects where later versions have lists.

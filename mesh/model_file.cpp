@@ -4,6 +4,7 @@
 #include "core/check.h"
 #include "core/file.h"
 #include "core/printable.h"
+#include "mesh/other_content.h"
 #include "mesh/text_words.h"
 
 #include <fmt/format.h>
@@ -54,7 +55,10 @@ Result<std::string> model_ending(const std::string& name) {
     return failure(
         fmt::format("'{}' is not a model: its name ends in none of .ply, .obj, .off, .stl, "
                     ".gltf, .glb",
-                    short_name(name)));
+                    short_name(name)),
+        ending == "cascade" ? "'cascade run' draws a script"
+        : ending.empty()    ? ""
+                            : "most modelling programs write .glb or .obj files");
 }
 
 Result<PolygonSoup> parse_model(const std::string& name, std::string_view ending,
@@ -64,6 +68,7 @@ Result<PolygonSoup> parse_model(const std::string& name, std::string_view ending
         return failure(fmt::format("'{}': {}", short_name(name), soup.error().message),
                        soup.error().hint);
     }
+    if (soup->points.empty()) return failure(fmt::format("'{}' has no faces", short_name(name)));
     if (soup->ends.empty()) {
         return failure(fmt::format("'{}' has {} points but no faces", short_name(name),
                                    soup->points.size()),
@@ -78,6 +83,7 @@ Result<PolygonSoup> read_model_bytes(std::string_view bytes, std::string_view en
                                      const GrantedFiles& files) {
     const Format* const format = format_of(ending);
     CHECK(format != nullptr, "the ending of a model is checked before its file is read");
+    if (auto other = other_content(bytes, ending)) return tl::unexpected(*std::move(other));
     // A binary STL file may begin with any bytes.
     if (ending != "stl" && is_utf16(bytes)) return utf16_failure();
     return format->read(bytes, files);

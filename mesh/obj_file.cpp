@@ -42,11 +42,19 @@ public:
         for (;;) {
             const Words& words = lines_.next();
             if (words.empty()) break;
-            if (words[0] == "v" && !read_point(words)) return wrong_line("the position of a point");
+            if (words[0] == "surf") has_curved_parts_ = true;
+            if (words[0] == "v" && !read_point(words)) {
+                return wrong_line("the position of a point", hint_of_point(words));
+            }
             if (words[0] == "vt" && !read_texture_place(words)) {
                 return wrong_line("a position in a texture");
             }
-            if (words[0] == "f" && !read_face(words)) return wrong_line("a face of points");
+            if (words[0] == "f" && !read_face(words)) {
+                const bool has_zero = std::ranges::any_of(words, [](std::string_view word) {
+                    return word == "0" || word.starts_with("0/");
+                });
+                return wrong_line("a face of points", has_zero ? "points are counted from 1" : "");
+            }
         }
         return finished();
     }
@@ -54,8 +62,17 @@ public:
 private:
     using Words = std::vector<std::string_view>;
 
-    tl::unexpected<Failure> wrong_line(std::string_view what) const {
-        return failure(fmt::format("line {} of the OBJ file is not {}", lines_.number(), what));
+    tl::unexpected<Failure> wrong_line(std::string_view what, std::string hint = "") const {
+        return failure(fmt::format("line {} of the OBJ file is not {}", lines_.number(), what),
+                       std::move(hint));
+    }
+
+    static std::string hint_of_point(const Words& words) {
+        const bool has_comma = std::ranges::any_of(words, [](std::string_view word) {
+            return word.find(',') != std::string_view::npos;
+        });
+        if (has_comma) return "numbers are written with a point, not a comma";
+        return words.size() < 4 ? "a point has three coordinates" : "";
     }
 
     /// Three coordinates, optionally followed by a colour.
@@ -123,6 +140,10 @@ private:
 
     Result<PolygonSoup> finished() {
         if (soup_.points.empty()) return failure("the OBJ file has no points");
+        if (soup_.ends.empty() && has_curved_parts_) {
+            return failure("the OBJ file has curved surfaces only, which are not read",
+                           "export it as triangles");
+        }
         for (std::size_t face = 0; face < soup_.polygon_count(); ++face) {
             for (std::size_t c = soup_.first_corner(face); c < soup_.ends[face]; ++c) {
                 if (soup_.corners[c] >= soup_.points.size()) {
@@ -153,6 +174,7 @@ private:
     /// By corner, as long as every corner has texture coordinates.
     std::vector<std::uint32_t> corner_texture_;
     bool all_have_texture_ = true, all_have_colours_ = true;
+    bool has_curved_parts_ = false;  ///< Whether it has free-form surfaces, which are ignored.
 };
 
 }  // namespace

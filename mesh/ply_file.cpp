@@ -1,4 +1,5 @@
 // Reads PLY files, including triangle strips and properties of any name.
+#include "core/printable.h"
 #include "mesh/model_file.h"
 #include "mesh/ply_header.h"
 #include "mesh/text_words.h"
@@ -29,6 +30,12 @@ public:
         return format_ == PlyHeader::Format::text ? next_word() : next_binary(type);
     }
     std::size_t left() const { return bytes_.size() - at_; }
+    /// Whether a text goes on after the last number that was read.
+    bool has_more_words() const {
+        if (format_ != PlyHeader::Format::text) return false;
+        const std::string_view rest = bytes_.substr(at_);
+        return !std::all_of(rest.begin(), rest.end(), is_blank);
+    }
     std::size_t least_bytes(PlyNumber type) const {
         return format_ == PlyHeader::Format::text ? 2 : size_of(type);
     }
@@ -135,6 +142,16 @@ public:
             }
         }
         if (soup_.points.empty()) return failure("the PLY file has no element 'vertex'");
+        if (numbers_.has_more_words()) {
+            return failure("the PLY file has more numbers than its header says",
+                           "the header counts too few elements, or a property is missing there");
+        }
+        if (soup_.ends.empty()) {
+            if (const auto named = other_list(); !named.empty()) {
+                return failure("the faces of the PLY file have no list 'vertex_indices'",
+                               fmt::format("their list is called '{}'", named));
+            }
+        }
         for (const std::uint32_t corner : soup_.corners) {
             if (corner >= soup_.points.size()) {
                 return failure(fmt::format("a face names point {}, but there are only {}", corner,
@@ -151,6 +168,18 @@ public:
     }
 
 private:
+    /// The name of the only list of faces; "" if there are no faces or several lists.
+    std::string other_list() const {
+        for (const PlyElement& element : header_.elements) {
+            if (element.name != "face" || element.count == 0) continue;
+            const auto is_list = [](const PlyProperty& each) { return each.is_list; };
+            if (std::ranges::count_if(element.properties, is_list) != 1) continue;
+            const std::string& name = std::ranges::find_if(element.properties, is_list)->name;
+            if (!is_one_of(name, {"vertex_indices", "vertex_index"})) return short_name(name, 40);
+        }
+        return "";
+    }
+
     void begin(const PlyElement& element) {
         lists_.assign(element.properties.size(), {});
         row_.assign(element.properties.size(), 0);

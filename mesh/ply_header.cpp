@@ -43,6 +43,11 @@ public:
     explicit HeaderReader(std::string_view bytes) : bytes_(bytes) {}
 
     Result<PlyHeader> read() {
+        const std::size_t end = bytes_.find_first_of("\r\n");
+        line_end_ = bytes_.substr(std::min(end, bytes_.size())).starts_with("\r") &&
+                            !bytes_.substr(end).starts_with("\r\n")
+                        ? '\r'
+                        : '\n';
         if (next_line() != "ply")
             return failure("this is not a PLY file: it does not begin with 'ply'");
         bool has_format = false;
@@ -64,7 +69,7 @@ public:
 
 private:
     std::string_view next_line() {
-        const std::size_t end = std::min(bytes_.find('\n', at_), bytes_.size());
+        const std::size_t end = std::min(bytes_.find(line_end_, at_), bytes_.size());
         std::string_view line = bytes_.substr(at_, end - at_);
         if (line.ends_with('\r')) line.remove_suffix(1);
         at_ = std::min(end + 1, bytes_.size());
@@ -121,6 +126,7 @@ private:
     std::string_view bytes_;
     std::size_t at_ = 0;
     std::size_t line_ = 0;
+    char line_end_ = '\n';  ///< '\r' in files of old Macintosh programs.
     PlyHeader header_;
 };
 

@@ -6,6 +6,7 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <sys/mman.h>
 
 namespace cascade {
 
@@ -13,8 +14,23 @@ namespace {
 
 constexpr const char* without_it = "--volume NAME.vti does without it";
 
+#ifdef CASCADE_OPENVDB_MODULE
+/// Whether OpenVDB's libraries and the stacks of their threads fit into the address space. One of
+/// the libraries ends the program, or waits for ever, if it cannot start its threads.
+bool has_room_for_libraries() {
+    constexpr std::size_t room = std::size_t{192} << 20;
+    void* const pages = ::mmap(nullptr, room, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (pages == MAP_FAILED) return false;
+    ::munmap(pages, room);
+    return true;
+}
+#endif
+
 Result<VdbEncoder*> load_encoder() {
 #ifdef CASCADE_OPENVDB_MODULE
+    if (!has_room_for_libraries()) {
+        return failure("there is not enough memory to load OpenVDB", without_it);
+    }
     // The module is never unloaded, because threads of OpenVDB's libraries may still run.
     void* const module = ::dlopen(CASCADE_OPENVDB_MODULE, RTLD_LAZY | RTLD_LOCAL);
     if (!module) {

@@ -42,6 +42,7 @@ cp "$SOURCE/tests/support/octahedron.off" ball.off
 
 "$CASCADE" export - <dots.cascade >said || fail "a script of standard input was not exported"
 grep -q '^cascade\.html (' said || fail "a script of standard input became: $(cat said)"
+grep -q '"name":"cascade.cascade"' cascade.html || fail "the page of standard input names files after no file"
 
 "$CASCADE" run sphere.cascade --set grow.iterations=80 --palette zebra -o ball.png --quiet || fail "the model was not drawn"
 cat >volume.cascade <<'SCRIPT'

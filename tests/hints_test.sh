@@ -104,12 +104,36 @@ hint "'cascade systems' lists them" systems qqq -- systems
 hint "did you mean --set k=2?" run s.cascade k=2 -- check s.cascade --set k=2
 hint "did you mean --vary k=2,3?" sweep s.cascade k=2,3 -- sweep s.cascade -q --vary k=2,3 -o w2
 hint "write --palette" run s.cascade --cmap viridis -- run s.cascade -q --palette viridis
-hint "the option --grid 32x32 sets it" sweep s.cascade --vary grid=32,64 -o w3 -- check s.cascade --grid 32x32
+sed '1s/^/let n = 8\n/; s/grid: 8, 8/grid: n, n/' s.cascade >sized.cascade
+hint "write let n = 64 and grid: n, n in the script, and --vary n=32,64" sweep s.cascade --vary grid=32,64 -o w3 -- \
+    sweep sized.cascade -q --vary n=8,16 -o w3
+hint "the option --grid 32x32 sets it" check s.cascade --set grid=32 -- check s.cascade --grid 32x32
 hint "the option --grid 32x32 sets it" check s.cascade --set domain.grid=32 -- check s.cascade --set domain.extent=32
 hint "write first.k" check s.cascade --set stage.k=2 -- check s.cascade --set first.k=2
 hint "once for each name" check s.cascade --set k=2,u=1 -- check s.cascade --set k=2 --set u=1
 hint "two dots separate the ends of a range" sweep s.cascade --vary k=0.02-0.06:3 -- \
     sweep s.cascade -q --vary k=0.02..0.06:3 -o w4
+hint "write --set duration=2" run s.cascade --time 2 -- run s.cascade -q --set duration=2
+hint "write --set extent=4" run s.cascade --extent 4 -- run s.cascade -q --set extent=4
+hint "write -o a.webp" run s.cascade --movie a.webp -- run s.cascade -q -o a.webp
+hint "write --threads 2" run s.cascade -j 2 -- run s.cascade -q --threads 2
+hint "by --set k=0.3" run s.cascade --k 0.3 -- run s.cascade -q --set k=0.3
+hint "by --set k=0.3" run s.cascade --k=0.3 -- run s.cascade -q --set k=0.3
+hint "write 2" run s.cascade -q --steps 2e0 -- run s.cascade -q --steps 2
+hint "write 'double'" run s.cascade -q --precision float64 -- run s.cascade -q --precision double
+hint "did you mean 'cascade run s.cascade …'?" s.cascade -o a.png -- run s.cascade -q -o a.png
+hint "--mesh creature -o creature.obj" mesh creature -- \
+    run s.cascade --mesh creature --cells 100 -q -o creature.obj
+hint "'cascade run' draws a script" mesh s.cascade -- run s.cascade -q
+hint "most modelling programs write .glb or .obj files" mesh a.fbx -- mesh ball.obj
+for option in --port --host --open; do
+    "$CASCADE" view s.cascade $option 8080 >out 2>err && fail "no fault: view $option"
+    grep -qE "there is no option $option; the (page|browser)" err || fail "view $option: $(cat err)"
+done
+"$CASCADE" fmt s.cascade --write >out 2>err && fail "no fault: fmt --write"
+grep -qF "the files are changed themselves" err || fail "fmt --write: $(cat err)"
+"$CASCADE" run s.cascade --film x >out 2>err && fail "no fault: run --film"
+grep -qF -- "--field" err && fail "--field is near --film"
 hint "did you mean 'cascade systems'?" list -- systems
 "$CASCADE" sweep s.cascade -q --vary extent=4,8 -o w5 || fail "an extent that is varied"
 "$CASCADE" run s.cascade -q --palette "#000 #fff" || fail "a palette of one's own"

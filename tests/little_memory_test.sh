@@ -43,4 +43,12 @@ for output in "${outputs[@]}"; do
             { echo "little_memory: $output, $megabytes MB: status $status, $(head -c 300 out)"; failed=1; }
     done
 done
+# OpenVDB's libraries are loaded before the first step, or refused there.
+for megabytes in 100 105 120 160; do
+    (ulimit -v $((megabytes * 1024)) && ulimit -c 0 &&
+        exec timeout 100 "$CASCADE" run -q body.cascade --volume o.vdb) >out 2>&1
+    status=$?
+    [ $status = 3 ] && grep -qE "there is not enough memory|this build has no OpenVDB" out ||
+        { echo "little_memory: o.vdb, $megabytes MB: status $status, $(head -c 300 out)"; failed=1; }
+done
 exit $failed

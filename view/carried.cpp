@@ -21,7 +21,8 @@ Result<Carried> carried_by(const Script& script, const Simulation& simulation) {
                                    stage.name),
                        "'cascade view' can");
     }
-    Carried carried{script.name, script.text, false, overrides_to_json(script.overrides), {}};
+    Carried carried{
+        shown_name(script), script.text, false, overrides_to_json(script.overrides), {}};
     const GrantedFiles files(script.folder, script.overrides.reads);
     for (const auto& [name, channels] : input_files_of(script)) {
         auto bytes = files.read(name, std::max(largest_npy_file, largest_picture_file));

@@ -244,7 +244,7 @@ std::string print_systems() {
 std::string print_script(const LiveRun& run) {
     const Script& script = run.script();
     return print({{"kind", "script"},
-                  {"name", script.name},
+                  {"name", shown_name(script)},
                   {"text", script.text},
                   {"messages", print_diagnostics(script.diagnostics, script.sources, script.text)},
                   {"controls", print_controls(run)},

@@ -163,7 +163,8 @@ ExpressionParser::Progress ExpressionParser::read_bracketed() {
     if (is_readable) {
         const bool is_list = cursor_.text(whole).find(',') != std::string_view::npos;
         std::string hint = "( ) groups an expression";
-        if (is_list) hint = "write lists without brackets, as in grid: 64, 64";
+        if (is_list)
+            hint = "a list is the value of a setting, without brackets, as in grid: 64, 64";
         if (is_range) hint = "a range is written 0 .. 1";
         cursor_.error(whole, "'[ ]' encloses one name of this stage", std::move(hint));
     }

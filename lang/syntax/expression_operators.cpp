@@ -291,7 +291,7 @@ ExpressionParser::Progress ExpressionParser::read_comma() {
     }
     if (open.kind == PendingKind::group) {
         return fail(cursor_.peek().span, "',' separates the arguments of a function",
-                    "the name of a function is missing before '('; lists have no brackets");
+                    "lists have no brackets; a vector is vector(1, 0)");
     }
     cursor_.take();
     arguments_.push_back(operands_.back().id);
@@ -309,13 +309,20 @@ ExpressionParser::Progress ExpressionParser::unexpected_operator(bool on_new_lin
             return fail(token.span, "a prime directly follows a name", "write p' for a rate");
         case TokenKind::dot:
             return fail(token.span, "'.' joins the name of a stage and one of its names",
-                        "write stage.p");
+                        cursor_.behind(2).kind == TokenKind::dot &&
+                                cursor_.kind(2) == TokenKind::open_round
+                            ? "functions belong to no object or module"
+                            : "write stage.p");
         case TokenKind::colon:
         case TokenKind::dots:
         case TokenKind::plus_assign:
-        case TokenKind::open_curly:
+        case TokenKind::open_curly: {
+            const bool is_axis = token.kind == TokenKind::colon && open_brackets_ == 0 &&
+                                 component_named(cursor_.text(cursor_.previous()));
             return fail(token.span, cursor_.describe(token) + " has no place inside an expression",
-                        hint_of_braces(cursor_));
+                        is_axis ? "values of axes come in order, as in boundary: periodic, noflux"
+                                : hint_of_braces(cursor_));
+        }
         default: return missing_operator(on_new_line);
     }
 }
@@ -366,6 +373,9 @@ ExpressionParser::Progress ExpressionParser::missing_operator(bool on_new_line) 
     const bool is_condition = call && call->function.text == "if" && call->argument_count == 1;
     if (is_if(here) || is_if(before) || is_condition) {
         return fail_here("a choice is written if(condition, a, b)");
+    }
+    if (const auto form = foreign_form(); !form.hint.empty()) {
+        return fail(form.span, form.message, form.hint);
     }
     if (before.kind == TokenKind::number && here.kind == TokenKind::number) {
         return fail_here(fmt::format("write '{0} * {1}' to multiply, '{0}, {1}' for two values",

@@ -148,6 +148,43 @@ ExpressionParser::Progress ExpressionParser::unclosed() {
     return Progress::failed;
 }
 
+/// Describes `16 x 16`, `tanh^2(u)`, `u.lap()`, `np.exp(u)` and `c . grad(u)` at the place where an
+/// operator is missing.
+ExpressionParser::ForeignForm ExpressionParser::foreign_form() const {
+    const Token &one = cursor_.behind(1), two = cursor_.behind(2), three = cursor_.behind(3);
+    const Token here = cursor_.peek(), next = cursor_.peek(1);
+    const std::string missing = "an operator is missing before " + cursor_.describe(here);
+    const bool is_cross =
+        here.kind == TokenKind::name && (cursor_.text(here) == "x" || cursor_.text(here) == "X");
+    if (one.kind == TokenKind::number && is_cross && next.kind == TokenKind::number) {
+        const bool is_list = pending_.empty() && cursor_.kind(2) != TokenKind::caret;
+        return {join(one.span, next.span), missing,
+                fmt::format("write '{}{}{}'", cursor_.text(one), is_list ? ", " : " * ",
+                            cursor_.text(next))};
+    }
+    const bool begins_argument = here.kind == TokenKind::open_round || here.kind == TokenKind::name;
+    if (begins_argument && one.kind == TokenKind::number && two.kind == TokenKind::caret &&
+        three.kind == TokenKind::name && function_named(cursor_.text(three))) {
+        return {here.span, missing,
+                fmt::format("write {}(…)^{}", cursor_.text(three), cursor_.text(one))};
+    }
+    const bool is_path = here.kind == TokenKind::open_round && one.kind == TokenKind::name &&
+                         two.kind == TokenKind::dot && three.kind == TokenKind::name;
+    if (!is_path) return {};
+    const std::string_view function = cursor_.text(one);
+    const std::string object = shortened(cursor_.text(three));
+    if (two.span.begin > three.span.end) {
+        return {join(three.span, one.span), "'.' joins the name of a stage and one of its names",
+                fmt::format("dot({}, …) is the product of vectors", object)};
+    }
+    if (next.kind == TokenKind::close_round && function_named(function)) {
+        return {join(three.span, next.span), missing,
+                fmt::format("write '{}({})'", function, object)};
+    }
+    return {join(three.span, two.span), "functions belong to no object or module",
+            fmt::format("leave '{}.' out", object)};
+}
+
 /// A hint about the operator that is missing between two operands; may be empty.
 std::string ExpressionParser::hint_of_missing_operator() const {
     const Token before = cursor_.previous();

@@ -78,6 +78,12 @@ private:
     void push_component(int axis, const ast::Word& name);
     Progress unexpected_operator(bool on_new_line);
     std::string hint_of_missing_operator() const;
+    /// An error about a form of other languages; its hint is empty if there is none.
+    struct ForeignForm {
+        Span span;
+        std::string message, hint;
+    };
+    ForeignForm foreign_form() const;
     Progress missing_operator(bool on_new_line);
     bool begins_applied();
     Progress unclosed();

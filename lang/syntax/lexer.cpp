@@ -1,6 +1,7 @@
 // Splits a source into tokens in one pass over its bytes.
 #include "core/utf8.h"
 #include "lang/syntax/bars.h"
+#include "lang/syntax/foreign_forms.h"
 #include "lang/syntax/kept_spellings.h"
 #include "lang/syntax/look_alikes.h"
 #include "lang/syntax/operator_spellings.h"
@@ -141,7 +142,7 @@ void Lexer::read_token() {
         read_number();
     } else if (c == '"') {
         read_text(1, "\"");
-    } else if (c == '/' && (at(offset_ + 1) == '/' || at(offset_ + 1) == '*')) {
+    } else if (begins_foreign_comment(text_, offset_)) {
         skip_foreign_comment();
     } else if (!read_operator()) {
         read_other();
@@ -251,12 +252,9 @@ void Lexer::read_number() {
         end += std::max(name_part(end).size, 1u);
     }
     if (end == number_end) return push(TokenKind::number, begin, end);
-    const std::string hint = advice_about_number(text_.substr(begin, number_end - begin),
-                                                 text_.substr(number_end, end - number_end));
-    diagnostics_.error(span(begin, end),
-                       fmt::format("'{:.40}' is not a number", text_.substr(begin, end - begin)),
-                       hint);
-    push(TokenKind::garbage, begin, end);
+    const NumberFault fault = fault_of_number(tokens_, text_, begin, number_end, end);
+    diagnostics_.error(span(begin, fault.end), fault.message, fault.hint);
+    push(TokenKind::garbage, begin, fault.end);
 }
 
 /// Reads a string, which must end on the same line. If it has other quotation marks, which have

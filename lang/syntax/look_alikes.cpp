@@ -36,6 +36,9 @@ constexpr LookAlike look_alikes[] = {
     {U'\uff1b', Meant::semicolon, ";"},      {U'\uff1d', Meant::assign, "="},
     // Sums and products over indices.
     {U'\u2211', Meant::garbage, "sum(… over i)"},
+    {U'\u222b', Meant::garbage, "integral(… over domain)"},
+    // A value and its deviation.
+    {U'\u00b1', Meant::plus, "random(m, s)"},
     // Superscript letters.
     {U'\u207f', Meant::garbage, "^n"},       {U'\u2071', Meant::garbage, "^i"},
     // Blanks.

@@ -75,6 +75,11 @@ inline constexpr ForeignOperator foreign_operators[] = {
     {"===", TokenKind::equal, "write '=='"},
     {"!==", TokenKind::not_equal, "write '!='"},
     {"**", TokenKind::caret, "write '^' for a power"},
+    {".*", TokenKind::star, "write '*'"},
+    {"./", TokenKind::slash, "write '/'"},
+    {".^", TokenKind::caret, "write '^'"},
+    {"->", TokenKind::garbage, "a reaction is given by rates: u' = …"},
+    {"→", TokenKind::garbage, "a reaction is given by rates: u' = …"},
     {"&&", TokenKind::keyword_and, "write 'and'"},
     {"<>", TokenKind::not_equal, "write '!='"},
     {"=>", TokenKind::greater_equal, "write '>='"},
@@ -84,7 +89,7 @@ inline constexpr ForeignOperator foreign_operators[] = {
     {"*=", TokenKind::plus_assign, "there is only '+='"},
     {"/=", TokenKind::plus_assign, "there is only '+='"},
     {"&", TokenKind::keyword_and, "write 'and'"},
-    {"%", TokenKind::garbage, "write mod(a, b) for a % b"},
+    {"%", TokenKind::garbage, "write mod(a, b) for a % b, 0.05 for 5 %; '#' begins a comment"},
 };
 
 /// The operator `!` of other languages. It is tried only if no operator of the language matches,

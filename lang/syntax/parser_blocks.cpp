@@ -129,7 +129,7 @@ void ScriptParser::parse_bases(ast::Block& block) {
                           "only 'cells' join several");
         }
         if (!cursor_.at(TokenKind::name)) {
-            if (cursor_.at(TokenKind::garbage)) return;
+            if (cursor_.at(TokenKind::garbage) || cursor_.at(TokenKind::newline)) return;
             const HeaderWords words = header_words(block);
             return cursor_.error(sign.span,
                                  fmt::format("the name of {} is missing after {}", words.base,
@@ -183,6 +183,16 @@ void ScriptParser::parse_header_without_name() {
                   fmt::format("write '{} {{'", cursor_.text(keyword)));
 }
 
+/// A hint about the token at the cursor, which should be the '{' of a block.
+std::string ScriptParser::hint_of_missing_bracket(const Token& header_end) const {
+    if (cursor_.at(TokenKind::minus) && cursor_.kind(1) == TokenKind::name) {
+        return fmt::format("names have no '-': write '{}_{}'", cursor_.text(header_end),
+                           cursor_.text(cursor_.peek(1)));
+    }
+    if (cursor_.at(TokenKind::open_round)) return "systems have no '( )': leave it out";
+    return "a block is written { statements }";
+}
+
 /// Parses { statements }. If the closing bracket is missing, the block ends where the next block
 /// begins.
 void ScriptParser::parse_body(ast::Block& block) {
@@ -203,10 +213,7 @@ void ScriptParser::parse_body(ast::Block& block) {
         if (!is_told) {
             cursor_.error(header_end.span,
                           fmt::format("'{{' is missing after {}", cursor_.describe(header_end)),
-                          cursor_.at(TokenKind::minus) && cursor_.kind(1) == TokenKind::name
-                              ? fmt::format("names have no '-': write '{}_{}'",
-                                            cursor_.text(header_end), cursor_.text(cursor_.peek(1)))
-                              : "a block is written { statements }");
+                          hint_of_missing_bracket(header_end));
         }
         // The rest of the header's line is not a statement.
         if (header_end.kind != TokenKind::name || !cursor_.at(TokenKind::name)) {

@@ -27,6 +27,18 @@ void ScriptParser::parse_end_of_index(ast::Statement& statement) {
     statement.values.push_back(expressions_.parse("the end of the range"));
 }
 
+/// Parses the further ranges of `extent: 0 .. 10, 0 .. 10`, so that the checker can report all of
+/// them together.
+void ScriptParser::parse_more_ranges(ast::Statement& statement) {
+    while (cursor_.at(TokenKind::comma) && !cursor_.begins_statement(1)) {
+        cursor_.take();
+        for (const char* end : {"the beginning of the range", "the end of the range"}) {
+            statement.values.push_back(expressions_.parse(end));
+            if (!cursor_.take_if(TokenKind::dots)) break;
+        }
+    }
+}
+
 /// Parses the `in low .. high [step e]` after a value.
 void ScriptParser::parse_range(ast::Statement& statement) {
     const Token word = cursor_.take();

@@ -1,19 +1,15 @@
 // Parses statements: a name, a relation, and one or more expressions.
 #include "lang/syntax/script_parser.h"
 
-#include "core/near_name.h"
 #include "core/side.h"
-#include "lang/syntax/index_words.h"
 #include "lang/syntax/kept_spellings.h"
 #include "lang/syntax/second_rates.h"
 #include "lang/vocabulary/settings.h"
-#include "lang/vocabulary/words_elsewhere.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
-#include <vector>
 
 namespace cascade {
 
@@ -111,36 +107,9 @@ bool ScriptParser::parse_index(ast::Statement& statement) {
     if (!cursor_.at(TokenKind::garbage)) {
         cursor_.error(join(statement.name.span, open.span),
                       "the index that a statement sets is a name or a whole number",
-                      fmt::format("write {0}[i] or {0}[1]", shortened(statement.name.text)));
+                      hint_of_index(shortened(statement.name.text)));
     }
     cursor_.skip_statement(1);
-    return false;
-}
-
-/// Reports that no statement begins here. Returns false.
-bool ScriptParser::report_no_statement() {
-    const Token token = cursor_.peek();
-    const std::string word = cursor_.describe(token);
-    switch (token.kind) {
-        case TokenKind::garbage: break;  // The lexer has reported an error.
-        case TokenKind::keyword_and:
-        case TokenKind::keyword_or:
-        case TokenKind::keyword_not:
-            cursor_.error(token.span, word + " is a word of the language and cannot be a name");
-            break;
-        case TokenKind::close_round:
-        case TokenKind::close_square:
-            cursor_.error(token.span, fmt::format("this {} closes nothing", word));
-            break;
-        case TokenKind::open_curly:
-            cursor_.error(token.span, "no block begins here",
-                          "blocks are system, cells, stage, domain, picture and shape");
-            break;
-        default:
-            cursor_.error(token.span, fmt::format("no statement begins with {}", word),
-                          "a statement is 'name: expression'");
-    }
-    cursor_.skip_statement();
     return false;
 }
 
@@ -184,19 +153,6 @@ bool ScriptParser::parse_relation(ast::Statement& statement) {
     return true;
 }
 
-/// Reports a dot after the name, as in `large.ka: 1`, or a misspelt side.
-void ScriptParser::report_dot(const ast::Statement& statement) {
-    std::string near;
-    if (cursor_.kind(1) == TokenKind::name) {
-        std::vector<std::string> sides(side_names.begin(), side_names.end());
-        sides.emplace_back("sides");
-        near = nearest_name(cursor_.text(cursor_.peek(1)), sides);
-    }
-    cursor_.error(statement.name.span, "a statement can set only names of its own stage",
-                  near.empty() ? "write the name without a stage"
-                               : fmt::format("did you mean {}.{}?", statement.name.text, near));
-}
-
 bool ScriptParser::parse_rate_relation(ast::Statement& statement) {
     if (cursor_.at(TokenKind::prime)) {
         cursor_.take();
@@ -221,115 +177,6 @@ bool ScriptParser::parse_rate_relation(ast::Statement& statement) {
     return false;
 }
 
-/// Reports `u''' = e` and skips the value, because it cannot be converted to second derivatives.
-bool ScriptParser::report_third_rate(const ast::Statement& statement) {
-    while (cursor_.at(TokenKind::prime)) cursor_.take();
-    const std::string name = shortened(cursor_.text(statement.name.span));
-    cursor_.error(join(statement.name.span, cursor_.previous().span),
-                  "rates are first and second derivatives by time",
-                  fmt::format("make the rate a species: write v: 0; {}' = v; v'' = …", name));
-    cursor_.skip_statement();
-    return false;
-}
-
-/// Reports `du/dt = e` and continues as with the rate of u.
-bool ScriptParser::take_paper_rate(ast::Statement& statement) {
-    const std::string_view name = statement.name.text;
-    const bool is_rate = name.size() > 1 && name[0] == 'd' && cursor_.at(TokenKind::slash) &&
-                         cursor_.at_name("dt", 1) && cursor_.kind(2) == TokenKind::assign;
-    if (!is_rate) return false;
-    const Span derivative = join(statement.name.span, cursor_.peek(1).span);
-    for (int k = 0; k < 3; ++k) cursor_.take();
-    statement.kind = ast::StatementKind::rate;
-    statement.name.text = name.substr(1);
-    ++statement.name.span.begin;
-    cursor_.error(derivative, "a rate is written with a prime",
-                  fmt::format("write {}' = …", shortened(statement.name.text)));
-    return true;
-}
-
-/// Reports a name without a relation. Usually a colon is missing, or the name is a misspelt keyword
-/// of a block. Returns true if parsing can continue with the value.
-bool ScriptParser::report_missing_colon(const ast::Statement& statement) {
-    const ast::Word& name = statement.name;
-    const std::string quoted = cursor_.describe({TokenKind::name, name.span});
-    if (has_shape_of_block(0)) {
-        report_no_block(name);
-        cursor_.skip_statement();
-        return false;
-    }
-    if (const std::string_view advice = advice_about(name.text, WordContext::statement);
-        !advice.empty()) {
-        cursor_.error(name.span, fmt::format("no statement begins with {}", quoted),
-                      std::string(advice));
-        cursor_.skip_statement();
-        return false;
-    }
-    cursor_.error(name.span, fmt::format("':' is missing after {}", quoted),
-                  cursor_.at(TokenKind::open_round)
-                      ? fmt::format("write '{}: …' for a starting value", name.text)
-                      : "a statement is 'name: expression'");
-    const std::size_t next = after_index([this](std::size_t at) { return cursor_.kind(at); }, 0);
-    if (next > 0 && cursor_.kind(next) != TokenKind::newline) {
-        cursor_.skip_statement();  // For example `u [i]: e`, where no value follows the name.
-        return false;
-    }
-    switch (cursor_.kind()) {
-        case TokenKind::number:
-        case TokenKind::name:
-        case TokenKind::open_square:
-        case TokenKind::minus:
-        case TokenKind::text:
-        case TokenKind::keyword_not: return true;
-        default: cursor_.skip_statement(); return false;
-    }
-}
-
-/// Whether the tokens from `ahead` on look like a block after its keyword: ` {`, ` large {`, `
-/// large: leopard {`, ` thorn: scale, guide {`.
-bool ScriptParser::has_shape_of_block(std::size_t ahead) const {
-    const bool is_derived = cursor_.kind(ahead) == TokenKind::name &&
-                            cursor_.kind(ahead + 1) == TokenKind::colon &&
-                            cursor_.kind(ahead + 2) == TokenKind::name;
-    if (is_derived) {
-        ahead += 3;
-        while (cursor_.kind(ahead) == TokenKind::comma &&
-               cursor_.kind(ahead + 1) == TokenKind::name) {
-            ahead += 2;
-        }
-        return cursor_.kind(ahead) == TokenKind::open_curly;
-    }
-    if (cursor_.kind(ahead) == TokenKind::name) ++ahead;
-    if (cursor_.kind(ahead) == TokenKind::newline) ++ahead;
-    return cursor_.kind(ahead) == TokenKind::open_curly;
-}
-
-/// Reports that a word does not begin a block. Returns the keyword that was probably intended, or
-/// "".
-std::string ScriptParser::report_no_block(const ast::Word& word) {
-    const std::array<std::string, 6> of_blocks = {"system", "cells",   "stage",
-                                                  "domain", "picture", "shape"};
-    std::string near = nearest_name(word.text, of_blocks);
-    cursor_.error(word.span,
-                  cursor_.describe({TokenKind::name, word.span}) + " does not begin a block",
-                  near.empty() ? "blocks are system, cells, stage, domain, picture and shape"
-                               : "did you mean '" + near + "'?");
-    return near;
-}
-
-/// Reports a type as in other languages, `feed: float = 0.037`, and continues after it.
-void ScriptParser::skip_type(const ast::Word& name) {
-    static constexpr std::array<std::string_view, 9> types = {"float",   "double", "int",
-                                                              "integer", "real",   "number",
-                                                              "bool",    "var",    "const"};
-    const bool is_type = cursor_.at(TokenKind::name) && cursor_.kind(1) == TokenKind::assign &&
-                         std::ranges::find(types, cursor_.text(cursor_.peek())) != types.end();
-    if (!is_type) return;
-    const Token type = cursor_.take();
-    cursor_.error(join(type.span, cursor_.take().span), "values are declared without a type",
-                  fmt::format("write '{}: …'", shortened(name.text)));
-}
-
 /// Parses one expression, or several separated by commas.
 void ScriptParser::parse_values(ast::Statement& statement) {
     const bool colon_is_missing =
@@ -348,6 +195,10 @@ void ScriptParser::parse_values(ast::Statement& statement) {
     if (statement.kind == ast::StatementKind::value) skip_type(statement.name);
     statement.values.push_back(parse_after_operator(owner, ends_of_value));
     if (cursor_.at(TokenKind::dots)) parse_end_of_index(statement);
+    if (statement.kind == ast::StatementKind::index &&
+        is_setting_of(SettingBlock::domain, statement.name.text)) {
+        parse_more_ranges(statement);
+    }
     while (cursor_.at(TokenKind::comma)) {
         const Token comma = cursor_.take();
         if (cursor_.begins_statement()) {

@@ -35,6 +35,7 @@ private:
     void parse_header_of_stage(ast::Block& block);
     void parse_header_without_name();
     void parse_body(ast::Block& block);
+    std::string hint_of_missing_bracket(const Token& header_end) const;
     void report_unclosed(const Token& open, const ast::Block& block);
     void parse_classic_stage();
     void parse_base_of_classic_stage(ast::Block& block);
@@ -58,9 +59,22 @@ private:
     std::optional<ast::Statement> parse_statement();
     void parse_side(ast::Statement& statement);
     void add_statement(ast::Block& block, ast::Statement statement);
-    void report_dot(const ast::Statement& statement);
     bool parse_relation(ast::Statement& statement);
     bool parse_rate_relation(ast::Statement& statement);
+    void parse_values(ast::Statement& statement);
+    bool parse_index(ast::Statement& statement);
+    void parse_end_of_index(ast::Statement& statement);
+    void parse_more_ranges(ast::Statement& statement);
+    void parse_range(ast::Statement& statement);
+    void parse_after(ast::Statement& statement);
+    ast::Expression parse_after_operator(const std::string& owner,
+                                         std::span<const std::string_view> ends);
+
+    // Faults of statements (statement_faults.cpp).
+    std::string hint_of_index(std::string_view name) const;
+    void report_dot(const ast::Statement& statement);
+    bool line_has_garbage() const;
+    std::string hint_of_missing_colon(const ast::Word& name) const;
     bool report_missing_colon(const ast::Statement& statement);
     bool has_shape_of_block(std::size_t ahead) const;
     std::string report_no_block(const ast::Word& word);
@@ -68,13 +82,6 @@ private:
     bool take_paper_rate(ast::Statement& statement);
     bool report_no_statement();
     void skip_type(const ast::Word& name);
-    void parse_values(ast::Statement& statement);
-    bool parse_index(ast::Statement& statement);
-    void parse_end_of_index(ast::Statement& statement);
-    void parse_range(ast::Statement& statement);
-    void parse_after(ast::Statement& statement);
-    ast::Expression parse_after_operator(const std::string& owner,
-                                         std::span<const std::string_view> ends);
 
     /// The text of the doc comments before the cursor, which belong to the item that begins at the
     /// cursor.

@@ -23,6 +23,11 @@ public:
     /// The last token that was taken and is not a line break. The first token if none has been
     /// taken.
     const Token& previous() const;
+    /// The token `count` places before the one at the cursor, line breaks included. The first token
+    /// if there are not so many.
+    const Token& behind(std::size_t count) const {
+        return tokens_[position_ < count ? 0 : position_ - count];
+    }
     /// The position where the last token ends that was taken, which may be a line break. 0 if only
     /// line breaks were taken.
     std::uint32_t taken_up_to() const;

@@ -125,7 +125,7 @@ std::string advice_about_hex_colour(std::string_view line) {
         std::from_chars(own.data(), own.data() + own.size(), value, 16);
         return value / (is_short ? 15.0 : 255.0);
     };
-    return fmt::format("'#' begins a comment; write 'rgb({:.3g}, {:.3g}, {:.3g})'", channel(0),
+    return fmt::format("a colour has no '#'; write 'rgb({:.3g}, {:.3g}, {:.3g})'", channel(0),
                        channel(1), channel(2));
 }
 

@@ -54,6 +54,13 @@ constexpr WordElsewhere rows[] = {
 
     {Context::picture, "palette colors colour colormap cmap",
      "write 'color: palette(u, 0, 1, \"leopard\")'"},
+    {Context::picture, "size resolution dpi pixels", "the command line sets it: --size 512x512"},
+    {Context::picture, "file filename out output save format",
+     "the command line names files: cascade run SCRIPT -o out.png"},
+    {Context::picture, "title axes axis colorbar legend label",
+     "-o NAME.svg draws a figure with axes and a colour scale"},
+    {Context::picture, "range vmin vmax clim limits min max",
+     "write 'color: palette(u, 0, 1, \"viridis\")'"},
     {Context::picture, "metallic metal", "write 'metalness: 1'"},
     {Context::picture, "smoothness glossiness gloss", "write 'roughness: 0.2'"},
     {Context::picture, "emissive glow", "write 'emission: rgb(1, 0.5, 0)'"},
@@ -63,6 +70,7 @@ constexpr WordElsewhere rows[] = {
     {Context::boundary,
      "neumann zero_flux zeroflux reflecting reflective insulating closed wall walls mirror",
      "write 'noflux'"},
+    {Context::boundary, "open outflow free free_slip zero_gradient natural none", "write 'noflux'"},
     {Context::boundary, "wrap wrapped cyclic toroidal torus circular", "write 'periodic'"},
     {Context::boundary, "dirichlet fixed absorbing zero",
      "sides have values, boundaries have none: write 'sides: fixed(0)'"},
@@ -76,6 +84,14 @@ constexpr WordElsewhere rows[] = {
     {Context::side, "dirichlet absorbing zero constant value", "write 'fixed(0)'"},
     {Context::side, "wrap cyclic toroidal torus", "write 'periodic'"},
 
+    {Context::precision, "64 float64 f64 fp64 float_64 high full", "write 'double'"},
+    {Context::precision, "32 float32 f32 fp32 float float_32 low", "write 'single'"},
+
+    {Context::function, "diff derivative deriv partial d",
+     "write 'dx(u)' for du/dx, dxx(u) for its second derivative"},
+    {Context::function, "vec vec2 vec3 array list tuple", "vector(1, 0) is a vector"},
+    {Context::function, "jet hot cool rainbow turbo parula viridis magma inferno plasma cividis",
+     "palette(u, 0, 1, \"viridis\") is a colour of a palette"},
     {Context::function, "laplacian laplace del2 nabla2 lapl laplacien", "did you mean 'lap'?"},
     {Context::function, "divergence", "did you mean 'div'?"},
     {Context::function, "gradient nabla", "did you mean 'grad'?"},
@@ -134,6 +150,9 @@ constexpr WordElsewhere rows[] = {
     {Context::value, "true", "write '1'"},
     {Context::value, "false", "write '0'"},
     {Context::value, "iteration frame tick", "write 'step'"},
+    {Context::value, "dw", "white(s) is white noise of the deviation s"},
+    {Context::value, "randn", "write 'normal(0, 1)'"},
+    {Context::value, "rand rnd", "write 'random(0.5, 0.5)'"},
     {Context::value, "dx2 d2x", "the second derivative of u along x is dxx(u)"},
     {Context::value, "dy2 d2y", "the second derivative of u along y is dyy(u)"},
     {Context::value, "red green blue yellow orange black",
@@ -161,7 +180,7 @@ bool has_word(std::string_view words, std::string_view word) {
 std::span<const WordElsewhere> words_elsewhere() { return rows; }
 
 std::string_view species_of_rate(std::string_view name) {
-    for (const std::string_view end : {"_dot", "_t", "_dt", "dt"}) {
+    for (const std::string_view end : {"_dot", "_next", "_new", "_t", "_dt", "dt"}) {
         const bool begins_with_d = end.ends_with("dt");
         const std::size_t around = end.size() + (begins_with_d ? 1 : 0);
         if (name.size() <= around || !name.ends_with(end)) continue;

@@ -17,6 +17,7 @@ enum class WordContext : std::uint8_t {
     picture,    ///< `palette: "grey"` in the picture
     boundary,   ///< `boundary: neumann`
     side,       ///< `left: neumann`
+    precision,  ///< `precision: float64`
     function,   ///< `laplacian(u)`
     value,      ///< `time` in an expression
     statement,  ///< `import "a.cascade"` at the beginning of a statement
@@ -33,8 +34,8 @@ struct WordElsewhere {
 
 std::span<const WordElsewhere> words_elsewhere();
 
-/// The species `u` in u_t, u_dot, dudt and du_dt, which are names of a rate in other programs.
-/// Empty for other names.
+/// The species `u` in u_t, u_dot, u_next, u_new, dudt and du_dt, which are names of a rate in other
+/// programs. Empty for other names.
 std::string_view species_of_rate(std::string_view name);
 
 std::string_view advice_about(std::string_view word, WordContext context);

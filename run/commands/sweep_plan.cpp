@@ -31,6 +31,12 @@ Planned check_picture(Script script, const SweepRequest& request) {
     return tl::unexpected(std::move(error));
 }
 
+/// How the grid is varied, which no --set can change; "" for other names.
+std::string_view hint_of_domain(std::string_view name) {
+    if (name == "grid") return "write let n = 64 and grid: n, n in the script, and --vary n=32,64";
+    return "";
+}
+
 /// The first error that the value of a varied name has caused.
 std::optional<Failure> fault_in(const PlannedRun& run, const SweepRequest& request,
                                 const Script& script) {
@@ -42,8 +48,11 @@ std::optional<Failure> fault_in(const PlannedRun& run, const SweepRequest& reque
             const std::string set = fmt::format("{}={}", names[k], run.values[k]);
             if (text != set) continue;
             const bool has_note = each.hint.empty() && !each.notes.empty();
+            const std::string_view by_name = hint_of_domain(names[k]);
             return Failure{fmt::format("--vary {}: {}", set, each.message),
-                           has_note ? each.notes[0].message : each.hint};
+                           !by_name.empty() ? std::string(by_name)
+                           : has_note       ? each.notes[0].message
+                                            : each.hint};
         }
     }
     return std::nullopt;

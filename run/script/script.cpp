@@ -172,6 +172,10 @@ std::string output_stem(const Script& script) {
     return stem.empty() || stem == "." || stem == ".." || stem.starts_with("<") ? "cascade" : stem;
 }
 
+std::string shown_name(const Script& script) {
+    return script.name.starts_with("<") ? output_stem(script) + ".cascade" : script.name;
+}
+
 Span option_span(Sources& sources, const std::string& option, const std::string& value) {
     const SourceId id = sources.add(fmt::format("<{}>", option), value);
     return {id, 0, static_cast<std::uint32_t>(value.size())};

@@ -116,6 +116,10 @@ std::string example_of_stage(const Program& program);
 /// "cascade" if there is no file.
 std::string output_stem(const Script& script);
 
+/// The name of the script for pages, which name files after it. A text without a file has the name
+/// of its outputs, such as "cascade.cascade" in place of "<standard input>".
+std::string shown_name(const Script& script);
+
 /// A span for messages about an option. The option's value becomes a source text with the name
 /// `<--option>`.
 Span option_span(Sources& sources, const std::string& option, const std::string& value);

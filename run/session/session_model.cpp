@@ -121,7 +121,7 @@ Accepted<SavedModel> session_model(LiveRun& run, PictureRequest request, ModelFo
     if (folder.empty()) return refuse("there is no folder for files on this machine");
     const fs::path place = folder / "saved";
     const EmptyFolder made(place);
-    const auto name = fs::path(run.script().name).stem().string();
+    const auto name = fs::path(shown_name(run.script())).stem().string();
     auto saved = enough_memory_for([&]() -> Result<SavedModel> {
         const auto written = ModelSaver(run, *painter, form).write(place / (name + ".glb"));
         if (!written) return tl::unexpected(written.error());

@@ -4,6 +4,7 @@
 #include "core/spread.h"
 #include "lang/program/nodes_of_rates.h"
 #include "run/simulation/diagnosis.h"
+#include "run/simulation/exact_map.h"
 #include "run/simulation/lost_changes.h"
 #include "run/simulation/stage_tools.h"
 #include "run/stage/step_advice.h"
@@ -46,7 +47,10 @@ public:
     std::string species(std::size_t number) const { return species_name(view.system(), number); }
     /// Whether values jump from step to step. Measured once, although several doubts need it.
     const std::optional<Flicker>& flicker() const {
-        if (!flicker_) flicker_ = allows_trial_steps(ended) ? find_flicker(ended) : std::nullopt;
+        if (!flicker_) {
+            const bool may_flicker = allows_trial_steps(ended) && !is_exact_map(view);
+            flicker_ = may_flicker ? find_flicker(ended) : std::nullopt;
+        }
         return *flicker_;
     }
 
@@ -55,7 +59,9 @@ private:
 };
 
 bool is_ended(const Doubted&) { return true; }
-bool allows_trial(const Doubted& stage) { return allows_trial_steps(stage.ended); }
+bool allows_trial(const Doubted& stage) {
+    return allows_trial_steps(stage.ended) && !is_exact_map(stage.view);
+}
 
 // Constraints that were not solved.
 
@@ -160,6 +166,7 @@ std::string describe_flicker(const Doubted& stage, const SureFlicker& sure) {
 /// The number of the first species that alternates from cell to cell.
 std::optional<std::size_t> find_alternating(const Doubted& stage) {
     const StageView& view = stage.view;
+    if (is_exact_map(view)) return std::nullopt;
     const std::vector<Field>& species = view.state().species();
     const Environment& here = view.environment();
     const Links* links = here.model ? &here.model->cells->spread().links : nullptr;
@@ -214,18 +221,6 @@ std::string describe_chequerboard(const Doubted& stage, std::size_t species) {
 /// The number of shorter steps that replace one step in a check. Two would not suffice: values that
 /// alternate with each step often alternate with steps of half the length, too.
 constexpr std::int64_t shorter_steps = 3;
-
-/// Whether the rates depend on the number or length of steps, or on random numbers. If so, shorter
-/// steps would compute a different stage.
-bool knows_its_steps(const Program& program, std::uint32_t stage) {
-    const System& system = program.system_of(stage);
-    const auto knows = [&](const Node& node) {
-        return is_draw(node) || node.is(Builtin::step) || node.is(system.speed_item());
-    };
-    return holds_in_rates(system, knows) || holds_in_sides(program.stages[stage], knows) ||
-           std::any_of(system.invariants.begin(), system.invariants.end(),
-                       [&](const Invariant& each) { return holds_in(each.bound, knows); });
-}
 
 bool could_take_shorter_steps(const Doubted& stage) {
     const StageView& view = stage.view;

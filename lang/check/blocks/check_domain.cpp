@@ -201,12 +201,28 @@ void report_no_setting(Workspace& work, const ast::Word& name) {
                            std::move(hint));
 }
 
+/// A hint with the lengths of `extent: 0 .. 10, 0 .. 10`.
+std::string hint_of_ranges(const ast::Script& script, const ast::Statement& statement) {
+    std::string lengths;
+    for (std::size_t k = 0; k + 1 < statement.values.size(); k += 2) {
+        const auto number = [&](std::size_t at) {
+            const ast::Expr& value = script.expressions[statement.values[at].root];
+            const auto* const literal = std::get_if<ast::Number>(&value.node);
+            return literal != nullptr ? literal->value : NAN;
+        };
+        const double length = number(k + 1) - number(k);
+        if (length > 0) lengths += fmt::format("{}{:g}", lengths.empty() ? "" : ", ", length);
+    }
+    return fmt::format("a side has one length: write 'extent: {}'",
+                       lengths.empty() ? "10, 10" : lengths);
+}
+
 void check_domain_statement(Workspace& work, const ast::Script& script,
                             const ast::Statement& statement) {
     if (statement.kind != ast::StatementKind::value) {
         const std::string_view name = statement.name.text;
         work.diagnostics.error(statement.span, "a domain holds settings only (name: …)",
-                               name == "extent" ? "a side has one length: write 'extent: 10, 10'"
+                               name == "extent" ? hint_of_ranges(script, statement)
                                : is_setting_of(SettingBlock::domain, name)
                                    ? fmt::format("write '{}: …'", name)
                                : name == "x" || name == "y" || name == "z"
@@ -262,7 +278,7 @@ void check_domain(Workspace& work, const ast::Script& script) {
             check_domain_statement(work, script, *option);
     }
     for (const ast::Statement& statement : block.statements) {
-        if (statement.name.text != "extent" || statement.values.empty()) continue;
+        if (statement.name.text != "extent" || value_statement(statement) == nullptr) continue;
         if (!seen.contains("spacing")) {
             check_extent(work, script, statement);
             break;

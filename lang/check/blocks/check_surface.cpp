@@ -22,12 +22,15 @@ void check_position(Workspace& work, const ast::Script& script, const ast::State
         return;
     }
     if (statement.values.size() != 3) {
-        const bool is_file = statement.values.size() == 1 &&
-                             std::holds_alternative<ast::Text>(value_of(script, statement).node);
+        const auto* const text = std::get_if<ast::Text>(&value_of(script, statement).node);
+        const bool is_file = statement.values.size() == 1 && text != nullptr;
+        const std::vector<std::string> shapes = words_taken_by(Setting::surface);
+        const bool is_name = is_file && std::ranges::find(shapes, text->value) != shapes.end();
         work.diagnostics.error(statement.span,
                                "a surface is three expressions: x, y and z in space",
-                               is_file ? "a model in a file is mesh: \"model.obj\""
-                                       : "surface: sx, sy, 0.1 * sin(2 * pi * sx)");
+                               is_name   ? fmt::format("write surface: {}", text->value)
+                               : is_file ? "a model in a file is mesh: \"model.obj\""
+                                         : "surface: sx, sy, 0.1 * sin(2 * pi * sx)");
         return;
     }
     Scope scope;

@@ -44,7 +44,7 @@ void ExpressionChecker::visit(const ast::Call& call) {
             std::span(script_.arguments).subspan(call.first_argument, call.argument_count));
     }
     const auto function = function_named(call.function.text);
-    if (!function) return unknown_function(call.function);
+    if (!function) return unknown_function(call);
     if (!info(*function).arity.takes(call.argument_count)) {
         return wrong_count(*function, call.argument_count);
     }
@@ -127,10 +127,33 @@ void ExpressionChecker::wrong_count(Function function, std::size_t count) {
           std::move(hint));
 }
 
-void ExpressionChecker::unknown_function(const ast::Word& name) {
+/// A hint about u(…), where u is a number. The arguments may be those of another cell or time.
+std::string ExpressionChecker::hint_of_number(const ast::Call& call) const {
+    const auto argument = [&](std::uint32_t k) -> const ast::Expr& {
+        return script_.expressions[script_.arguments[call.first_argument + k]];
+    };
+    const auto reads_time = [&](const ast::Expr& expr) {
+        const auto* sum = std::get_if<ast::Binary>(&expr.node);
+        const auto* name =
+            std::get_if<ast::Name>(&(sum != nullptr ? script_.expressions[sum->left] : expr).node);
+        return name != nullptr && name->name == "t";
+    };
+    if (call.argument_count == 1 && reads_time(argument(0))) {
+        return fmt::format("values of earlier times cannot be read; write '{}' for the value now",
+                           call.function.text);
+    }
+    if (call.argument_count > 1) {
+        return fmt::format("shifted({}, 1, 0) is the value in the next cell along x",
+                           call.function.text);
+    }
+    return fmt::format("write '{0} * (…)' to multiply", call.function.text);
+}
+
+void ExpressionChecker::unknown_function(const ast::Call& call) {
+    const ast::Word& name = call.function;
     if (scope_.system != unknown_system && find(work_.names[scope_.system], name.text) != nullptr) {
         error(name.span, fmt::format("'{}' is a number, not a function", name.text),
-              fmt::format("write '{0} * (…)' to multiply", name.text));
+              hint_of_number(call));
         parts_.back().has_error = true;
         return;
     }

@@ -7,6 +7,8 @@
 #include "lang/check/names/note_uses.h"
 #include "lang/program/dependencies.h"
 #include "lang/program/order.h"
+#include "lang/vocabulary/signs_elsewhere.h"
+#include "lang/vocabulary/words_elsewhere.h"
 
 #include <fmt/format.h>
 
@@ -113,10 +115,11 @@ void ExpressionChecker::visit(const ast::Text& text) {
     Node& node = formula_.nodes.back();
     node.type = ValueType::text;
     if (!wants_text_[NodeId(parts_.size() - 1)]) {
-        const bool is_picture = text.value.ends_with(".png");
-        return error(node.span, "a text can only name a palette or a file",
-                     is_picture ? fmt::format("write image(\"{}\")", text.value)
-                                : "palette(v, low, high, \"grey\"), field(\"a.npy\")");
+        std::string hint(advice_about(text.value, WordContext::value));
+        if (hint.empty()) hint = advice_about_hex_colour(text.value);
+        if (text.value.ends_with(".png")) hint = fmt::format("write image(\"{}\")", text.value);
+        if (hint.empty()) hint = "palette(v, low, high, \"grey\"), field(\"a.npy\")";
+        return error(node.span, "a text can only name a palette or a file", std::move(hint));
     }
     node.kind = work_.program.literals->id_of(text.value);
 }

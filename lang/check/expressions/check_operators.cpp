@@ -89,8 +89,12 @@ void ExpressionChecker::refuse_product(Function function, Span span, ValueType l
         }
         case Function::divide: return error(span, fmt::format("{} cannot be divided by {}", a, b));
         default:
-            return error(span, fmt::format("{} and {} cannot be {}", a, b,
-                                           function == Function::add ? "added" : "subtracted"));
+            return error(span,
+                         fmt::format("{} and {} cannot be {}", a, b,
+                                     function == Function::add ? "added" : "subtracted"),
+                         left == ValueType::tensor || right == ValueType::tensor
+                             ? ""
+                             : "div(v), dot(v, w), length(v) and v.x are numbers");
     }
 }
 

@@ -88,7 +88,8 @@ private:
     bool is_place_in_file(NodeId root);
     bool take_lag(std::string_view name);
     bool is_kernel(NodeId root, bool reads_lags);
-    void unknown_function(const ast::Word& name);
+    std::string hint_of_number(const ast::Call& call) const;
+    void unknown_function(const ast::Call& call);
     void wrong_count(Function function, std::size_t count);
     bool belongs_here(Function function, Span span);
     void check_types(const Node& node);

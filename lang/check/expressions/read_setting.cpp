@@ -6,6 +6,7 @@
 #include "lang/check/names/check_names.h"
 #include "lang/check/expressions/setting_words.h"
 #include "lang/vocabulary/settings.h"
+#include "lang/vocabulary/words_elsewhere.h"
 
 #include <fmt/format.h>
 
@@ -96,7 +97,14 @@ std::optional<std::size_t> read_word(Workspace& work, const ast::Script& script,
     const std::vector<std::string> words = words_taken_by(row);
     const auto found = std::find(words.begin(), words.end(), word);
     if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
-    work.diagnostics.error(value.span, std::string(row.refusal), did_you_mean(work, word, words));
+    std::string hint;
+    if (setting_named(row.word) == Setting::precision) {
+        const auto* const number = std::get_if<ast::Number>(&value.node);
+        hint = advice_about(number != nullptr ? fmt::format("{}", number->value) : word,
+                            WordContext::precision);
+    }
+    if (hint.empty()) hint = did_you_mean(work, word, words);
+    work.diagnostics.error(value.span, std::string(row.refusal), std::move(hint));
     return std::nullopt;
 }
 

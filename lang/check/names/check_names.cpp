@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 
 namespace cascade::checking {
@@ -248,6 +249,21 @@ std::optional<Node> resolve_bracketed(Workspace& work, const Scope& scope, const
     return node;
 }
 
+namespace {
+
+/// Whether `system.F`, `self.F` or `math.pi` is written for F or pi, as in other languages.
+bool is_own_name(const Workspace& work, const Scope& scope, const ast::Qualified& qualified) {
+    static constexpr std::array<std::string_view, 5> prefixes = {"self", "this", "np", "numpy",
+                                                                 "math"};
+    const std::string_view prefix = qualified.stage.text, name = qualified.name.text;
+    const bool is_prefix = std::ranges::find(prefixes, prefix) != prefixes.end() ||
+                           prefix == work.program.systems[scope.system].name;
+    return is_prefix && !work.stages.contains(std::string(prefix)) &&
+           (name == "pi" || find(work.names[scope.system], name) != nullptr);
+}
+
+}  // namespace
+
 std::optional<Node> resolve_qualified(Workspace& work, const Scope& scope,
                                       const ast::Qualified& qualified, Span span) {
     if (is_constant(scope)) {
@@ -259,6 +275,11 @@ std::optional<Node> resolve_qualified(Workspace& work, const Scope& scope,
         if (own != nullptr && own->type == ValueType::vector) {
             report(work, qualified.name.span, "a vector has the components x, y and z",
                    fmt::format("write {}.x", qualified.stage.text));
+            return std::nullopt;
+        }
+        if (is_own_name(work, scope, qualified)) {
+            report(work, span, "a system reads its own names without a prefix",
+                   fmt::format("write '{}'", qualified.name.text));
             return std::nullopt;
         }
         report(work, span, "a system cannot read a stage",

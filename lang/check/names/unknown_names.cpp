@@ -27,13 +27,39 @@ std::vector<std::string> readable_names(const System& system, const Scope& scope
     return names;
 }
 
+/// The hint "write 'u * v'" for uv, if both names are known. May be empty.
+std::string hint_of_joined(std::string_view name, const std::vector<std::string>& known) {
+    for (std::size_t size = 1; size < name.size(); ++size) {
+        const std::string_view left = name.substr(0, size), right = name.substr(size);
+        const bool is_product = std::ranges::find(known, left) != known.end() &&
+                                std::ranges::find(known, right) != known.end();
+        if (is_product) return fmt::format("write '{} * {}'", left, right);
+    }
+    return "";
+}
+
 /// The hint "write 'dxx(u)'" for u_xx and for d2u in d2u/dx2, if the name u is known.
 std::string hint_of_subscript(std::string_view name, const std::vector<std::string>& known) {
     if (name.starts_with("d2") && std::ranges::find(known, name.substr(2)) != known.end()) {
         return fmt::format("d2{0}/dx2 is dxx({0})", name.substr(2));
     }
+    const auto is_known = [&](std::string_view word) {
+        return std::ranges::find(known, word) != known.end();
+    };
+    for (const std::string_view axis : {"dx", "dy", "dz"}) {  // dudx, and du in du/dx.
+        const bool is_whole = name.ends_with(axis) && name.size() > axis.size() + 1;
+        const std::string_view of = name.substr(1, name.size() - 1 - (is_whole ? axis.size() : 0));
+        const bool is_derivative = name.size() > 1 && name[0] == 'd' && is_known(of);
+        if (is_derivative && is_whole) return fmt::format("write '{}({})'", axis, of);
+        if (is_derivative) return fmt::format("d{0}/dx is dx({0})", of);
+    }
     const std::size_t bar = name.rfind('_');
-    if (bar == name.npos) return "";
+    if (bar == name.npos) return hint_of_joined(name, known);
+    const std::string_view operation = name.substr(0, bar), operand = name.substr(bar + 1);
+    const auto function = function_named(operation);
+    if (function && info(*function).arity.takes(1) && is_known(operand)) {
+        return fmt::format("write '{}({})'", operation, operand);
+    }
     const std::string_view of = name.substr(0, bar), axes = name.substr(bar + 1);
     const bool is_derivative = !axes.empty() && axes.size() <= 2 &&
                                axes.find_first_not_of("xyz") == axes.npos &&

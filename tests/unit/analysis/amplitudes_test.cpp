@@ -129,5 +129,19 @@ TEST(Amplitudes, SpotsAreOfASpeciesWhereverItIsDeclared) {
     }
 }
 
+TEST(Amplitudes, SpotsAreOfASpeciesThatTakesPart) {
+    // q fades by itself, and is declared first.
+    const Analysed analysed = analyse(
+        "system s {\nq: 1; a: 0.1 in 0 .. 0.4; b: 0.9\nu: 1 + normal(0, 0.01); v: 0.9\nq' = -q\n"
+        "u' = a - u + u^2*v + lap(u)\nv' = b - u^2*v + 40*lap(v) }\n"
+        "domain { grid: 96, 96; spacing: 0.625 }\nstage k: s { }\n");
+    const Program& program = *analysed.script->program;
+    const auto scan = analysis::scan_parameter(program, 0, {item_named(program, "a"), 0, 0.4},
+                                               analysed.first().state.species);
+    ASSERT_TRUE(scan);
+    const std::string words = analysis::describe(program, 0, *scan);
+    EXPECT_NE(words.find("spots high in u"), std::string::npos) << words;
+}
+
 }  // namespace
 }  // namespace cascade::test

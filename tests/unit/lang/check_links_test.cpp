@@ -20,7 +20,9 @@ std::string fault_of(const std::string& rate, const std::string& before = "") {
 }
 
 TEST(CheckLinks, VectorsAreNoNumbers) {
-    EXPECT_EQ(fault_of("v"), "a number and a vector cannot be added");
+    EXPECT_EQ(fault_of("v"),
+              "a number and a vector cannot be added | "
+              "div(v), dot(v, w), length(v) and v.x are numbers");
     EXPECT_EQ(fault_of("tanh(v)"),
               "a vector is not a number | dot(a, b) and length(v) turn it into a number");
     EXPECT_EQ(fault_of("dot(k, v)"),

@@ -106,6 +106,7 @@ std::string used(WordContext context, std::string_view word) {
     switch (context) {
         case WordContext::boundary: return fmt::format("boundary: {}", word);
         case WordContext::side: return fmt::format("sides: {}", word);
+        case WordContext::precision: return fmt::format("precision: {}", word);
         case WordContext::function: return fmt::format("{}(u)", word);
         case WordContext::value: return std::string(word);
         case WordContext::statement: return fmt::format("{} q", word);
@@ -132,6 +133,7 @@ std::string advised(WordContext context, const std::string& advice) {
     const bool is_setting = text.find(": ") != std::string::npos;
     if (context == WordContext::boundary && !is_setting) return framed(frame, "boundary: " + text);
     if (context == WordContext::side && !is_setting) return framed(frame, "sides: " + text);
+    if (context == WordContext::precision) return framed(frame, "precision: " + text);
     // The advice on functions of vectors calls the vector v, which is a number in the frame.
     if (context == WordContext::function && text.ends_with("(v)")) {
         const std::string of_vector = text.substr(0, text.size() - 2) + "vector(u, v))";

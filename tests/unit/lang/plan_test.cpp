@@ -224,7 +224,9 @@ TEST(PlanFaults, AreExplained) {
                 ElementsAre("3:19: advect of a number is 0 everywhere" + takes));
     EXPECT_THAT(faults("grad(u)"),
                 ElementsAre("3:6: a vector is not a number | " + numbers_of_vectors));
-    EXPECT_THAT(faults("u + grad(u)"), ElementsAre("3:6: a number and a vector cannot be added"));
+    EXPECT_THAT(faults("u + grad(u)"),
+                ElementsAre("3:6: a number and a vector cannot be added | "
+                            "div(v), dot(v, w), length(v) and v.x are numbers"));
     EXPECT_THAT(faults("div(u)"), ElementsAre("3:10: div takes a vector | "
                                               "such as grad(e), d * grad(e) or vector(ex, ey)"));
     EXPECT_THAT(faults("div(grad(u) * grad(u))"),

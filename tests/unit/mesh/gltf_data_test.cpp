@@ -186,6 +186,10 @@ TEST(GltfRequirements, OtherVersionsAreNamed) {
                 HasSubstr("a GLB file of version 1"));
     file.json["asset"]["version"] = "2.1";
     EXPECT_EQ(file.fault(), "read");
+    file.json["asset"]["minVersion"] = "2.0";
+    EXPECT_EQ(file.fault(), "read");
+    file.json["asset"]["minVersion"] = "2.1";
+    EXPECT_EQ(file.fault(), "the glTF file requires version 2.1, and version 2.0 is read");
 }
 
 TEST(GltfRequirements, UnknownExtensionsAreNamedIfTheyAreRequired) {

@@ -159,7 +159,7 @@ TEST(HostileModels, CountsThatLie) {
                 HasSubstr("not a glTF file that can be read"));
     std::string glb = bytes_called("GLB");
     glb.replace(8, 4, bytes_of(std::uint32_t{4000000000}));
-    EXPECT_THAT(outcome_of_bytes(glb, "glb"), HasSubstr("not a glTF file that can be read"));
+    EXPECT_THAT(outcome_of_bytes(glb, "glb"), HasSubstr("it has at least 4000000000"));
 }
 
 TEST(HostileModels, NumbersThatAreNoPlaces) {
@@ -296,8 +296,7 @@ TEST(HostileModels, WhatIsNoFile) {
     EXPECT_THAT(outcome_of_file(folder / "zero.stl"),
                 HasSubstr("is a pipe or a device, not a file"));
     std::ofstream(folder / "empty.stl").close();
-    EXPECT_THAT(outcome_of_file(folder / "empty.stl"),
-                HasSubstr("not an STL file that can be read"));
+    EXPECT_THAT(outcome_of_file(folder / "empty.stl"), HasSubstr("the file is empty"));
     // A buffer in a file of its own that is a pipe, a folder, missing, or the right one.
     const std::string text = test::gltf_text();
     const std::size_t begin = text.find("data:"), end = text.find('"', begin);

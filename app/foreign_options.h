@@ -1,0 +1,16 @@
+// Options of other programs, and what to write in their place.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace cascade {
+
+/// Advice about `option`, such as `--dt` or `--dt=0.1`, which the command does not have: what to
+/// write in its place, with the value that the user has given or an example. `is_option` tells
+/// whether the command has an option of this name. Empty if there is no advice.
+std::string advice_about_option(std::string_view option, const std::string& value,
+                                const std::function<bool(std::string_view)>& is_option);
+
+}  // namespace cascade

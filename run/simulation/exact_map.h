@@ -1,0 +1,20 @@
+// Recognises stages whose steps are meant as they are: cellular automata, and rates that read the
+// length of a step.
+#pragma once
+
+#include "run/simulation/stage_view.h"
+
+#include <cstdint>
+
+namespace cascade {
+
+/// Whether the rates depend on the number or length of steps, or on random numbers. If so, shorter
+/// steps would compute a different stage.
+bool knows_its_steps(const Program& program, std::uint32_t stage);
+
+/// Whether a step of this stage computes exactly the next values, as in a cellular automaton with
+/// the rate f - u and steps of 1, or (f - u) / speed. Then its steps are never too long. All values
+/// of a cellular automaton are whole numbers, which no other stage reaches without bounds.
+bool is_exact_map(const StageView& view);
+
+}  // namespace cascade
