@@ -4,7 +4,9 @@
 #include "continuation/decompositions.h"
 #include "continuation/steady_problem.h"
 
+#include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace cascade::continuation {

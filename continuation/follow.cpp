@@ -14,36 +14,37 @@ namespace {
 constexpr double shortest_step = 1e-7;
 constexpr double least_cosine = 0.96;  ///< Between the tangents at both ends of a step.
 constexpr int few_rounds = 4, many_rounds = 7;
-constexpr int kept_eigenvalues = 10;
+constexpr int kept_eigenvalues = 16;
 
 }  // namespace
 
 void Follower::find_stability(Point& point, const Corrector::Solved& solved) const {
     if (!settings_.finds_stability) return;
     const std::vector<NeutralMode> neutral = corrector_.neutral_modes(solved);
-    // The frequencies of the reaction in single cells, where oscillations may begin.
+    // The eigenvalues of the reaction in single cells: the fastest growth and the frequency with
+    // which oscillations may begin.
     const Index species = corrector_.problem().species_count();
-    std::vector<double> turning;
-    if (species > 1) {
-        const Index cells = corrector_.problem().cell_count();
-        std::vector<Matrix> local(static_cast<std::size_t>(cells), Matrix::Zero(species, species));
-        const SparseColumns& jacobian = solved.at.jacobian;
-        for (Index column = 0; column < jacobian.cols(); ++column) {
-            for (SparseColumns::InnerIterator entry(jacobian, column); entry; ++entry) {
-                local[static_cast<std::size_t>(entry.row() / species)](entry.row() % species,
-                                                                       column % species) +=
-                    entry.value();
-            }
+    const Index cells = corrector_.problem().cell_count();
+    std::vector<Matrix> local(static_cast<std::size_t>(cells), Matrix::Zero(species, species));
+    const SparseColumns& jacobian = solved.at.jacobian;
+    for (Index column = 0; column < jacobian.cols(); ++column) {
+        for (SparseColumns::InnerIterator entry(jacobian, column); entry; ++entry) {
+            local[static_cast<std::size_t>(entry.row() / species)](entry.row() % species,
+                                                                   column % species) +=
+                entry.value();
         }
-        Complex fastest = -1e300;
-        for (Index k = 0; k < cells; k += std::max<Index>(1, cells / 64)) {
-            for (const Complex value : eigenvalues_of(local[static_cast<std::size_t>(k)])) {
-                if (value.imag() > 0 && value.real() > fastest.real()) fastest = value;
-            }
-        }
-        if (fastest.imag() > 0) turning.push_back(fastest.imag());
     }
-    const auto modes = leading_modes(solved.at.jacobian, neutral, turning, kept_eigenvalues, false);
+    Complex turning = -1e300;
+    double growth = 0;
+    for (Index k = 0; k < cells; k += std::max<Index>(1, cells / 64)) {
+        for (const Complex value : eigenvalues_of(local[static_cast<std::size_t>(k)])) {
+            growth = std::max(growth, value.real());
+            if (value.imag() > 0 && value.real() > turning.real()) turning = value;
+        }
+    }
+    std::vector<Complex> places{growth};
+    if (turning.imag() > 0) places.emplace_back(0, turning.imag());
+    const auto modes = leading_modes(solved.at.jacobian, neutral, places, kept_eigenvalues, false);
     if (modes.empty()) return;
     point.growing = 0;
     for (const Mode& mode : modes) {

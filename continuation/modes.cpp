@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace cascade::continuation {
@@ -72,19 +73,37 @@ public:
     void perform_op(const double* in, double* out) const {
         const Index size = matrix_.rows();
         const Index all = size + static_cast<Index>(neutral_.size());
-        VectorOf right = VectorOf::Zero(all);
-        right.head(size) = Eigen::Map<const Vector>(in, size).template cast<Number>();
         if (!is_good_) {
             Eigen::Map<Vector>(out, size).setZero();
             return;
         }
+        VectorOf right = VectorOf::Zero(all);
+        right.head(size) = aside(Eigen::Map<const Vector>(in, size)).template cast<Number>();
         const VectorOf solved = lu_.solve(right);
-        Eigen::Map<Vector>(out, size) = solved.head(size).real();
+        Eigen::Map<Vector>(out, size) = aside(solved.head(size).real());
     }
+
+    /// From now on leaves out the space of these eigenvectors, so that others are found.
+    void lock(const ComplexVector& vector) {
+        for (const Vector& part : {Vector(vector.real()), Vector(vector.imag())}) {
+            const double length = part.norm();
+            const Vector rest = aside(aside(part));
+            if (length < 1e-6 || rest.norm() < 1e-6 * length) continue;
+            locked_.conservativeResize(matrix_.rows(), locked_.cols() + 1);
+            locked_.col(locked_.cols() - 1) = rest.normalized();
+        }
+    }
+    Index locked_count() const { return locked_.cols(); }
 
 private:
     using SparseOf = Eigen::SparseMatrix<Number>;
     using VectorOf = Eigen::Matrix<Number, Eigen::Dynamic, 1>;
+
+    /// The part of a vector that is orthogonal to the locked space.
+    Vector aside(const Vector& vector) const {
+        if (locked_.cols() == 0) return vector;
+        return vector - locked_ * (locked_.transpose() * vector);
+    }
 
     static Number number_of(double real, [[maybe_unused]] double imaginary) {
         if constexpr (std::is_same_v<Number, double>) return real;
@@ -94,6 +113,7 @@ private:
     const SparseColumns& matrix_;
     std::span<const NeutralMode> neutral_;
     double away_;
+    Matrix locked_;  ///< Orthonormal columns.
     Eigen::SparseLU<SparseOf> lu_;
     bool is_good_ = false;
 };
@@ -138,39 +158,71 @@ std::vector<Mode> all_of_symmetric(const SparseColumns& matrix,
     return modes;
 }
 
-/// Takes the modes that an iteration has found. Empty if it has not converged.
-template <typename Solver>
-std::optional<std::vector<Mode>> found_by(Solver& solver, bool with_vectors) {
-    solver.init();
-    solver.compute(Spectra::SortRule::LargestMagn, 400, 1e-12);
-    if (solver.info() != Spectra::CompInfo::Successful) return std::nullopt;
-    std::vector<Mode> modes;
-    const auto values = solver.eigenvalues();
-    Eigen::MatrixXcd vectors;
-    if (with_vectors) vectors = solver.eigenvectors();
-    for (Index k = 0; k < values.size(); ++k) {
-        modes.push_back({values[k], {}});
-        if (with_vectors) modes.back().vector = vectors.col(k);
+/// A vector whose elements look random, another one for each pass.
+Vector start_of(Index size, int pass) {
+    Vector start(size);
+    for (Index k = 0; k < size; ++k) {
+        start[k] = std::sin(0.37 + static_cast<double>(k + 1) * (1.618 + 0.7391 * pass));
     }
-    return modes;
+    return start;
+}
+
+/// The modes nearest to a shift. An iteration from one vector finds only one eigenvector of an
+/// eigenvalue that occurs several times. So it is repeated without the vectors that were found,
+/// until none is nearer than the farthest of the first pass. Empty if it does not converge.
+template <typename Solver, typename Inverse, typename... Shift>
+std::optional<std::vector<Mode>> found_near(Inverse& inverse, Complex place, Index count,
+                                            Shift... shift) {
+    constexpr int most_passes = 24;
+    std::vector<Mode> all;
+    double radius = std::numeric_limits<double>::infinity();
+    const auto distance = [&](Complex value) {
+        return std::min(std::abs(value - place), std::abs(value - std::conj(place)));
+    };
+    for (int pass = 0; pass < most_passes; ++pass) {
+        const Index free = inverse.rows() - inverse.locked_count();
+        const Index wanted = pass == 0 ? count : std::min<Index>(count, 4);
+        const Index basis = std::max<Index>(2 * wanted + 12, 30);
+        if (free < basis) break;
+        Solver solver(inverse, wanted, basis, shift...);
+        if (!inverse.is_good()) return std::nullopt;
+        const Vector start = start_of(inverse.rows(), pass);
+        solver.init(start.data());
+        solver.compute(Spectra::SortRule::LargestMagn, 400, 1e-12);
+        if (solver.info() != Spectra::CompInfo::Successful) return std::nullopt;
+        const auto values = solver.eigenvalues();
+        const auto vectors = solver.eigenvectors();
+        const std::size_t before = all.size();
+        for (Index k = 0; k < values.size(); ++k) {
+            if (pass > 0 && distance(values[k]) > radius * (1 - 1e-6)) continue;
+            all.push_back({values[k], vectors.col(k)});
+            inverse.lock(all.back().vector);
+            // The last of the modes may be half of a pair.
+            const bool is_half = values[k].imag() != 0 && k + 1 == values.size() &&
+                                 (k == 0 || values[k - 1] != std::conj(values[k]));
+            if (is_half) all.push_back({std::conj(values[k]), vectors.col(k).conjugate()});
+        }
+        if (all.size() == before) return all;
+        if (pass > 0) continue;
+        radius = 0;
+        for (const Mode& mode : all) radius = std::max(radius, distance(mode.value));
+    }
+    return all;
 }
 
 std::optional<std::vector<Mode>> modes_near(const SparseColumns& matrix,
                                             std::span<const NeutralMode> neutral, double away,
-                                            Complex place, Index count, bool with_vectors) {
-    const Index basis = std::min(matrix.rows(), std::max<Index>(2 * count + 12, 36));
+                                            Complex place, Index count) {
     if (place.imag() == 0) {
-        ShiftedInverse<double> inverse(matrix, neutral, away);
-        Spectra::GenEigsRealShiftSolver<ShiftedInverse<double>> solver(inverse, count, basis,
-                                                                       place.real());
-        if (!inverse.is_good()) return std::nullopt;
-        return found_by(solver, with_vectors);
+        using Inverse = ShiftedInverse<double>;
+        Inverse inverse(matrix, neutral, away);
+        return found_near<Spectra::GenEigsRealShiftSolver<Inverse>>(inverse, place, count,
+                                                                    place.real());
     }
-    ShiftedInverse<Complex> inverse(matrix, neutral, away);
-    Spectra::GenEigsComplexShiftSolver<ShiftedInverse<Complex>> solver(inverse, count, basis,
-                                                                       place.real(), place.imag());
-    if (!inverse.is_good()) return std::nullopt;
-    return found_by(solver, with_vectors);
+    using Inverse = ShiftedInverse<Complex>;
+    Inverse inverse(matrix, neutral, away);
+    return found_near<Spectra::GenEigsComplexShiftSolver<Inverse>>(inverse, place, count,
+                                                                   place.real(), place.imag());
 }
 
 /// Adds modes that are not there yet.
@@ -193,7 +245,7 @@ std::vector<Complex> eigenvalues_of(const Matrix& matrix) {
 }
 
 std::vector<Mode> leading_modes(const SparseColumns& matrix, std::span<const NeutralMode> neutral,
-                                std::span<const double> turning, int count, bool with_vectors) {
+                                std::span<const Complex> places, int count, bool with_vectors) {
     const double away = size_of(matrix);
     const Index size = matrix.rows();
     if (size <= most_dense_symmetric && !with_vectors && is_symmetric(matrix, away)) {
@@ -205,7 +257,7 @@ std::vector<Mode> leading_modes(const SparseColumns& matrix, std::span<const Neu
     double radius = 0;
     const double shift = 1e-4 * away;
     for (Index wanted = count; wanted < size / 2; wanted *= 2) {
-        auto near = modes_near(matrix, neutral, away, shift, wanted, with_vectors);
+        auto near = modes_near(matrix, neutral, away, shift, wanted);
         if (!near) break;
         modes = *std::move(near);
         radius = 0;
@@ -214,15 +266,14 @@ std::vector<Mode> leading_modes(const SparseColumns& matrix, std::span<const Neu
             radius = std::max(radius, std::abs(mode.value - shift));
             growing += mode.value.real() > 0 ? 1 : 0;
         }
-        is_found = growing + 2 < wanted;
+        is_found = growing + 2 < static_cast<Index>(modes.size());
         if (is_found) break;
     }
-    for (const double frequency : turning) {
-        if (!is_found || frequency < radius) continue;
-        auto near = modes_near(matrix, neutral, away, {shift, frequency}, std::max(4, count / 2),
-                               with_vectors);
+    for (const Complex place : places) {
+        if (!is_found || std::abs(place) < radius) continue;
+        auto near = modes_near(matrix, neutral, away, shift + place, std::max(4, count / 2));
         is_found = near.has_value();
-        if (near) join(modes, *std::move(near), 1e-7 * (frequency + radius));
+        if (near) join(modes, *std::move(near), 1e-7 * (std::abs(place) + radius));
     }
     if (!is_found) {
         if (size > most_dense_rescue) return {};

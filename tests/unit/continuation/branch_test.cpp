@@ -145,6 +145,30 @@ TEST(Branches, OfPatternsDoNotCountTheirTranslations) {
     EXPECT_NEAR(last.place.state.maxCoeff(), std::sqrt(4 * above / 3), 0.01);
 }
 
+TEST(Branches, CountEigenvaluesThatOccurSeveralTimes) {
+    // On a square ring the waves along x and y, and sines and cosines, grow together.
+    SteadyScript script(
+        "system s { u: 0; p: -0.05; u' = p * u - u^3 + lap(u) }\n"
+        "domain { grid: 20, 20; precision: double }\nstage a: s { }");
+    const auto branches = followed(script, -0.1, 0.21);
+    ASSERT_EQ(branches.size(), 1U);
+    const auto meetings = special(branches[0], PointKind::branch);
+    const double wave = -laplacian(2 * std::numbers::pi / 20, 1);
+    const auto passing_at = [&](double parameter) {
+        int passing = 0;
+        for (const Point& point : meetings) {
+            const bool is_here = std::abs(point.place.parameter - parameter) < 1e-6;
+            passing += is_here ? point.crossing : 0;
+        }
+        return passing;
+    };
+    EXPECT_EQ(passing_at(0), 1);
+    EXPECT_EQ(passing_at(wave), 4);
+    EXPECT_EQ(passing_at(2 * wave), 4);
+    EXPECT_TRUE(special(branches[0], PointKind::hopf).empty());
+    EXPECT_EQ(branches[0].points.back().growing, 9);
+}
+
 TEST(Branches, KeepTotalsThatNoRateChanges) {
     // Cahn and Hilliard's equation on half a wave: the mean 0 loses its stability where p = −lap.
     SteadyScript script(
