@@ -1,6 +1,7 @@
 # CPack runs this file when the three parts of the packages are below its temporary folder. It adds
 # the files that Debian requires, and computes the fields Depends, Recommends and Suggests.
 
+cmake_policy(VERSION 3.25)  # CPack itself sets none.
 include(${CPACK_CASCADE_VALUES})
 set(names ${CPACK_DEBIAN_PROGRAM_PACKAGE_NAME} ${CPACK_DEBIAN_LIBRARY_PACKAGE_NAME} ${CPACK_DEBIAN_PYTHON_PACKAGE_NAME})
 set(program ${CPACK_TEMPORARY_DIRECTORY}/program/usr)
@@ -58,6 +59,9 @@ cascade-patterns (${package_version}) unstable; urgency=medium
   file(COPY_FILE ${project_folder}/CHANGELOG.md ${documents}/changelog)
   run(gzip -9nf ${documents}/changelog ${documents}/changelog.Debian)
 endforeach()
+# Debian names the folder of documents as the package.
+file(COPY ${program}/share/doc/cascade/ DESTINATION ${program}/share/doc/${CPACK_DEBIAN_PROGRAM_PACKAGE_NAME})
+file(REMOVE_RECURSE ${program}/share/doc/cascade)
 file(GLOB pages ${program}/share/man/man1/*.1)
 run(gzip -9nf ${pages})
 file(CREATE_LINK ../../cascade/examples ${program}/share/doc/${CPACK_DEBIAN_PROGRAM_PACKAGE_NAME}/examples SYMBOLIC)
@@ -130,7 +134,7 @@ needs(Depends ${libraries})
 list(APPEND Depends "${CPACK_DEBIAN_PROGRAM_PACKAGE_NAME} (= ${package_version})")
 write_fields(LIBRARY)
 
-if(python IN_LIST CPACK_COMPONENTS_ALL)
+if("python" IN_LIST CPACK_COMPONENTS_ALL)
   file(GLOB modules ${python}/lib/python3/dist-packages/cascade/_core*.so)
   needs(Depends ${modules})
   math(EXPR next_minor "${python_minor} + 1")

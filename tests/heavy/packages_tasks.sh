@@ -23,7 +23,7 @@ user() {
 }
 
 task=without_recommended
-user 'cascade examples leopard > leopard.cascade && cascade run leopard.cascade --steps 3 && [ -s leopard.png ]'
+user 'cascade examples leopard > leopard.cascade && cascade run leopard.cascade --steps 3000 && [ -s leopard.png ]'
 grep -q 'code generator could not be loaded' /opt/out || fail "it does not say that LLVM is missing: $(cat /opt/out)"
 install $(dpkg-query -W -f '${Recommends}' cascade-patterns | sed 's/([^)]*)//g; s/,//g')
 
