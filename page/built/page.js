@@ -553,7 +553,38 @@ stage worms: gray_scott {
   interval: 500
   show: v
 }
-`,picture:"UklGRsACAABXRUJQVlA4ILQCAADQFACdASpIAEgAP3GszV+0rKklqPJLGpAuCWkAE+Y4x21btmSeBk/4WzgIm37uLSyJcZVlIOefFz6EjuzlWF4a9E/w7Rj0iv9ZrQMg1hPBZ8R1mI40ip/CFfjkq2nTGYTQBOBBwVrEho9BXQc+p8hZRMDTJRKjdeQlpLFZ344dqx7mDKTWCT52Ky69gq3TfFi5tkkYL2eoA7EbcIK0B42o91C6t81o0luvenHiSk5AAP7o745qCO/BQnhkE5p8dNpVAu27up6fncCb0clJz6Ppj3vGk5vINp+lOlWchg5+AsGohZpv1Q/HRWwqeRx5cyanyFypn2vq9atRSLNKoAvat2L2+BXSOiYRwNejguQscswD8nY7dCZ55OriDuY1jc34LNp0+dOWmEwAEGXheMQw35oyMsIgMOt9QqYH0AZeCh892cbhlxnuJnsdn0Q/jhDl+dhIjqGMP0E2K9Uj/1MkP/WPpLOgNerOCjoYiPhtGZGOZJVAI7Vap4l4ZpVzmM6iF7KUABZ5YLV1IZKz9lq8UN7ExW+Z76a6RhGO5pyY+IsMb6vspDsXaSfwYkL/jMgOdZPYZY0KzDs6OEfkXVgG7xKmGMAprszhw4TQfgLo6Kuh1lztK8DOl96DKYYmm6IAfrbf6F549hJK8/YWZlH/HSmYraYlnog5XRXs1NO7ZsbIcdYJHsqYrNl2u8qh/OqB6GsL4WEX4fltN+7uBRbCqD+0sl5zLEmFk8KwaVf1vZuf15FHklncCs6sCO56YWjg4PzLiORM8RfrUIkuTe8rWV+qhIGH0szQv45t3hO2UCkQedJfNKEELIqy3OKtmw+2hcfkqjWn2Xnw6Wvs73FZm7JwFquDYaBPBnUhcW4+mFKRudwcCnZrmAWcQ/vBNyk4HiUuebSnOmTEJrlfNT7OFdAAAA=="},{name:"honeycomb",title:"Honeycomb",about:"Turk 1992, Appendix C",script:`# Honeycomb - Turk 1992, Appendix C
+`,picture:"UklGRsACAABXRUJQVlA4ILQCAADQFACdASpIAEgAP3GszV+0rKklqPJLGpAuCWkAE+Y4x21btmSeBk/4WzgIm37uLSyJcZVlIOefFz6EjuzlWF4a9E/w7Rj0iv9ZrQMg1hPBZ8R1mI40ip/CFfjkq2nTGYTQBOBBwVrEho9BXQc+p8hZRMDTJRKjdeQlpLFZ344dqx7mDKTWCT52Ky69gq3TfFi5tkkYL2eoA7EbcIK0B42o91C6t81o0luvenHiSk5AAP7o745qCO/BQnhkE5p8dNpVAu27up6fncCb0clJz6Ppj3vGk5vINp+lOlWchg5+AsGohZpv1Q/HRWwqeRx5cyanyFypn2vq9atRSLNKoAvat2L2+BXSOiYRwNejguQscswD8nY7dCZ55OriDuY1jc34LNp0+dOWmEwAEGXheMQw35oyMsIgMOt9QqYH0AZeCh892cbhlxnuJnsdn0Q/jhDl+dhIjqGMP0E2K9Uj/1MkP/WPpLOgNerOCjoYiPhtGZGOZJVAI7Vap4l4ZpVzmM6iF7KUABZ5YLV1IZKz9lq8UN7ExW+Z76a6RhGO5pyY+IsMb6vspDsXaSfwYkL/jMgOdZPYZY0KzDs6OEfkXVgG7xKmGMAprszhw4TQfgLo6Kuh1lztK8DOl96DKYYmm6IAfrbf6F549hJK8/YWZlH/HSmYraYlnog5XRXs1NO7ZsbIcdYJHsqYrNl2u8qh/OqB6GsL4WEX4fltN+7uBRbCqD+0sl5zLEmFk8KwaVf1vZuf15FHklncCs6sCO56YWjg4PzLiORM8RfrUIkuTe8rWV+qhIGH0szQv45t3hO2UCkQedJfNKEELIqy3OKtmw+2hcfkqjWn2Xnw6Wvs73FZm7JwFquDYaBPBnUhcW4+mFKRudwcCnZrmAWcQ/vBNyk4HiUuebSnOmTEJrlfNT7OFdAAAA=="},{name:"growing_fish",title:"Growing fish",about:"A young fish has one stripe",script:`# Growing fish: a young fish has one stripe. While it grows to six times its length, the stripes keep
+# their width: each splits into two, from an end like a zipper or in the middle, as S. Kondo and R.
+# Asai saw on angelfish ("A reaction-diffusion wave on the skin of the marine angelfish Pomacanthus",
+# Nature 376, 1995). The film growing_fish.webp shows the fish at its scale:
+#
+#     cascade run growing_fish.cascade --size 320 -o growing_fish.webp
+#
+# The reaction is Schnakenberg's. u spreads faster across the body than along it, so that its spots
+# are stripes.
+fn body(a, b) = hypot((a - 0.4) / 0.36, (b - 0.3) / 0.19) < 1
+fn tail(a, b) = abs(b - 0.3) < 0.03 + 0.6 * (a - 0.68) and hypot(a - 0.66, b - 0.3) < 0.29 and
+                hypot(a - 1.1, b - 0.3) > 0.22
+fn fins(a, b) = hypot((a - 0.5) / 0.22, (b - 0.15) / 0.1) < 1 or
+                hypot((a - 0.47) / 0.12, (b - 0.46) / 0.09) < 1
+
+domain {
+  grid: 160, 96
+  extent: 3 * exp(0.01 * t)
+  mask: (body(x, y) or tail(x, y) or fins(x, y)) and not disc(0.165, 0.25, 0.024)
+}
+
+system stripes {
+  u: 1 + 0.3 * cos(4 * pi * x)
+  v: 0.9
+  u' = 0.1 - u + u^2 * v + 0.01 * dxx(u) + 0.08 * dyy(u)
+  v' = 0.9 - u^2 * v + lap(v)
+}
+
+stage skin: stripes { solver: rkl2; speed: auto; duration: 180; every: 5 }
+
+picture { color: palette(u, 0, 3, "angelfish") }
+`,picture:"UklGRi4DAABXRUJQVlA4WAoAAAAQAAAARwAAKwAAQUxQSL8BAAABkEPbtmlJ56lsW5Ert20jqtxGhnZ31qMjhWZkldo/atsIy+YpvH/v+/fU6EojgoHbRoqSY8bOvgH2ZlXNvqJKZ4W9ppJhk9ww9PnbBurc+PZ5qCHZhgDFven7AnJd+NHkrgjGrW9+HQ25Pt/nJhQf0zoadt3kIwpJcSt4ghb51FvIEuuiE6+/oKX2cV6gIWxTD/9eRgEOM/E6H2rgnbb9WUFEsTjsm8ZbKu84jZ8Y71TYjHXe0AbiSjgb38urKMxn3npCjq/htlftmUuTH6NATwbsoPX8xR0nI4FF1SwK1eQDUu7wMuo4I7Hwn8ZtZk9d2RDVnfU5smD+O1Qw0+Qe7lAvW10TxdoimvvLhkX2so46gH4U7wuVgawf4zHPsA8EdLLGmvlVf/uLtGSyvtj/BNqH3YJ8jxj2gRjQHghU1oj4+wf/aXNo/sddlA9UebV6gJ9XRPn5s1sGbn6S5PnqjVgA4OY5QX1ZuJdhDdty64vwevey00cDnbx6J77+lhhtyFjUHsjPPzg8/I6/Ng6I9PrH47pMhVS9xGbIFciUik0MlofcgFK/xufjiLj+9VGRRt7Ajamqqiq3UWHvFgAAVlA4IEgBAACwCQCdASpIACwAP1WSv1ixqqcju7YsAjAqiWgAyqM6pP8VJAy7WbITuYpcIdXZqIFIK/z6/KOzSa7OqodECNHNnmiXRT4HkVVtp9nRyfzqKaAMU/H2AAD+7nOWNtu5REALCMT8aq7t6mzuImPf7E9II2wZTntDRosjXz+pYQrEcucJXAoFPmYEsgm5sxIggbP+HYwX53K1gbtL8cpabmGs8tNtEjSD9lBMQ7b4t+lJk8iYoxe+2TJ593kGB5Ut4x9UTM2ldV6OgOlgaPJa6Ag5M3AsqUXGx8Rc75vAVFhYgA4vWgy3wxR4Cz+8k5IHhSyIjtpPgezk5om6X70BGzpva9s8ybfnX4t4MutW6FBiJqzq5YLf5xOkWnQN0buUAS3soqchdHmwd2Ka/J/hPnouwgP2TlY6YUet7rnfoUVKc80riREAAAAA"},{name:"honeycomb",title:"Honeycomb",about:"Turk 1992, Appendix C",script:`# Honeycomb - Turk 1992, Appendix C
 system_name: turing_spots
 iterations: 20000
 interval: 4000

@@ -138,7 +138,7 @@ TEST_F(Vdb, HasOneNan) {
     Field field{PlaneLayout(Grid{2, 1, {}, 2})};
     field.at(1, 0, 1) = -std::nanf("7");
     const VolumeArray arrays[] = {{"u", &field}};
-    ASSERT_TRUE(write_vdb(path("nan.vdb"), {arrays, 1, nullptr, {}, "s", 0, 0}));
+    ASSERT_TRUE(write_vdb(path("nan.vdb"), {arrays, {1, 1, 1}, nullptr, {}, "s", 0, 0}));
     const float voxel = read<openvdb::FloatGrid>("nan.vdb", "u")->getAccessor().getValue({1, 0, 1});
     std::uint32_t bits = 0;
     std::memcpy(&bits, &voxel, 4);
