@@ -5,6 +5,7 @@
 #include "continuation/sparse_rows.h"
 
 #include <memory>
+#include <atomic>
 #include <span>
 #include <vector>
 
@@ -50,9 +51,11 @@ struct Mode {
 /// The eigenvalues of a square matrix with the largest real parts, by decreasing real part, at
 /// least `count` if there are so many. Neutral modes are left out. Small matrices are decomposed
 /// completely. Of larger ones, the eigenvalues nearest to 0 are found, and those nearest to
-/// `places` that are farther from 0. Empty if the search does not converge.
+/// `places` that are farther from 0. Empty if the search does not converge, or if `cancel`, which
+/// may be null, becomes true.
 std::vector<Mode> leading_modes(const SparseColumns& matrix, std::span<const NeutralMode> neutral,
-                                std::span<const Complex> places, int count, bool with_vectors);
+                                std::span<const Complex> places, int count, bool with_vectors,
+                                const std::atomic<bool>* cancel);
 
 /// The eigenvalues of a small dense matrix.
 std::vector<Complex> eigenvalues_of(const Matrix& matrix);

@@ -44,7 +44,8 @@ void Follower::find_stability(Point& point, const Corrector::Solved& solved) con
     }
     std::vector<Complex> places{growth};
     if (turning.imag() > 0) places.emplace_back(0, turning.imag());
-    const auto modes = leading_modes(solved.at.jacobian, neutral, places, kept_eigenvalues, false);
+    const auto modes = leading_modes(solved.at.jacobian, neutral, places, kept_eigenvalues, false,
+                                     settings_.cancel);
     if (modes.empty()) return;
     point.growing = 0;
     for (const Mode& mode : modes) {
@@ -64,8 +65,10 @@ Point Follower::point_at(const Corrector::Solved& solved, Direction tangent) con
     return point;
 }
 
-/// The point at a distance along the tangent of another one.
+/// The point at a distance along the tangent of another one. Empty if there is none, or after a
+/// cancellation.
 std::optional<Point> Follower::try_point(const Point& from, double step, int& rounds) const {
+    if (is_cancelled()) return std::nullopt;
     const Place guess{from.place.state + step * from.tangent.state,
                       from.place.parameter + step * from.tangent.parameter};
     const auto solved = corrector_.solve(guess, from.tangent);
@@ -106,11 +109,13 @@ std::string Follower::go(std::vector<Point>& points, std::size_t number) {
         int rounds = 0;
         std::optional<Point> next;
         while (!(next = try_point(from, step, rounds)) && step > shortest_step) step /= 2;
+        const std::vector<Point> passed = next ? events(from, *next, step) : std::vector<Point>();
+        if (is_cancelled()) return "interrupted";
         if (!next) return fmt::format("no state is found beyond {:.6g}", from.place.parameter);
-        for (Point& event : events(from, *next, step)) {
+        for (const Point& event : passed) {
             if (!is_inside(event.place)) continue;
             const bool ends = event.kind == PointKind::branch && is_known(event);
-            points.push_back(std::move(event));
+            points.push_back(event);
             if (ends) return "it meets another branch";
         }
         if (!is_inside(next->place)) {

@@ -39,14 +39,18 @@ double size_of(const SparseColumns& matrix) {
     return sums.size() > 0 ? sums.maxCoeff() : 0;
 }
 
+/// Thrown out of a search that is cancelled.
+struct SearchEnded {};
+
 /// The matrix minus a shift, bordered with the neutral modes.
 template <typename Number>
 class ShiftedInverse {
 public:
     using Scalar = double;
 
-    ShiftedInverse(const SparseColumns& matrix, std::span<const NeutralMode> neutral, double away)
-        : matrix_(matrix), neutral_(neutral), away_(away) {}
+    ShiftedInverse(const SparseColumns& matrix, std::span<const NeutralMode> neutral, double away,
+                   const std::atomic<bool>* cancel)
+        : matrix_(matrix), neutral_(neutral), away_(away), cancel_(cancel) {}
 
     Index rows() const { return matrix_.rows(); }
     Index cols() const { return matrix_.cols(); }
@@ -71,6 +75,7 @@ public:
     }
     bool is_good() const { return is_good_; }
     void perform_op(const double* in, double* out) const {
+        if (cancel_ != nullptr && *cancel_) throw SearchEnded();
         const Index size = matrix_.rows();
         const Index all = size + static_cast<Index>(neutral_.size());
         if (!is_good_) {
@@ -113,6 +118,7 @@ private:
     const SparseColumns& matrix_;
     std::span<const NeutralMode> neutral_;
     double away_;
+    const std::atomic<bool>* cancel_;
     Matrix locked_;  ///< Orthonormal columns.
     Eigen::SparseLU<SparseOf> lu_;
     bool is_good_ = false;
@@ -212,15 +218,16 @@ std::optional<std::vector<Mode>> found_near(Inverse& inverse, Complex place, Ind
 
 std::optional<std::vector<Mode>> modes_near(const SparseColumns& matrix,
                                             std::span<const NeutralMode> neutral, double away,
-                                            Complex place, Index count) {
+                                            Complex place, Index count,
+                                            const std::atomic<bool>* cancel) {
     if (place.imag() == 0) {
         using Inverse = ShiftedInverse<double>;
-        Inverse inverse(matrix, neutral, away);
+        Inverse inverse(matrix, neutral, away, cancel);
         return found_near<Spectra::GenEigsRealShiftSolver<Inverse>>(inverse, place, count,
                                                                     place.real());
     }
     using Inverse = ShiftedInverse<Complex>;
-    Inverse inverse(matrix, neutral, away);
+    Inverse inverse(matrix, neutral, away, cancel);
     return found_near<Spectra::GenEigsComplexShiftSolver<Inverse>>(inverse, place, count,
                                                                    place.real(), place.imag());
 }
@@ -245,7 +252,8 @@ std::vector<Complex> eigenvalues_of(const Matrix& matrix) {
 }
 
 std::vector<Mode> leading_modes(const SparseColumns& matrix, std::span<const NeutralMode> neutral,
-                                std::span<const Complex> places, int count, bool with_vectors) {
+                                std::span<const Complex> places, int count, bool with_vectors,
+                                const std::atomic<bool>* cancel) try {
     const double away = size_of(matrix);
     const Index size = matrix.rows();
     if (size <= most_dense_symmetric && !with_vectors && is_symmetric(matrix, away)) {
@@ -257,7 +265,7 @@ std::vector<Mode> leading_modes(const SparseColumns& matrix, std::span<const Neu
     double radius = 0;
     const double shift = 1e-4 * away;
     for (Index wanted = count; wanted < size / 2; wanted *= 2) {
-        auto near = modes_near(matrix, neutral, away, shift, wanted);
+        auto near = modes_near(matrix, neutral, away, shift, wanted, cancel);
         if (!near) break;
         modes = *std::move(near);
         radius = 0;
@@ -271,7 +279,8 @@ std::vector<Mode> leading_modes(const SparseColumns& matrix, std::span<const Neu
     }
     for (const Complex place : places) {
         if (!is_found || std::abs(place) < radius) continue;
-        auto near = modes_near(matrix, neutral, away, shift + place, std::max(4, count / 2));
+        auto near =
+            modes_near(matrix, neutral, away, shift + place, std::max(4, count / 2), cancel);
         is_found = near.has_value();
         if (near) join(modes, *std::move(near), 1e-7 * (std::abs(place) + radius));
     }
@@ -281,6 +290,8 @@ std::vector<Mode> leading_modes(const SparseColumns& matrix, std::span<const Neu
     }
     std::ranges::sort(modes, std::greater(), [](const Mode& mode) { return mode.value.real(); });
     return modes;
+} catch (const SearchEnded&) {
+    return {};
 }
 
 }  // namespace cascade::continuation

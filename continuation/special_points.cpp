@@ -131,7 +131,7 @@ std::vector<Vector> Follower::ways_from(const Point& point) const {
     const auto solved = corrector_.solve(point.place, point.tangent);
     if (!solved) return {};
     const auto modes = leading_modes(solved->at.jacobian, corrector_.neutral_modes(*solved), {},
-                                     point.growing.value_or(0) + 10, true);
+                                     point.growing.value_or(0) + 10, true, settings_.cancel);
     std::vector<Mode> nearest(modes);
     std::ranges::sort(nearest, {}, [](const Mode& mode) { return std::abs(mode.value); });
     nearest.resize(std::min(nearest.size(), static_cast<std::size_t>(point.crossing)));
