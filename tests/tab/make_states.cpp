@@ -97,7 +97,8 @@ void write_states(const std::filesystem::path& path, bool is_exact) {
             const bool is_in_items =
                 std::any_of(stage.items.begin(), stage.items.end(),
                             [&](const Formula& item) { return holds_in(item, is_rounded); });
-            if (is_in_items || holds_in_rates(system, is_rounded)) return;
+            const bool is_transformed = is_semi_implicit(stage.time.solver);
+            if (is_transformed || is_in_items || holds_in_rates(system, is_rounded)) return;
         }
         auto state = state_of(std::move(script));
         if (state.is_null()) return;
