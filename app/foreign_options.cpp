@@ -71,7 +71,8 @@ bool is_number(std::string_view text) {
 }  // namespace
 
 std::string advice_about_option(std::string_view option, const std::string& value,
-                                const std::function<bool(std::string_view)>& is_option) {
+                                const std::function<bool(std::string_view)>& is_option,
+                                bool has_near) {
     std::string_view name = option.substr(0, option.find('='));
     name.remove_prefix(std::min(name.find_first_not_of('-'), name.size()));
     for (const NeedlessOption& row : needless_options) {
@@ -86,7 +87,8 @@ std::string advice_about_option(std::string_view option, const std::string& valu
                            : is_side     ? fmt::format("{0}x{0}", value)
                                          : value);
     }
-    const bool is_of_script = name.size() > 0 && is_option("--set") && is_number(value);
+    const bool is_of_script =
+        !has_near && name.size() > 0 && is_option("--set") && is_number(value);
     return is_of_script ? fmt::format("a value of the script is set by --set {}={}", name, value)
                         : "";
 }

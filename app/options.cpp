@@ -166,7 +166,9 @@ std::string Parser::describe_unexpected(const std::string& program) {
         const auto is_option = [&](std::string_view name) {
             return chosen() && chosen()->get_option_no_throw(std::string(name)) != nullptr;
         };
-        if (const std::string advice = advice_about_option(*option, value, is_option);
+        const std::string near = near_option(*option);
+        if (const std::string advice =
+                advice_about_option(*option, value, is_option, !near.empty());
             !advice.empty()) {
             return fmt::format("{}: there is no option {}; {}", where,
                                option->substr(0, option->find('=')), advice);
@@ -174,7 +176,6 @@ std::string Parser::describe_unexpected(const std::string& program) {
         const auto file = std::ranges::find_if(words, [](const std::string& each) {
             return each.ends_with(".cascade");
         });
-        const std::string near = near_option(*option);
         const std::string meant = !near.empty() ? near
                                   : !chosen() && file != words.end()
                                       ? fmt::format("'{} run {} …'", program, *file)

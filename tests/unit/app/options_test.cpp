@@ -269,7 +269,7 @@ INSTANTIATE_TEST_SUITE_P(
         WrongUse{{"a.cascade"}, "no command 'a.cascade'; did you mean 'cascade run a.cascade'?"},
         WrongUse{
             {"fly"},
-            "the commands are run, sweep, check, analyze, bench, compile, systems, examples, new, "
+            "the commands are run, sweep, continue, check, analyze, bench, compile, systems, examples, new, "
             "import, palettes, fmt, mesh, "
             "repl, export, view"},
         WrongUse{{"run"}, "cascade run: a script is missing"},
