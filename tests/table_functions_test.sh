@@ -101,6 +101,12 @@ mv bad.csv 2nd.csv && sed 's/bad/2nd/' bad.cascade >second.cascade
 run 2 check second.cascade
 says err "2nd.csv:1:1: error: '2nd' cannot be the name of a function"
 
+# Printed formulas have the numbers of the table.
+printf '0,0\n1,10\n3,40\n' >q.csv
+printf 'use "q.csv"\nsystem s { u: 0; u%s = q(u) }\nstage a: s { iterations: 1 }\n' "'" >q.cascade
+run 0 check q.cascade --dump equations
+says out '10 + 15 (t − 1)'
+
 # What other programs call it.
 echo 'system s { u: 0; u'"'"' = ramp(t, "light.csv") } stage a: s { iterations: 1 }' >ramp.cascade
 run 2 check ramp.cascade

@@ -2,6 +2,7 @@
 // written, so expressions may be of any depth and length.
 #include "lang/equations/equation_formula.h"
 
+#include "core/decimal.h"
 #include "core/utf8.h"
 #include "lang/equations/equation_marks.h"
 #include "lang/syntax/kept_spellings.h"
@@ -210,10 +211,16 @@ private:
     static bool is_raised(std::string_view number) {
         return superscript_digit(decode_utf8(number, 0).value).has_value();
     }
-    /// A number as its author wrote it.
+    /// A number as its author wrote it. A number that was computed, as in the functions of a table,
+    /// may have the source location of another one.
     std::string digits(Span span, double value) const {
         const std::string_view text = sources_.text(span);
-        return is_spelling_of_number(text) ? std::string(text) : fmt::format("{}", value);
+        double written = value;
+        const char* const last = text.data() + text.size();
+        const auto [end, fault] = from_decimal(text.data(), last, written);
+        const bool is_other = fault == std::errc() && end == last && written != value;
+        return is_spelling_of_number(text) && !is_other ? std::string(text)
+                                                        : fmt::format("{}", value);
     }
     void write_power(ast::ExprId base, ast::ExprId exponent, int least) {
         if (tex_) {
