@@ -190,7 +190,7 @@ says err "'broken.obj': face 1 of the OBJ file names a point that does not exist
 : > empty.ply
 for name in empty.ply nothing.ply picture.png; do run 3 mesh $name; done
 run 3 mesh empty.ply
-says err "'empty.ply': this is not a PLY file"
+says err "'empty.ply': the file is empty"
 run 3 mesh picture.png
 says err "is not a model"
 run 64 mesh

@@ -104,6 +104,12 @@ class Runs(unittest.TestCase):
 
 
 class Sweeps(unittest.TestCase):
+    def setUp(self):
+        # Tables are lists, also where pandas is installed.
+        without = unittest.mock.patch.dict("sys.modules", {"pandas": None})
+        without.start()
+        self.addCleanup(without.stop)
+
     def test_have_a_row_for_each_run(self):
         script = SCRIPT.replace("sin(7 * x + 3 * y)", "sin(7 * x) + random(0, 0.1)")
         rows = cascade.sweep(script, {"rate": [0.1, 0.2], "seed": range(2)}, show="u",

@@ -197,11 +197,11 @@ TEST_F(LspAnswers, CodeActionsDoWhatHintsSay) {
     const Json actions = editor.about("codeAction", {{"range", diagnostics[0]["range"]},
                                                      {"context", {{"diagnostics", diagnostics}}}});
     ASSERT_THAT(actions, SizeIs(1));
-    EXPECT_EQ(actions[0]["title"], "Write 'k'");
+    EXPECT_EQ(actions[0]["title"], "Write 'k * k'");
     EXPECT_EQ(actions[0]["diagnostics"][0]["message"], diagnostics[0]["message"]);
     const Json edit = actions[0]["edit"]["changes"][editor.uri()][0];
     EXPECT_EQ(text_of(edit["range"]), "6:11-6:13");
-    EXPECT_EQ(edit["newText"], "k");
+    EXPECT_EQ(edit["newText"], "k * k");
     const Json elsewhere = {{"start", {{"line", 0}, {"character", 0}}},
                             {"end", {{"line", 0}, {"character", 1}}}};
     EXPECT_THAT(editor.about("codeAction", {{"range", elsewhere}}), IsEmpty());

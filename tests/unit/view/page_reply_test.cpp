@@ -117,7 +117,7 @@ TEST_F(PageReply, FixesMendWhatTheirHintsTell) {
     };
     EXPECT_EQ(fixes(script("k * lapp(u)")), Json({"lap"}));
     EXPECT_EQ(fixes(script("k ** u")), Json({"^"}));
-    EXPECT_EQ(fixes(script("kk + vv + lapp(u)")), Json({"k", nullptr, "lap"}));
+    EXPECT_EQ(fixes(script("kk + vv + lapp(u)")), Json({"k * k", nullptr, "lap"}));
     EXPECT_EQ(fixes(script("k (u - 1)")), Json({nullptr})) << "it leaves something open";
     EXPECT_EQ(fixes(script("u")), Json::array());
     EXPECT_EQ(fixes(script("kk") + std::string(65536, '#')), Json::array()) << "too long";
