@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <malloc.h>
 #include <sys/resource.h>
 #include <sys/time.h>
 
@@ -38,6 +39,17 @@ void set_timer(double seconds) {
     setitimer(ITIMER_REAL, &timer, nullptr);
 }
 
+/// glibc gives each thread a heap that reserves 64 MiB of addresses. Where `ulimit -v` limits
+/// addresses, these heaps would take what the run needs.
+void share_heap_of_threads() {
+#ifdef __GLIBC__
+    rlimit addresses = {};
+    const bool is_limited =
+        getrlimit(RLIMIT_AS, &addresses) == 0 && addresses.rlim_cur != RLIM_INFINITY;
+    if (is_limited) mallopt(M_ARENA_MAX, 1);
+#endif
+}
+
 }  // namespace
 
 TimeLimit::TimeLimit(double seconds, std::atomic<bool>& cancel) {
@@ -64,6 +76,7 @@ TimeLimit::~TimeLimit() {
 bool TimeLimit::reached() const { return is_set_ && is_reached; }
 
 void limit_memory(std::uint64_t bytes) {
+    share_heap_of_threads();
     if (bytes == 0) return;
     // An allowance for the program itself. The system counts the whole stack of each thread,
     // whether the thread uses it or not.
