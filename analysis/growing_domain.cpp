@@ -11,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <vector>
 
 namespace cascade::analysis {
@@ -20,17 +19,6 @@ namespace {
 
 /// The parts into which the duration of a stage is divided.
 constexpr int parts_of_duration = 4;
-
-/// The time at which the stage ends, if it is known before the run.
-std::optional<double> known_end(const Program& program, std::uint32_t index) {
-    const Stage& stage = program.stages[index];
-    if (stage.time.duration) return *stage.time.duration;
-    if (stage.time.automatic_speed || stage.time.open_end) return std::nullopt;
-    const Formula& speed = stage.items[program.system_of(index).speed_item()];
-    const auto* const step = speed.nodes.back().as<double>();
-    if (step == nullptr) return std::nullopt;
-    return *step * static_cast<double>(stage.time.duration_in_steps.value_or(stage.iterations));
-}
 
 /// The program with a number in place of `t` in the rates of a stage.
 Program at_moment(const Program& program, std::uint32_t stage, double t) {
@@ -93,7 +81,7 @@ private:
 }  // namespace
 
 std::string waves_of_growing_domain(const Program& program, std::uint32_t stage) {
-    const auto end = known_end(program, stage);
+    const auto end = known_duration(program, stage);
     const Grid& grid = program.domain.grid;
     if (!program.stages[stage].growth || !end || grid.width == 1) return "";
     const WaveCount count(grid);

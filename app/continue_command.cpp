@@ -38,16 +38,17 @@ int continue_command(const Options& options, Console& console) {
     request.simulation.control = &control;
     const auto report = follow_branches(script, request, control);
     display.clear();
+    const auto status_of_end = [&] {
+        return limit.reached() ? exit_status::time_limit
+                               : exit_status::signal_base + std::max(interrupt.signal(), 2);
+    };
     if (!report && script.diagnostics.has_errors()) {
         console.say(script.messages(console.error().colour));
         return exit_status::wrong_script;
     }
     if (!report) {
         console.fail(report.error());
-        if (control.cancel && !limit.reached()) {
-            return exit_status::signal_base + std::max(interrupt.signal(), 2);
-        }
-        return limit.reached() ? exit_status::time_limit : exit_status::failed_run;
+        return control.cancel ? status_of_end() : exit_status::failed_run;
     }
     console.print(report->text);
     if (!options.quiet) {
@@ -59,9 +60,8 @@ int continue_command(const Options& options, Console& console) {
     if (limit.reached()) {
         console.say(fmt::format("cascade: the limit of {} is reached\n",
                                 describe_duration(options.limit_seconds)));
-        return exit_status::time_limit;
     }
-    return exit_status::signal_base + std::max(interrupt.signal(), 2);
+    return status_of_end();
 }
 
 }  // namespace cascade

@@ -127,6 +127,16 @@ Formula with_growth(const Program& program, std::uint32_t stage, const Formula& 
     return growth ? GrowingFormula(*growth, program.domain).rewritten(formula) : formula;
 }
 
+std::optional<double> known_duration(const Program& program, std::uint32_t stage) {
+    const Stage& its = program.stages[stage];
+    if (its.time.duration) return *its.time.duration;
+    if (its.time.automatic_speed || its.time.open_end) return std::nullopt;
+    const Formula& speed = its.items[program.system_of(stage).speed_item()];
+    const auto* const step = speed.nodes.back().as<double>();
+    if (step == nullptr) return std::nullopt;
+    return *step * static_cast<double>(its.time.duration_in_steps.value_or(its.iterations));
+}
+
 std::array<double, 3> scales_at(const Stage& stage, double t) {
     std::array<double, 3> scales{1, 1, 1};
     if (!stage.growth) return scales;

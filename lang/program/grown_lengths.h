@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 namespace cascade {
 
@@ -23,6 +24,9 @@ void let_lengths_grow(Program& program);
 /// A formula of a stage, such as a picture, in which lengths grow. Its definitions must be those of
 /// Growth::written.
 Formula with_growth(const Program& program, std::uint32_t stage, const Formula& formula);
+
+/// How long a stage runs if nothing ends it sooner. Empty if this is not known before the run.
+std::optional<double> known_duration(const Program& program, std::uint32_t stage);
 
 /// The scales of lengths along the axes at the time t of a stage: 1 where they do not change.
 std::array<double, 3> scales_at(const Stage& stage, double t);

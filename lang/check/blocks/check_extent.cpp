@@ -18,10 +18,8 @@ namespace cascade::checking {
 
 namespace {
 
-constexpr double same_length = 1e-6;     // The relative tolerance for lengths that are rounded in a
-                                         // script.
-constexpr double least_spacing = 1e-15;  // The square and inverse square of this number are normal
-                                         // numbers.
+constexpr double same_length = 1e-6;  // The relative tolerance for lengths that are rounded in a
+                                      // script.
 
 /// The lengths as formulas of numbers and t. Reports errors.
 std::optional<std::vector<Formula>> read_lengths(Workspace& work, const ast::Script& script,

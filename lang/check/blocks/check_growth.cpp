@@ -3,6 +3,7 @@
 
 #include "lang/check/names/domain_lengths.h"
 #include "lang/program/evaluate.h"
+#include "lang/program/grown_lengths.h"
 #include "lang/program/models.h"
 #include "lang/program/stage_kinds.h"
 #include "lang/vocabulary/functions.h"
@@ -20,7 +21,6 @@ namespace {
 
 constexpr std::array axis_names{"x", "y", "z"};
 constexpr int looks = 256;  ///< The number of times at which lengths are checked before the run.
-constexpr double least_cell = 1e-15;    ///< The range of the lengths of cells, as for `spacing`.
 constexpr double smallest_jump = 1e-6;  ///< As a part of the length.
 
 double value_at(const Formula& formula, double t) {
@@ -31,15 +31,9 @@ double value_at(const Formula& formula, double t) {
 
 /// The time until which the stage certainly runs; 0 if it is known only during the run.
 double certain_end(const Program& program, std::uint32_t index) {
-    const Stage& stage = program.stages[index];
-    const StageTime& time = stage.time;
+    const StageTime& time = program.stages[index].time;
     if (time.until || time.steady || time.open_end) return 0;
-    if (time.duration) return *time.duration;
-    const Formula& speed = stage.items[program.system_of(index).speed_item()];
-    const auto* const step = speed.nodes.back().as<double>();
-    if (step == nullptr || time.automatic_speed) return 0;
-    const auto steps = static_cast<double>(time.duration_in_steps.value_or(stage.iterations));
-    return steps * *step;
+    return known_duration(program, index).value_or(0);
 }
 
 void refuse_in(const Stage& stage, Span span, std::string_view what, std::string hint,
@@ -147,7 +141,7 @@ private:
         for (int look = 0; look <= (end > 0 ? looks : 0); ++look) {
             const double t = end * look / looks, here = value_at(scale, t);
             const double cell = here * grid.spacing;
-            if (!(cell >= least_cell && cell <= 1 / least_cell)) {
+            if (!(cell >= least_spacing && cell <= 1 / least_spacing)) {
                 diagnostics_.error(growth_.span,
                                    fmt::format("the length along {} would be {:.6g} at t = {:.6g}",
                                                axis_names[axis], here * start, t),

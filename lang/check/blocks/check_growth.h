@@ -9,6 +9,10 @@
 
 namespace cascade::checking {
 
+/// Cells are at least as long as this, and at most as long as its inverse: the squares of both are
+/// normal numbers.
+inline constexpr double least_spacing = 1e-15;
+
 /// Whether a statement of the script may let lengths of the domain change in a stage. The domain
 /// must have been checked.
 bool lengths_may_grow(const Program& program, const ast::Script& script);
@@ -21,7 +25,7 @@ void check_extent(Workspace& work, const ast::Script& script, const ast::Stateme
 void check_stage_extent(Workspace& work, const ast::Script& script, const ast::Statement& statement,
                         Stage& stage);
 
-/// Takes the growth of the domain, unless the stage sets lengths of its own, and the species that
+/// Takes the growth of the domain, unless the stage sets its lengths itself, and the species that
 /// growth does not dilute.
 void fill_growth(Stage& stage, const DomainSettings& domain, const Settings& own,
                  const Settings& defaults);
