@@ -39,7 +39,7 @@ public:
                                            const PaddedGrid& grid, std::span<const ItemId> changing,
                                            const ConstantValues& constants);
 
-    /// Whether no value but those that change differs from cell to cell.
+    /// Whether every value that does not change during the continuation is the same in all cells.
     bool is_same_everywhere() const;
     std::size_t root_count() const { return plan_->roots().size(); }
     /// The parts of the roots. If `with_slopes` is false, no part has slopes.

@@ -125,8 +125,8 @@ bool Follower::is_known(const Point& point) const {
 }
 
 /// The directions of the branches that begin at a branch point, without its own tangent: vectors
-/// that no rate feels. If there are several, those that are even about the first cell: stripes
-/// across each axis, and spots.
+/// that no rate feels. If there are several, the symmetric ones whose mirror is the first cell:
+/// stripes across each axis, and spots.
 std::vector<Vector> Follower::ways_from(const Point& point) const {
     const auto solved = corrector_.solve(point.place, point.tangent);
     if (!solved) return {};

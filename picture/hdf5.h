@@ -31,8 +31,8 @@ struct Hdf5Column {
 
 /// What a file contains besides its moments.
 struct Hdf5Layout {
-    /// The axes of the cells, the slowest first, with the positions of the cells. The names are
-    /// those of dimension scales.
+    /// The axes of the cells, the slowest first, with the positions of the cells. Each name is
+    /// also the name of a dimension scale.
     std::vector<Hdf5Column> axes;
     /// Further numbers along the last axis, such as the positions of a model's cells.
     std::vector<Hdf5Column> coordinates;

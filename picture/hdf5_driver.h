@@ -19,7 +19,7 @@ namespace cascade {
 hid_t hdf5_driver(const char* any_file);
 
 /// Flushes a file that was opened with this driver. `written` holds the addresses of the parts that
-/// have been written before, and gets those of the new ones. Negative if the flush fails.
+/// have been written before. The addresses of new parts are added. Negative if the flush fails.
 herr_t flush_in_order(hid_t file, std::set<haddr_t>& written);
 
 /// While an object with `drops` lives, files that this thread closes do not change on the disk.
