@@ -4,6 +4,7 @@
 #include "app/examples.h"
 #include "app/exit_status.h"
 #include "app/json_answer.h"
+#include "app/wgsl_dump.h"
 #include "app/whole_program.h"
 #include "core/counted.h"
 #include "core/file.h"
@@ -210,7 +211,11 @@ int dump_command(const Script& script, const std::string& kind, Console& console
     // Tokens and syntax tree exist even if the script has errors. Other dumps need a checked
     // program.
     const bool can_be_shown = script.program || kind == "tokens" || kind == "ast";
-    const auto text = can_be_shown ? dump(script, kind) : Result<std::string>(std::string());
+    const auto shown = [&] {
+        return kind == wgsl_kind && script.program ? dump_wgsl(*script.program)
+                                                   : dump(script, kind);
+    };
+    const auto text = can_be_shown ? shown() : Result<std::string>(std::string());
     if (text) console.print(*text);
     console.tell(script);
     if (!script.program) return exit_status::wrong_script;

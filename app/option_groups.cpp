@@ -3,6 +3,7 @@
 
 #include "app/add_value.h"
 #include "app/help.h"
+#include "app/wgsl_dump.h"
 #include "core/file_format.h"
 #include "run/commands/dump.h"
 #include "run/simulation/simulation.h"
@@ -123,6 +124,7 @@ void add_quiet(CLI::App& app, Options& options) {
 void add_dump(CLI::App& app, Options& options) {
     std::vector<std::string> kinds;
     for (const std::string_view kind : dump_kinds()) kinds.emplace_back(kind);
+    kinds.emplace_back(wgsl_kind);
     add_value(app, "--dump", "WHAT",
               "Print one form of the script, and stop:\n" + help::in_lines(kinds), one_of(kinds),
               [&](auto kind) { options.dump = kind; })

@@ -1,5 +1,6 @@
-# The room device/ needs the headers of OpenCL, and nothing else: it loads the system's loader of
-# drivers when a device is asked for. Without the headers, device/no_opencl.cpp replaces the room.
+# The executor of device/ needs the headers of OpenCL, and nothing else: it loads the system's loader
+# of drivers when a device is asked for. Without the headers, device/no_opencl.cpp replaces it. What
+# prints programs needs no headers.
 
 find_path(OPENCL_INCLUDE_FOLDER CL/cl.h)
 if(OPENCL_INCLUDE_FOLDER)
@@ -7,6 +8,6 @@ if(OPENCL_INCLUDE_FOLDER)
   cascade_room(device ${CMAKE_DL_LIBS})
   target_include_directories(cascade_device SYSTEM PUBLIC ${OPENCL_INCLUDE_FOLDER})
 else()
-  list(APPEND CASCADE_WITHOUT "device/(build_options|device|kernel_text|op|pl|pr).*")
+  list(APPEND CASCADE_WITHOUT "device/((device|opencl).*|probe)")
   cascade_room(device)
 endif()

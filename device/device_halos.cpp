@@ -1,7 +1,7 @@
 // Passes the rules of sides to the kernel c_halo.
 #include "device/device_halos.h"
 
-#include "core/check.h"
+#include "device/pass_values.h"
 #include "device/plane_kernels.h"
 
 #include <utility>
@@ -38,28 +38,12 @@ HaloGroup DeviceHalos::group(std::vector<std::int64_t> origins,
 }
 
 void DeviceHalos::set_rules(HaloGroup& group, const std::vector<SideRules>& rules) {
-    std::vector<std::int32_t> kinds;
-    std::vector<double> numbers, values;
-    for (const SideRules& each : rules) {
-        for (const SideRule& rule : each.at) kinds.push_back(static_cast<std::int32_t>(rule.kind));
-        for (const SideRule& rule : each.at) {
-            numbers.push_back(rule.value);
-            if (!rule.has_value() || !rule.values) {
-                kinds.push_back(-1);
-                continue;
-            }
-            const SideValues& along = *rule.values;
-            CHECK(along.first == 0, "the rules of a whole plane begin at its first cell");
-            kinds.push_back(static_cast<std::int32_t>(values.size()));
-            values.insert(values.end(), along.numbers.begin(), along.numbers.end());
-        }
-        numbers.push_back(each.spacing);
-    }
-    const std::size_t bytes = kinds.size() * sizeof(std::int32_t);
+    const HaloRecords records(rules);
+    const std::size_t bytes = records.kinds.size() * sizeof(std::int32_t);
     if (group.kinds.memory() == nullptr) group.kinds = device_.buffer(bytes);
-    device_.write(group.kinds, 0, kinds.data(), bytes);
-    write_words(device_, group.numbers, numbers, precision_);
-    write_words(device_, group.side_values, values, precision_);
+    device_.write(group.kinds, 0, records.kinds.data(), bytes);
+    write_words(device_, group.numbers, records.numbers, precision_);
+    write_words(device_, group.side_values, records.values, precision_);
 }
 
 void DeviceHalos::fill(const DeviceBuffer& planes, const HaloGroup& group) {

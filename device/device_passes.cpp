@@ -3,7 +3,7 @@
 
 #include "core/check.h"
 #include "core/overloaded.h"
-#include "ir/draw_of_step.h"
+#include "device/pass_values.h"
 
 #include <algorithm>
 #include <utility>
@@ -15,24 +15,6 @@ constexpr std::int64_t lanes = LinkTable<float>::slice_cells;
 
 std::int64_t padded_width(const PlaneLayout& layout) {
     return (layout.width + PlaneLayout::row_pad - 1) / PlaneLayout::row_pad * PlaneLayout::row_pad;
-}
-
-/// The value of a uniform that changes from step to step, as in PassRunner.
-template <typename Number>
-Number value_of(const StepProblem::ChangingUniform& uniform, const StepMoment& moment) {
-    return std::visit(
-        Overloaded{
-            [&](StepProblem::CompleteSteps) { return static_cast<Number>(moment.complete); },
-            [&](StepProblem::StepDraw) { return draw_uniform<Number>(moment.complete); },
-            [&](StepProblem::MomentAt at) {
-                return static_cast<Number>(moment.t + at.part * moment.length);
-            },
-            [&](Sweep::Coefficient by) {
-                return static_cast<Number>(by.times_step ? by.value * moment.length : by.value);
-            },
-            [](AggregateId) { return Number{0}; },  // Read from its buffer.
-        },
-        uniform.value);
 }
 
 }  // namespace
@@ -187,25 +169,11 @@ void DevicePasses::launch(OfPass& pass, CopyRoles roles, const StepMoment& momen
         kernel.add(WordOf<Number>{0});
         kernel.add(static_cast<std::int32_t>(first));
         kernel.add(static_cast<std::int32_t>(last));
-        for (const auto& uniform : pass.passed) kernel.add(value_of<Number>(uniform, moment));
+        for (const auto& uniform : pass.passed) kernel.add(passed_value<Number>(uniform, moment));
         device_.open().launch(
             kernel, static_cast<std::size_t>(padded_width(layout_)),
             static_cast<std::size_t>((last - first + rows_of_item_ - 1) / rows_of_item_), group_);
     }
-}
-
-/// The rules of a result's sides at the moment at which neighbours will read the result, as in
-/// PassRunner.
-SideRules DevicePasses::rules_at(const StepProblem::Result& result,
-                                 const StepMoment& moment) const {
-    const auto* const own = std::get_if<StepProblem::SpeciesPlane>(&result.plane);
-    if (own == nullptr && !result.rules) return problem_.sides_of(result);
-    const bool is_next = result.read_at == StepProblem::Result::next_step;
-    const SideMoment when{is_next ? moment.complete + 1 : moment.complete,
-                          is_next ? moment.next_t : moment.t + result.read_at * moment.length};
-    const SpeciesPlanes none(problem_.species_needs_halo.size());
-    return problem_.sides_of(own != nullptr ? own->species : *result.rules, when, none,
-                             Patch{layout_.rows});
 }
 
 void DevicePasses::fill_halos(std::size_t pass, CopyRoles roles, const StepMoment& moment,
@@ -214,7 +182,8 @@ void DevicePasses::fill_halos(std::size_t pass, CopyRoles roles, const StepMomen
         if (!problem_.changing_sides.empty()) {
             std::vector<SideRules> rules;
             for (const std::size_t result : each.results) {
-                rules.push_back(rules_at(problem_.passes[pass].results[result], moment));
+                rules.push_back(
+                    halo_rules_at(problem_, problem_.passes[pass].results[result], moment));
             }
             halos_.set_rules(each.group, rules);
         }

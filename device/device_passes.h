@@ -57,7 +57,6 @@ private:
     void fill_halos(std::size_t pass, CopyRoles roles, const StepMoment& moment,
                     const DevicePlanes& planes);
     void reduce(std::size_t pass, CopyRoles roles, const DevicePlanes& planes);
-    SideRules rules_at(const StepProblem::Result& result, const StepMoment& moment) const;
     std::int64_t origin(std::size_t plane) const;
 
     Device& device_;

@@ -72,6 +72,18 @@ bool passes_words(Op op) {
     }
 }
 
+/// The beginning of a loop over the links of a cell.
+constexpr std::string_view opencl_loop = R"(
+        for (uint c_entry = c_starts[c_slice]; c_entry < c_starts[c_slice + 1]; ++c_entry) {
+        if ((c_filled[c_entry] >> c_lane & 1) == 0) continue;
+        const c_long c_there = c_bases[c_entry] + c_offsets[(c_long)c_entry * 16 + c_lane];
+)";
+constexpr std::string_view wgsl_loop = R"(
+        for (var c_entry = c_links[c_slice]; c_entry < c_links[c_slice + 1u]; c_entry++) {
+        if (!c_is_filled(c_entry)) { continue; }
+        let c_there = c_end_of_link(c_entry);
+)";
+
 class CellPrinter {
 public:
     CellPrinter(const CellKernel& kernel, const KernelNames& names, const TextTarget& target,
@@ -91,8 +103,10 @@ public:
         for (const LinkLoop& loop : schedule.loops) print(loop);
         for (const ValueId id : schedule.after) declare(id);
         for (std::size_t k = 0; k < kernel_.results.size(); ++k) {
-            text_ += fmt::format("        ({})[c_at] = {};\n", names_.results[k],
-                                 value(kernel_.results[k]));
+            const std::string& plane = names_.results[k];
+            const std::string target = is_wgsl() ? fmt::format("c_planes[{} + c_at]", plane)
+                                                 : fmt::format("({})[c_at]", plane);
+            text_ += fmt::format("        {} = {};\n", target, value(kernel_.results[k]));
         }
         return std::move(text_);
     }
@@ -106,6 +120,7 @@ private:
         return formats[kernel_.precision == Precision::single ? 0 : 1];
     }
 
+    bool is_wgsl() const { return target_.language == TextLanguage::wgsl; }
     bool flushes_here() const { return target_.flushing == Flushing::by_kernel; }
 
     bool may_be_denormal(ValueId id) const {
@@ -120,7 +135,8 @@ private:
             fmt::format("{:#x}{}", bits, target_.precision == Precision::single ? "u" : "ul");
         const std::uint64_t size = bits & ~format().sign();
         const bool simplifies = size == 0 || size == format().one() || format().is_denormal(size);
-        return simplifies && !flushes_here() ? fmt::format("({} ^ c_pad)", literal) : literal;
+        const bool is_hidden = simplifies && (is_wgsl() || !flushes_here());
+        return is_hidden ? fmt::format("({} ^ c_pad)", literal) : literal;
     }
 
     std::string operand(const Instruction& instruction, int number) const {
@@ -143,7 +159,7 @@ private:
     }
 
     std::string source(const Instruction& instruction) const {
-        const std::string_view text = opencl_text(instruction.op);
+        const std::string_view text = text_of(instruction.op, target_.language);
         const std::uint64_t payload = instruction.payload;
         switch (info(instruction.op).payload) {
             case PayloadKind::none: return std::string(text);
@@ -180,8 +196,8 @@ private:
     }
 
     void declare(ValueId id) {
-        text_ +=
-            fmt::format("        const cw {} = {};\n", value(id), expression(kernel_.code[id]));
+        text_ += fmt::format("        {} {} = {};\n", is_wgsl() ? "let" : "const cw", value(id),
+                             expression(kernel_.code[id]));
     }
 
     /// Prints one loop over the links of the cell.
@@ -189,17 +205,13 @@ private:
         for (const ValueId id : loop.before) declare(id);
         for (const ValueId id : loop.reductions) {
             const Op op = kernel_.code[id].op;
-            const std::string_view first = op == Op::link_sum     ? "0"
+            const std::string_view first = op == Op::link_sum     ? "0u"
                                            : op == Op::link_least ? "C_INFINITY"
                                                                   : "C_INFINITY | C_SIGN";
-            text_ += fmt::format("        cw {} = {};\n", value(id), first);
+            text_ +=
+                fmt::format("        {} {} = {};\n", is_wgsl() ? "var" : "cw", value(id), first);
         }
-        text_ +=
-            "        for (uint c_entry = c_starts[c_slice]; c_entry < c_starts[c_slice + 1]; "
-            "++c_entry) {\n"
-            "        if ((c_filled[c_entry] >> c_lane & 1) == 0) continue;\n"
-            "        const c_long c_there = c_bases[c_entry] + "
-            "c_offsets[(c_long)c_entry * 16 + c_lane];\n";
+        text_ += is_wgsl() ? wgsl_loop : opencl_loop;
         for (const ValueId id : loop.values) declare(id);
         for (const ValueId id : loop.reductions) {
             const Instruction& instruction = kernel_.code[id];
@@ -209,7 +221,9 @@ private:
         text_ += "        }\n";
         for (const ValueId id : loop.reductions) {
             if (kernel_.code[id].op != Op::link_sum) continue;
-            text_ += fmt::format("        {0} = {0} == C_SIGN ? 0 : {0};\n", value(id));
+            const std::string sum = value(id);
+            text_ += is_wgsl() ? fmt::format("        {0} = select({0}, 0u, {0} == C_SIGN);\n", sum)
+                               : fmt::format("        {0} = {0} == C_SIGN ? 0 : {0};\n", sum);
         }
     }
 
@@ -230,8 +244,28 @@ std::string cell_text(const CellKernel& kernel, const KernelNames& names, const 
     return CellPrinter(kernel, names, target, stencil, layout).print();
 }
 
-std::string cells_begin(const TextTarget&, Stencil stencil, const PlaneLayout& layout,
+std::string cells_begin(const TextTarget& target, Stencil stencil, const PlaneLayout& layout,
                         std::int64_t rows_of_item) {
+    const std::int64_t slices = (layout.width + PlaneLayout::row_pad - 1) / PlaneLayout::row_pad;
+    if (target.language == TextLanguage::wgsl) {
+        CHECK(rows_of_item == 1, "a work-item in WGSL computes one cell");
+        std::string text = fmt::format(
+            "    let c_pad = c_call[0].x;\n"
+            "    let c_i = i32(c_id.x);\n"
+            "    let c_row = bitcast<i32>(c_call[0].y) + i32(c_id.y);\n"
+            "    if (c_i >= {0} || c_row >= bitcast<i32>(c_call[0].z)) {{ return; }}\n"
+            "    {{\n"
+            "        let c_j = c_row % {1};\n"
+            "        let c_k = c_row / {1};\n"
+            "        let c_at = c_k * {2} + c_j * {3} + c_i;\n",
+            layout.width, layout.height, layout.slice_stride, layout.stride);
+        if (stencil.links) {
+            text += fmt::format("        c_slice = u32(c_row * {} + c_i / {});\n", slices,
+                                PlaneLayout::row_pad);
+            text += fmt::format("        c_lane = u32(c_i % {});\n", PlaneLayout::row_pad);
+        }
+        return text;
+    }
     std::string text = fmt::format(
         "    const int c_i = get_global_id(0);\n"
         "    const int c_begin = c_first_row + (int)get_global_id(1) * {0};\n"
@@ -241,8 +275,6 @@ std::string cells_begin(const TextTarget&, Stencil stencil, const PlaneLayout& l
         "        const c_long c_at = (c_long)c_k * {2} + (c_long)c_j * {3} + c_i;\n",
         rows_of_item, layout.height, layout.slice_stride, layout.stride);
     if (stencil.links) {
-        const std::int64_t slices =
-            (layout.width + PlaneLayout::row_pad - 1) / PlaneLayout::row_pad;
         text += fmt::format("        const uint c_slice = c_row * {} + c_i / {};\n", slices,
                             PlaneLayout::row_pad);
         text += fmt::format("        const uint c_lane = c_i % {};\n", PlaneLayout::row_pad);

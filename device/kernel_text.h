@@ -1,4 +1,4 @@
-// Prints cell kernels as OpenCL C.
+// Prints cell kernels as OpenCL C or WGSL.
 #pragma once
 
 #include "core/grid.h"
@@ -10,8 +10,9 @@
 
 namespace cascade {
 
-/// The names of planes and uniforms in a printed kernel, as C expressions. Planes are pointers to
-/// cell (0, 0, 0), uniforms are words.
+/// The names of planes and uniforms in a printed kernel, as expressions. Planes are pointers to
+/// cell (0, 0, 0), uniforms are words. In WGSL planes are places in c_planes, masks places of
+/// c_mask().
 struct KernelNames {
     std::vector<std::string> fields, masks, uniforms, results;
 };
@@ -23,7 +24,7 @@ std::string cell_text(const CellKernel& kernel, const KernelNames& names, const 
                       Stencil stencil, const PlaneLayout& layout);
 
 /// The beginning of a kernel: the loops over `rows` rows from c_first_row on, inside which the text
-/// of a cell follows. Work-items are columns, and bands of `rows_of_item` rows.
+/// of a cell follows. Work-items are columns, and bands of `rows_of_item` rows; in WGSL cells.
 std::string cells_begin(const TextTarget& target, Stencil stencil, const PlaneLayout& layout,
                         std::int64_t rows_of_item);
 inline constexpr std::string_view cells_end = "    }\n";

@@ -122,7 +122,7 @@ std::string operation_functions() {
         constexpr std::string_view parameters[] = {"cw a", "cw a, cw b", "cw a, cw b, cw c"};
         const int operands = is_link_reduction(op) ? 2 : info(op).arity;
         text += fmt::format("cw c_{}({}) {{ return {}; }}\n", info(op).name,
-                            parameters[operands - 1], opencl_text(op));
+                            parameters[operands - 1], text_of(op, TextLanguage::opencl));
     }
     return text;
 }

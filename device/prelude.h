@@ -21,6 +21,8 @@
 namespace cascade {
 
 enum class Flushing : std::uint8_t { by_device, by_kernel };
+/// WGSL has no binary64: programs in WGSL are in single precision.
+enum class TextLanguage : std::uint8_t { opencl, wgsl };
 
 /// The device properties and the precision for which a program is printed.
 struct TextTarget {
@@ -31,6 +33,7 @@ struct TextTarget {
     bool has_fast_fma = false;
     /// Whether elements of a plane are counted in 64 bits.
     bool has_large_planes = false;
+    TextLanguage language = TextLanguage::opencl;
 };
 
 /// The types and functions of a program. Must come first.

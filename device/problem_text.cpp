@@ -4,6 +4,7 @@
 #include "core/check.h"
 #include "core/overloaded.h"
 #include "device/kernel_text.h"
+#include "device/wgsl_prelude.h"
 
 #include <fmt/format.h>
 
@@ -33,11 +34,14 @@ public:
 
     std::string print() const {
         const Stencil stencil = problem_.grid.stencil();
-        std::string text = prelude_text(target_) + stencil_text(target_, stencil, layout_);
+        std::string text =
+            is_wgsl()
+                ? wgsl_prelude(target_, wgsl_call_words(problem_)) + wgsl_stencil(stencil, layout_)
+                : prelude_text(target_) + stencil_text(target_, stencil, layout_);
         for (std::size_t pass = 0; pass < problem_.passes.size(); ++pass) {
             const StepProblem::Pass& bound = problem_.passes[pass];
             CHECK(bound.source, "a device prints kernels of known source");
-            text += parameters_of(pass);
+            text += is_wgsl() ? wgsl_names_of(pass) : parameters_of(pass);
             text += cells_begin(target_, stencil, layout_, rows_of_item_);
             text += cell_text(*bound.source, names_of(pass), target_, stencil, layout_);
             text += std::string(cells_end) + "}\n";
@@ -46,6 +50,27 @@ public:
     }
 
 private:
+    bool is_wgsl() const { return target_.language == TextLanguage::wgsl; }
+
+    /// The head of a kernel in WGSL, and names for the words of a call.
+    std::string wgsl_names_of(std::size_t pass) const {
+        std::string text = wgsl_head(kernel_name(pass)) + "{\n";
+        std::size_t word = first_call_word;
+        const auto plane_at = [&](std::string_view name) {
+            text += fmt::format("    let {} = bitcast<i32>({});\n", name, wgsl_call_word(word++));
+        };
+        for (std::uint32_t k = 0; k < problem_.registers; ++k) {
+            plane_at(fmt::format("c_register_{}", k));
+        }
+        plane_at("c_temporaries");
+        plane_at("c_fields");
+        const std::size_t passed = passed_uniforms(problem_.passes[pass]).size();
+        for (std::size_t k = 0; k < passed; ++k) {
+            text += fmt::format("    let c_passed_{} = {};\n", k, wgsl_call_word(word++));
+        }
+        return text;
+    }
+
     std::string parameters_of(std::size_t pass) const {
         std::string text = fmt::format("__kernel void {}(", kernel_name(pass));
         for (std::uint32_t k = 0; k < problem_.registers; ++k) {
@@ -62,9 +87,10 @@ private:
         return text + ") {\n";
     }
 
-    /// A pointer to cell (0, 0, 0) of plane number `plane` of a buffer.
+    /// Cell (0, 0, 0) of plane number `plane` of a buffer.
     std::string plane(std::string_view buffer, std::int64_t plane) const {
-        return fmt::format("{} + {}l", buffer, plane * layout_.size() + layout_.offset(0, 0));
+        return fmt::format("{} + {}{}", buffer, plane * layout_.size() + layout_.offset(0, 0),
+                           is_wgsl() ? "" : "l");
     }
 
     std::string plane(const StepProblem::PlaneRef& ref) const {
@@ -87,7 +113,8 @@ private:
         KernelNames names;
         for (const auto& field : pass.fields) names.fields.push_back(plane(field));
         for (const Mask* mask : pass.masks) {
-            names.masks.push_back(plane("c_masks", place_of(planes_.masks, mask)));
+            names.masks.push_back(
+                plane(is_wgsl() ? "0" : "c_masks", place_of(planes_.masks, mask)));
         }
         for (const auto& result : pass.results) names.results.push_back(plane(result.plane));
         const std::size_t first = first_uniform(problem_, number);
@@ -136,6 +163,14 @@ std::vector<StepProblem::ChangingUniform> passed_uniforms(const StepProblem::Pas
 }
 
 std::string kernel_name(std::size_t pass) { return fmt::format("c_pass_{}", pass); }
+
+std::size_t wgsl_call_words(const StepProblem& problem) {
+    std::size_t passed = 0;
+    for (const StepProblem::Pass& pass : problem.passes) {
+        passed = std::max(passed, passed_uniforms(pass).size());
+    }
+    return first_call_word + problem.registers + 2 + passed;
+}
 
 std::size_t first_uniform(const StepProblem& problem, std::size_t pass) {
     std::size_t count = 0;

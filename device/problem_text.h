@@ -1,4 +1,4 @@
-// Prints the passes of a step as one OpenCL program.
+// Prints the passes of a step as one program.
 #pragma once
 
 #include "device/prelude.h"
@@ -28,11 +28,20 @@ std::vector<StepProblem::ChangingUniform> passed_uniforms(const StepProblem::Pas
 ///   - the links, if cells are linked (link_parameters())
 ///   - c_pad = 0, the first row, the row after the last one
 ///   - a word for each of passed_uniforms()
+/// In WGSL, buffers and the first words of a call are as in wgsl_prelude.h. The words that follow
+/// are, from first_call_word on:
+///   - the places in c_planes at which the planes begin: each register, temporaries, constant
+///   fields
+///   - a word for each of passed_uniforms()
 std::string kernel_name(std::size_t pass);
 
-/// The whole program. A work-item computes `rows_of_item` rows of a column.
+/// The whole program. A work-item computes `rows_of_item` rows of a column, in WGSL 1. A program in
+/// WGSL cannot read aggregates.
 std::string problem_text(const StepProblem& problem, const TextTarget& target,
                          std::int64_t rows_of_item);
+
+/// The number of words of a call in WGSL.
+std::size_t wgsl_call_words(const StepProblem& problem);
 
 /// The number of uniforms of all passes before this one.
 std::size_t first_uniform(const StepProblem& problem, std::size_t pass);

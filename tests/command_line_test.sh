@@ -96,7 +96,7 @@ says err 'did you mean --palette?'
 run 64 fly
 
 # --dump of every form; a script with errors still has tokens and a tree.
-for stage in tokens ast program graph ir; do
+for stage in tokens ast program graph ir wgsl; do
     run 0 check spots.cascade --dump "$stage"
     [ -s out ] && [ ! -s err ] || fail "--dump $stage"
 done
@@ -106,6 +106,10 @@ if [ "$CASCADE_JIT" = 1 ]; then
         [ -s out ] || fail "--dump $stage"
     done
 fi
+run 0 check spots.cascade --dump wgsl
+says out 'fn c_kernel_0('
+run 3 check spots.cascade --dump wgsl --precision double
+says err 'WGSL has no double precision'
 run 2 check wrong.cascade --dump tokens
 [ -s out ] || fail "no tokens of a wrong script"
 run 2 check wrong.cascade --dump ir

@@ -1,39 +1,19 @@
 // A kernel that records its inputs and results, with a WebAssembly module that must compute the
-// same results: a case for tests/wasm/run_cases.mjs.
+// same results: a case for tests/wasm/run_cases.mjs. A case consists of:
+//
+// - its name and the bytes of the module;
+// - the memory before the calls, beginning at address 0;
+// - the number of calls, and the list of arguments of each;
+// - the bytes of a number, the number of results, and for each its address, the list of bytes at
+//   this address after the calls, and a list with 1 for each number that may be anything.
 #pragma once
 
 #include "ir/backend.h"
+#include "tests/support/case_file.h"
 
-#include <cstdint>
-#include <cstdio>
 #include <string>
-#include <vector>
 
 namespace cascade::test {
-
-/// Cases in a file. A case is numbers of 32 bits, little endian, and lists after their length:
-///
-/// - its name and the bytes of the module;
-/// - the memory before the calls, beginning at address 0;
-/// - the number of calls, and the list of arguments of each;
-/// - the bytes of a number, the number of results, and for each its address, the list of bytes at
-///   this address after the calls, and a list with 1 for each number that may be anything.
-class CaseFile {
-public:
-    explicit CaseFile(const std::string& path);
-    ~CaseFile();
-    CaseFile(const CaseFile&) = delete;
-
-    void write(std::uint32_t number);
-    void write(const std::vector<std::uint8_t>& bytes);
-    void write(const std::string& text) {
-        write(std::vector<std::uint8_t>(text.begin(), text.end()));
-    }
-    int cases = 0;
-
-private:
-    std::FILE* file_;
-};
 
 /// How a kernel is recorded.
 struct Recording {

@@ -1,0 +1,25 @@
+// The kernel with which a device is probed, and its operands: numbers that are difficult to round.
+#pragma once
+
+#include "core/grid.h"
+#include "core/plane.h"
+#include "ir/cell_kernel.h"
+
+#include <vector>
+
+namespace cascade {
+
+template <typename Number>
+struct ProbedKernel {
+    /// A result for each probed operation on the fields a and b.
+    CellKernel kernel;
+    /// Words for which inexact devices give wrong results. Each is combined with each.
+    std::vector<WordOf<Number>> words;
+    Grid grid;
+
+    ProbedKernel();
+    /// The planes of a and b.
+    std::vector<Plane<Number>> arguments() const;
+};
+
+}  // namespace cascade

@@ -1,0 +1,39 @@
+// WGSL programs of kernels that belong to no step: for `--dump wgsl`, and for comparing kernels
+// with the interpreter. wgsl_steps.h prints steps.
+#pragma once
+
+#include "core/grid.h"
+#include "device/prelude.h"
+#include "ir/cell_kernel.h"
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace cascade {
+
+/// Kernels in one program, named c_kernel_0 and so on, with planes and uniforms of their own.
+struct WgslKernels {
+    /// The numbers of a kernel's first plane, mask and uniform. Its planes are its fields, then its
+    /// results.
+    struct Place {
+        std::size_t plane = 0, mask = 0, uniform = 0;
+    };
+    std::string text;
+    std::vector<Place> places;
+    Place end;  ///< The numbers of planes, masks and uniforms.
+};
+WgslKernels wgsl_kernels(std::span<const CellKernel* const> kernels, const Grid& grid,
+                         Flushing flushing);
+
+/// The kernel c_halo, which fills halo cells of planes on a grid. Work-items: halo cells of a slice
+/// × (planes · slices), where with halo slices `slices` is 2. Sides are described by words in the
+/// buffer c_sides, binding 5: for each plane its place in c_planes, then the lists of HaloRecords.
+/// Words of a call: first_call_word: the position of the description; then the number of planes;
+/// then 1 for halo slices, else 0.
+std::string wgsl_halo(Flushing flushing, const PlaneLayout& layout);
+inline constexpr std::size_t wgsl_halo_words = 15;
+inline constexpr std::int64_t wgsl_halo_group = 64;
+
+}  // namespace cascade
