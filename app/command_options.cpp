@@ -39,7 +39,7 @@ void run(CLI::App& command, Options& options) {
     groups::add_overrides(command, options.overrides);
     groups::add_simulation(command, options, "Threads; by default all cores");
     groups::add_run_options(command, options.run, RunOption::stop_at, RunOption::stop_at);
-    groups::add_ranks(command, options);
+    groups::add_ranks(command, options, "steps");
     groups::add_device(command, options);
     groups::add_timing(command, options);
     groups::add_quiet(command, options);
@@ -56,6 +56,7 @@ void sweep(CLI::App& command, Options& options) {
     groups::add_simulation(command, options,
                            "Runs at once, each on one thread; by default as many\n"
                            "as there are cores");
+    groups::add_ranks(command, options, "runs");
     groups::add_quiet(command, options);
     groups::add_limits(command, options);
     groups::add_json(command, options);

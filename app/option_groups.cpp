@@ -92,8 +92,9 @@ void add_timing(CLI::App& app, Options& options) {
         ->group(execution_group);
 }
 
-void add_ranks(CLI::App& app, Options& options) {
-    add_value(app, "--ranks", "N", "Share the steps among N processes, which mpiexec starts",
+void add_ranks(CLI::App& app, Options& options, std::string_view work) {
+    add_value(app, "--ranks", "N",
+              fmt::format("Share the {} among N processes, which mpiexec starts", work),
               whole_number(1, 100000), [&](auto ranks) { options.ranks = static_cast<int>(ranks); })
         ->group(execution_group);
 }

@@ -28,7 +28,8 @@ void add_simulation(CLI::App& app, Options& options, const std::string& threads)
 /// Adds the arguments and options of `cascade mesh` for models and the cells on them.
 void add_mesh(CLI::App& app, Options& options);
 void add_timing(CLI::App& app, Options& options);
-void add_ranks(CLI::App& app, Options& options);
+/// `work` is what the ranks share: "steps" or "runs".
+void add_ranks(CLI::App& app, Options& options, std::string_view work);
 void add_device(CLI::App& app, Options& options);
 void add_limits(CLI::App& app, Options& options);
 void add_quiet(CLI::App& app, Options& options);

@@ -1,4 +1,4 @@
-// Runs a script on one of several ranks.
+// Runs a script, or the runs of a sweep, on one of several ranks.
 #include "app/rank_process.h"
 
 #include "app/exit_status.h"
@@ -76,6 +76,12 @@ Result<void> check_divisible(const Script& script, const RunRequest& request, in
                    fmt::format("it has room for at most {}", counted(parts, "rank")));
 }
 
+/// Divides the cores of this machine among its ranks, unless --threads gives a number.
+void share_threads(SimulationOptions& simulation) {
+    if (simulation.threads > 0) return;
+    simulation.threads = std::max(1, hardware_threads() / ranks_on_this_machine());
+}
+
 /// Ends a rank because of a failure that all ranks find. Only rank 0 prints it.
 int refuse(const Console& console, const Failure& failure, int status) {
     if (launched_rank() == 0) console.fail(failure);
@@ -126,16 +132,25 @@ int run_silently(const Options& options, const Console& console, Ranks& ranks,
 
 }  // namespace
 
+Result<void> share_runs(const Script& script, Ranks& ranks, SweepRequest& request) {
+    if (auto same = ranks.compare("script", script.text); !same) return same;
+    request.messenger = &ranks.messenger();
+    request.ranks_here = ranks_on_this_machine();
+    share_threads(request.simulation);
+    return {};
+}
+
 Result<void> share_steps(const Script& script, Ranks& ranks, RunRequest& request,
                          RunControl& control) {
     if (auto same = ranks.compare("script", script.text); !same) return same;
     if (auto good = check_divisible(script, request, ranks.count()); !good) return good;
     SimulationOptions& simulation = request.simulation;
     simulation.executor = ranks.executor(control.cancel);
-    if (simulation.threads == 0) {
-        simulation.threads = std::max(1, hardware_threads() / ranks_on_this_machine());
+    share_threads(simulation);
+    if (ranks.is_root()) {
+        ranks.tell_slow([&control](const std::string& words) { control.note(words); });
+        return {};
     }
-    if (ranks.is_root()) return {};
     RunRequest steps_alone;
     steps_alone.simulation = simulation;
     steps_alone.resume = request.resume;

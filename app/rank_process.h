@@ -22,6 +22,10 @@ int run_as_rank(const Options& options, Console& console, CommandOnRanks& comman
 Result<void> share_steps(const Script& script, Ranks& ranks, RunRequest& request,
                          RunControl& control);
 
+/// Makes this process take its share of the runs of a sweep. Fails if this rank has another script
+/// than rank 0. `ranks` must outlive the sweep.
+Result<void> share_runs(const Script& script, Ranks& ranks, SweepRequest& request);
+
 /// Starts the ranks of `--ranks N` by mpiexec, which runs this program again with the same
 /// arguments, and waits for them. Passes Ctrl-C on to rank 0. Prints one message if a rank fails or
 /// is killed.

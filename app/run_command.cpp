@@ -281,6 +281,7 @@ static int run_script(const Options& options, Console& console, Ranks* ranks) {
         const int status =
             tell(*report, options, std::max(interrupt.signal(), 2), limit.reached(), console);
         if (options.timing) console.say(time_table(times, console.error().is_terminal));
+        if (options.timing && ranks != nullptr) console.say(rank_table(ranks->loads()));
         return status;
     }
     if (options.timing && !script.diagnostics.has_errors()) {

@@ -150,6 +150,11 @@ int tell_end(const MpiexecOutput& output, int status, const Options& options,
         if (interrupts > 1) console.say("cascade: ended at once; nothing has been written\n");
         return exit_status::signal_base + SIGINT;
     }
+    if (!output.killed().empty() && options.command == Command::sweep) {
+        console.fail({output.killed() + ", so all ranks have ended",
+                      "the same command goes on with the runs that are missing"});
+        return exit_status::failed_run;
+    }
     if (!output.killed().empty()) {
         const bool saves = !options.run.save.empty() && options.run.checkpoint_seconds > 0;
         console.fail({output.killed() + ", so all ranks have ended",

@@ -9,8 +9,11 @@
 #include "app/limits.h"
 #include "app/option_values.h"
 #include "app/progress_display.h"
+#include "app/rank_process.h"
 #include "core/counted.h"
 #include "core/with_commas.h"
+#include "ranks/launcher.h"
+#include "ranks/ranks.h"
 
 #include <fmt/format.h>
 
@@ -93,9 +96,7 @@ Result<std::vector<Variation>> variations(const Options& options, const LoadedFi
         "--seeds 1..20");
 }
 
-}  // namespace
-
-int sweep_command(const Options& options, Console& console) {
+int sweep_script(const Options& options, Console& console, Ranks* ranks) {
     auto file = load(options.scripts[0], options.overrides, console, typed_of(options));
     if (!file) return exit_status::wrong_script;
     const Script& script = file->script;
@@ -130,14 +131,23 @@ int sweep_command(const Options& options, Console& console) {
     request.picture.detail = 1;
     request.picture.space_time = false;
 
+    if (ranks != nullptr) {
+        if (auto shared = share_runs(script, *ranks, request); !shared) {
+            console.fail(shared.error());
+            return exit_status::failed_run;
+        }
+    }
+    const bool is_first = ranks == nullptr || ranks->is_root();
+
     SweepControl control;
-    ProgressDisplay display = make_progress_display(console, options.quiet);
+    ProgressDisplay display = make_progress_display(console, options.quiet || !is_first);
     control.report = [&](const SweepProgress& progress) { display.show(progress); };
     std::atomic<bool> hurry = false;
     const std::atomic<bool> may_end = true;  // Each run that is done has been kept.
     const LastMoments last(options.limit_seconds, hurry, may_end);
-    const InterruptGuard interrupt(control.cancel);
-    const TimeLimit limit(options.limit_seconds, control.cancel);
+    std::atomic<bool> ignored = false;  // Rank 0 ends the runs of all ranks.
+    const InterruptGuard interrupt(is_first ? control.cancel : ignored);
+    const TimeLimit limit(is_first ? options.limit_seconds : 0, control.cancel);
     const auto report = sweep(script, request, control);
     display.clear();
     if (report) {
@@ -149,6 +159,14 @@ int sweep_command(const Options& options, Console& console) {
     }
     console.fail(report.error().failure);
     return report.error().is_in_sets ? exit_status::wrong_script : exit_status::failed_run;
+}
+
+}  // namespace
+
+int sweep_command(const Options& options, Console& console) {
+    if (launched_ranks()) return run_as_rank(options, console, sweep_script);
+    if (options.ranks > 0) return start_ranks(options, console);
+    return sweep_script(options, console, nullptr);
 }
 
 }  // namespace cascade

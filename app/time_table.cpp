@@ -4,6 +4,7 @@
 
 #include "core/counted.h"
 #include "core/quantities.h"
+#include "core/with_commas.h"
 
 #include <fmt/format.h>
 
@@ -119,6 +120,19 @@ std::string time_table(TimeAccount& account, bool bars) {
     }
     table.line("everything", everything);
     return table.text();
+}
+
+std::string rank_table(std::span<const RankLoad> loads) {
+    std::string text = fmt::format("{:<24}{:>15}{:>15}{:>20}\n", "steps of each rank", "processor",
+                                   "in messages", "bytes of halos");
+    for (std::size_t rank = 0; rank < loads.size(); ++rank) {
+        const RankLoad& load = loads[rank];
+        text +=
+            fmt::format("  {:<22}{:>12.1f} ms{:>12.1f} ms{:>20}\n",
+                        fmt::format("{} on {}", rank, load.machine.data()), 1e3 * load.processor,
+                        1e3 * load.messages, with_commas(load.halo_bytes));
+    }
+    return text;
 }
 
 }  // namespace cascade

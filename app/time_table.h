@@ -1,8 +1,10 @@
 // The table of `--timing`.
 #pragma once
 
+#include "ranks/rank_load.h"
 #include "run/stage/time_account.h"
 
+#include <span>
 #include <string>
 
 namespace cascade {
@@ -11,5 +13,9 @@ namespace cascade {
 /// time, and a line for each stage if there are several. `bars` adds a bar to each line. Ends with
 /// a newline.
 std::string time_table(TimeAccount& account, bool bars);
+
+/// Describes what each rank has spent on steps, a line for each rank: its machine, processor time
+/// in kernels and copies, time in messages, and bytes of halos. Ends with a newline.
+std::string rank_table(std::span<const RankLoad> loads);
 
 }  // namespace cascade

@@ -1,12 +1,14 @@
 // Messages between the ranks of a run: processes that share its steps, perhaps on several machines.
 //
-// Calls are collective: all ranks call the same functions in the same order. Messages are only
-// copied and never added, because the order in which an MPI library adds numbers depends on the
-// library and on the number of ranks.
+// Calls are collective, except post() and receive(): all ranks call the same functions in the same
+// order. Messages are only copied and never added, because the order in which an MPI library adds
+// numbers depends on the library and on the number of ranks.
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
+#include <vector>
 
 namespace cascade {
 
@@ -16,6 +18,12 @@ public:
     struct Message {
         int rank = 0;
         std::span<std::byte> bytes;  ///< The bytes to send, or the memory for received bytes.
+    };
+
+    /// A message that another rank has posted.
+    struct Letter {
+        int from = 0;
+        std::vector<std::byte> bytes;
     };
 
     virtual ~Messenger() = default;
@@ -35,6 +43,13 @@ public:
     virtual void complete(std::span<const std::span<std::byte>> blocks) = 0;
     /// Copies bytes of rank 0 to all ranks.
     virtual void broadcast(std::span<std::byte> bytes) = 0;
+
+    /// Sends a message without waiting until it is received. Any rank may call it at any time.
+    virtual void post(int rank, std::vector<std::byte> bytes) = 0;
+    /// The next posted message of any rank. Empty if none has arrived. Messages of one rank arrive
+    /// in the order in which it has posted them. Every posted message must be received before
+    /// finish().
+    virtual std::optional<Letter> receive() = 0;
 
     /// Ends the communication, when all ranks have called it.
     virtual void finish() = 0;

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
+#include <list>
+#include <utility>
 #include <vector>
 
 namespace cascade {
@@ -23,6 +25,9 @@ void for_pieces(std::span<std::byte> bytes, const Use& use) {
         use(bytes.subspan(begin, std::min(most_bytes, bytes.size() - begin)));
     }
 }
+
+/// The tags of messages that ranks exchange and post, which are received apart.
+constexpr int exchanged = 0, posted = 1;
 
 int length(std::span<const std::byte> bytes) { return static_cast<int>(bytes.size()); }
 
@@ -44,13 +49,13 @@ public:
         requests_.clear();
         for (const Message& each : in) {
             for_pieces(each.bytes, [&](std::span<std::byte> piece) {
-                MPI_Irecv(piece.data(), length(piece), MPI_BYTE, each.rank, 0, all_,
+                MPI_Irecv(piece.data(), length(piece), MPI_BYTE, each.rank, exchanged, all_,
                           &requests_.emplace_back());
             });
         }
         for (const Message& each : out) {
             for_pieces(each.bytes, [&](std::span<std::byte> piece) {
-                MPI_Isend(piece.data(), length(piece), MPI_BYTE, each.rank, 0, all_,
+                MPI_Isend(piece.data(), length(piece), MPI_BYTE, each.rank, exchanged, all_,
                           &requests_.emplace_back());
             });
         }
@@ -79,7 +84,30 @@ public:
 
     void broadcast(std::span<std::byte> bytes) override { send_from(0, bytes); }
 
-    void finish() override { MPI_Finalize(); }
+    void post(int rank, std::vector<std::byte> bytes) override {
+        drop_sent();
+        Posted& last = on_their_way_.emplace_back(std::move(bytes), MPI_REQUEST_NULL);
+        MPI_Isend(last.bytes.data(), length(last.bytes), MPI_BYTE, rank, posted, all_,
+                  &last.request);
+    }
+
+    std::optional<Letter> receive() override {
+        drop_sent();
+        int has_come = 0, bytes = 0;
+        MPI_Status status;
+        MPI_Iprobe(MPI_ANY_SOURCE, posted, all_, &has_come, &status);
+        if (has_come == 0) return std::nullopt;
+        MPI_Get_count(&status, MPI_BYTE, &bytes);
+        Letter letter{status.MPI_SOURCE, std::vector<std::byte>(static_cast<std::size_t>(bytes))};
+        MPI_Recv(letter.bytes.data(), bytes, MPI_BYTE, letter.from, posted, all_,
+                 MPI_STATUS_IGNORE);
+        return letter;
+    }
+
+    void finish() override {
+        for (Posted& each : on_their_way_) MPI_Wait(&each.request, MPI_STATUS_IGNORE);
+        MPI_Finalize();
+    }
 
     [[noreturn]] void abort(int status) override {
         MPI_Abort(MPI_COMM_WORLD, status);
@@ -87,6 +115,23 @@ public:
     }
 
 private:
+    /// A message that MPI may still be reading.
+    struct Posted {
+        std::vector<std::byte> bytes;
+        MPI_Request request;
+
+        Posted(std::vector<std::byte> text, MPI_Request sent)
+            : bytes(std::move(text)), request(sent) {}
+    };
+
+    void drop_sent() {
+        on_their_way_.remove_if([](Posted& each) {
+            int is_sent = 0;
+            MPI_Test(&each.request, &is_sent, MPI_STATUS_IGNORE);
+            return is_sent != 0;
+        });
+    }
+
     void send_from(int rank, std::span<std::byte> bytes) {
         for_pieces(bytes, [&](std::span<std::byte> piece) {
             MPI_Bcast(piece.data(), length(piece), MPI_BYTE, rank, all_);
@@ -97,6 +142,7 @@ private:
     int rank_ = 0, count_ = 1;
     std::vector<MPI_Request> requests_;
     std::vector<int> lengths_, offsets_;
+    std::list<Posted> on_their_way_;
 };
 
 }  // namespace

@@ -26,9 +26,10 @@ void copy(std::span<const std::byte> from, std::span<std::byte> to) {
 
 }  // namespace
 
-RankExchange::RankExchange(const Grid& grid, Messenger& messenger)
+RankExchange::RankExchange(const Grid& grid, Messenger& messenger, RankLoad& load)
     : Exchange(grid, cut_grid(grid, messenger.count()), static_cast<std::size_t>(messenger.rank())),
       messenger_(messenger),
+      load_(load),
       layer_(rows_of_layer(PlaneLayout(grid))) {
     CHECK(parts_.size() == static_cast<std::size_t>(messenger.count()), "a part for each rank");
 }
@@ -73,6 +74,7 @@ const std::vector<RankExchange::Transfer>& RankExchange::transfers(std::int64_t 
 }
 
 void RankExchange::fill_halos(std::span<const Shared> planes, std::int64_t width) {
+    const TimeOfMessages time(load_);
     const auto own = static_cast<int>(number_);
     std::vector<Message> out, in;
     for (const Shared& plane : planes) {
@@ -86,7 +88,7 @@ void RankExchange::fill_halos(std::span<const Shared> planes, std::int64_t width
                 in.push_back({each.from, memory_of(*plane.field, halo)});
             } else {
                 out.push_back(message(each.to, memory_of(std::as_const(*plane.field), each.rows)));
-                halo_bytes_sent_ += static_cast<std::int64_t>(out.back().bytes.size());
+                load_.halo_bytes += static_cast<std::int64_t>(out.back().bytes.size());
             }
         }
     }
@@ -94,6 +96,7 @@ void RankExchange::fill_halos(std::span<const Shared> planes, std::int64_t width
 }
 
 void RankExchange::share_rows(std::span<std::vector<double>* const> rows) {
+    const TimeOfMessages time(load_);
     for (std::vector<double>* const each : rows) {
         std::vector<std::span<std::byte>> blocks;
         for (const RowRange part : parts_) {
@@ -112,6 +115,7 @@ RowRange RankExchange::given_rows(std::size_t part) const {
 }
 
 void RankExchange::gather(std::span<const Field* const> own, std::span<Field* const> whole) {
+    const TimeOfMessages time(load_);
     std::vector<Message> out, in;
     for (std::size_t k = 0; k < own.size(); ++k) {
         const auto mine = memory_of(*own[k], given_rows(number_));
@@ -129,6 +133,7 @@ void RankExchange::gather(std::span<const Field* const> own, std::span<Field* co
 
 void RankExchange::scatter(std::span<const Field* const> whole, std::span<Field* const> own) {
     if (own.empty()) return;
+    const TimeOfMessages time(load_);
     // On linked grids, a part stores more rows than its own and a halo of one layer.
     std::vector<RowRange> rows(count());
     rows[number_] = common(held(own[0]->layout()), held(PlaneLayout(grid_)));
@@ -148,6 +153,16 @@ void RankExchange::scatter(std::span<const Field* const> whole, std::span<Field*
         }
     }
     messenger_.exchange(out, in);
+}
+
+bool RankExchange::all_agree(bool own) {
+    const TimeOfMessages time(load_);
+    std::vector<std::byte> answers(count());
+    answers[number_] = std::byte{own};
+    std::vector<std::span<std::byte>> blocks;
+    for (std::byte& each : answers) blocks.emplace_back(&each, 1);
+    messenger_.complete(blocks);
+    return std::find(answers.begin(), answers.end(), std::byte{0}) == answers.end();
 }
 
 void RankExchange::gather_everywhere(std::span<const Field> own, std::span<Field> whole) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ranks/messenger.h"
+#include "ranks/rank_load.h"
 #include "solvers/exchange.h"
 
 #include <cstdint>
@@ -13,10 +14,11 @@ namespace cascade {
 
 class RankExchange final : public Exchange {
 public:
-    /// Divides the grid among all ranks of the messenger, which must outlive the exchange. The grid
-    /// must have at least as many rows as there are ranks. If it has several slices, it must have
-    /// at least as many slices.
-    RankExchange(const Grid& grid, Messenger& messenger);
+    /// Divides the grid among all ranks of the messenger. The grid must have at least as many rows
+    /// as there are ranks. If it has several slices, it must have at least as many slices. Adds the
+    /// time in messages and the bytes of halos to `load`. Messenger and load must outlive the
+    /// exchange.
+    RankExchange(const Grid& grid, Messenger& messenger, RankLoad& load);
 
     void fill_halos(std::span<const Shared> planes, std::int64_t width) override;
     void share_rows(std::span<std::vector<double>* const> rows) override;
@@ -27,8 +29,8 @@ public:
     /// grid.
     void gather_everywhere(std::span<const Field> own, std::span<Field> whole);
 
-    /// The bytes of halos that this rank has sent so far.
-    std::int64_t halo_bytes_sent() const { return halo_bytes_sent_; }
+    /// Whether all ranks pass true.
+    bool all_agree(bool own);
 
 private:
     /// Layers that a part computes and that a part, perhaps the same one, needs in its halo.
@@ -46,9 +48,9 @@ private:
     RowRange given_rows(std::size_t part) const;
 
     Messenger& messenger_;
+    RankLoad& load_;
     std::int64_t layer_ = 1;                                   ///< The number of rows in a layer.
     std::map<std::int64_t, std::vector<Transfer>> transfers_;  ///< By width of the halo.
-    std::int64_t halo_bytes_sent_ = 0;
 };
 
 }  // namespace cascade

@@ -10,6 +10,55 @@
 
 namespace cascade {
 
+namespace {
+
+constexpr auto between_comparisons = std::chrono::seconds(10);
+
+std::array<char, 64> this_machine() {
+    std::array<char, 64> name{};
+    if (::gethostname(name.data(), name.size() - 1) != 0) name = {'?'};
+    return name;
+}
+
+}  // namespace
+
+Ranks::Ranks(Messenger& messenger)
+    : messenger_(messenger),
+      compared_(static_cast<std::size_t>(messenger.count())),
+      is_told_(compared_.size()) {
+    load_.machine = this_machine();
+}
+
+std::vector<RankLoad> Ranks::loads() {
+    std::vector<RankLoad> all(static_cast<std::size_t>(count()));
+    all[static_cast<std::size_t>(rank())] = load_;
+    std::vector<std::span<std::byte>> blocks;
+    for (RankLoad& each : all) blocks.push_back(std::as_writable_bytes(std::span(&each, 1)));
+    messenger_.complete(blocks);
+    return all;
+}
+
+bool Ranks::is_time_to_compare() const {
+    return std::chrono::steady_clock::now() - compared_at_ >= between_comparisons;
+}
+
+void Ranks::compare_loads() {
+    compared_at_ = std::chrono::steady_clock::now();
+    const std::vector<RankLoad> now = loads();
+    std::vector<double> seconds;
+    for (std::size_t k = 0; k < now.size(); ++k) {
+        seconds.push_back(now[k].computing - compared_[k].computing);
+    }
+    compared_ = now;
+    const auto slow = slow_rank(seconds);
+    if (!slow || !tell_slow_ || is_told_[slow->rank]) return;
+    is_told_[slow->rank] = true;
+    tell_slow_(
+        fmt::format("rank {} of {} on {} takes {:.1f} times as long for its steps as the "
+                    "median of all ranks, and the others wait for it",
+                    slow->rank, count(), now[slow->rank].machine.data(), slow->times));
+}
+
 Result<void> Ranks::compare(std::string_view what, std::string_view text) {
     const std::array own{fnv1a(text), static_cast<std::uint64_t>(text.size())};
     std::array first = own;
@@ -31,9 +80,7 @@ int Ranks::finish(int status) {
 }
 
 std::string name_of_rank(const Ranks& ranks) {
-    std::array<char, 256> machine{};
-    if (::gethostname(machine.data(), machine.size() - 1) != 0) machine[0] = '?';
-    return fmt::format("rank {} of {} on {}", ranks.rank(), ranks.count(), machine.data());
+    return fmt::format("rank {} of {} on {}", ranks.rank(), ranks.count(), this_machine().data());
 }
 
 }  // namespace cascade

@@ -6,23 +6,28 @@
 
 #include "core/result.h"
 #include "ranks/messenger.h"
+#include "ranks/rank_load.h"
 #include "solvers/executor.h"
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace cascade {
 
 class Ranks {
 public:
     /// The messenger must outlive the object.
-    explicit Ranks(Messenger& messenger) : messenger_(messenger) {}
+    explicit Ranks(Messenger& messenger);
 
     int rank() const { return messenger_.rank(); }
     int count() const { return messenger_.count(); }
     bool is_root() const { return rank() == 0; }
+    Messenger& messenger() { return messenger_; }
 
     /// Set on rank 0 to end the run on all ranks, after the batch of steps that they have begun.
     std::atomic<bool>& end_flag() { return is_to_end_; }
@@ -38,6 +43,19 @@ public:
     /// flag and this object must outlive the executors.
     MakeExecutor executor(std::atomic<bool>& cancel);
 
+    /// What this rank has spent on steps so far.
+    RankLoad& load() { return load_; }
+    /// What all ranks have spent. All ranks must call this.
+    std::vector<RankLoad> loads();
+    /// Sets a function that rank 0 calls with a sentence about a rank that keeps the others
+    /// waiting, once for each such rank.
+    void tell_slow(std::function<void(const std::string&)> tell) { tell_slow_ = std::move(tell); }
+    /// Whether ten seconds have passed since ranks were compared.
+    bool is_time_to_compare() const;
+    /// Finds ranks that took more than twice the median time since the last call. All ranks must
+    /// call this.
+    void compare_loads();
+
     /// Waits for all ranks, ends the communication, and returns the exit status of rank 0 on rank
     /// 0, and 0 on all others.
     int finish(int status);
@@ -47,9 +65,14 @@ public:
 private:
     Messenger& messenger_;
     std::atomic<bool> is_to_end_{false};
+    RankLoad load_;
+    std::function<void(const std::string&)> tell_slow_;
+    std::vector<RankLoad> compared_;  ///< All loads at the last comparison.
+    std::chrono::steady_clock::time_point compared_at_ = std::chrono::steady_clock::now();
+    std::vector<bool> is_told_;  ///< The ranks that have been named.
 };
 
-/// "rank 1 of 4 (on the machine NAME)"
+/// "rank 1 of 4 on NAME", the name of its machine
 std::string name_of_rank(const Ranks& ranks);
 
 }  // namespace cascade

@@ -20,14 +20,14 @@ public:
     /// The data that the executors of all stages share.
     struct Shared {
         Messenger& messenger;
-        const std::atomic<bool>& is_to_end;
+        Ranks& ranks;
         std::atomic<bool>& cancel;
     };
 
     RanksExecutor(const StepProblem& problem, std::vector<Field> species, int most_threads,
                   bool keeps, const Shared& shared)
         : shared_(shared),
-          exchange_(problem.grid, shared.messenger),
+          exchange_(problem.grid, shared.messenger, shared.ranks.load()),
           layout_(layout_of(problem, &exchange_)),
           part_(make_part_executor(problem, cut(species), most_threads, keeps, exchange_)) {}
 
@@ -57,21 +57,28 @@ public:
     bool run(const StageClock& clock, StepPass first, std::size_t count, bool check,
              const std::atomic<bool>*) override {
         forget();
+        const TimeOfSteps time(shared_.ranks.load());
         const bool is_finite = part_->run(clock, first, count, check, nullptr);
-        return check ? all_of_ranks(is_finite) : is_finite;
+        return check ? exchange_.all_agree(is_finite) : is_finite;
     }
     std::vector<ErrorOfStep> run_judged(const StageClock& clock, StepPass first,
                                         const std::atomic<bool>*) override {
         forget();
+        const TimeOfSteps time(shared_.ranks.load());
         return part_->run_judged(clock, first, nullptr);
     }
-    bool is_finite(int copy) override { return all_of_ranks(part_->is_finite(copy)); }
+    bool is_finite(int copy) override {
+        const TimeOfSteps time(shared_.ranks.load());
+        return exchange_.all_agree(part_->is_finite(copy));
+    }
 
     LoopDecision agree(LoopDecision own) override {
-        std::array<std::int64_t, 4> words = {own.steps, own.is_looked_at, own.is_kept,
-                                             shared_.is_to_end};
+        std::array<std::int64_t, 5> words = {own.steps, own.is_looked_at, own.is_kept,
+                                             shared_.ranks.end_flag(),
+                                             shared_.ranks.is_time_to_compare()};
         shared_.messenger.broadcast(std::as_writable_bytes(std::span(words)));
         if (words[3] != 0) shared_.cancel = true;
+        if (words[4] != 0) shared_.ranks.compare_loads();
         return {words[0], words[1] != 0, words[2] != 0};
     }
 
@@ -83,21 +90,12 @@ public:
     Stepping stepping() const override {
         Stepping stepping = part_->stepping();
         stepping.words = fmt::format("{} ranks, rank 0 sent {} bytes of halos", exchange_.count(),
-                                     exchange_.halo_bytes_sent());
+                                     shared_.ranks.load().halo_bytes - bytes_before_);
         stepping.why = "";
         return stepping;
     }
 
 private:
-    bool all_of_ranks(bool own) {
-        std::vector<std::byte> answers(exchange_.count());
-        answers[static_cast<std::size_t>(shared_.messenger.rank())] = std::byte{own};
-        std::vector<std::span<std::byte>> blocks;
-        for (std::byte& each : answers) blocks.emplace_back(&each, 1);
-        shared_.messenger.complete(blocks);
-        return std::find(answers.begin(), answers.end(), std::byte{0}) == answers.end();
-    }
-
     /// Frees the memory of whole planes.
     void forget() {
         fetched_.clear();
@@ -122,6 +120,7 @@ private:
     }
 
     Shared shared_;
+    const std::int64_t bytes_before_ = shared_.ranks.load().halo_bytes;
     RankExchange exchange_;
     PlaneLayout layout_;
     std::unique_ptr<Executor> part_;
@@ -138,8 +137,7 @@ MakeExecutor Ranks::executor(std::atomic<bool>& cancel) {
             return make_thread_executor(problem, std::move(species), most_threads, keeps);
         }
         return std::make_unique<RanksExecutor>(problem, std::move(species), most_threads, keeps,
-                                               RanksExecutor::Shared{messenger_, is_to_end_,
-                                                                     cancel});
+                                               RanksExecutor::Shared{messenger_, *this, cancel});
     };
 }
 

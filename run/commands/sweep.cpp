@@ -1,12 +1,14 @@
 // Several threads take runs, each of which uses a single thread. All runs share a compiler. Each
-// result is written as soon as its run ends, so that a later sweep can reuse it.
+// result is written as soon as its run ends, so that a later sweep can reuse it. If ranks share the
+// sweep, the thread that has called sweep() exchanges messages while the others take runs.
 #include "run/commands/sweep.h"
 
-#include "core/file.h"
+#include "core/hash.h"
 #include "core/parallel.h"
-#include "core/temporary_file.h"
 #include "run/commands/run.h"
+#include "run/commands/sweep_folder.h"
 #include "run/commands/sweep_plan.h"
+#include "run/commands/sweep_queue.h"
 #include "run/domain/free_memory.h"
 #include "run/pictures/measured.h"
 #include "run/pictures/picture_remarks.h"
@@ -18,6 +20,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
@@ -30,6 +33,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr auto between_reports = std::chrono::milliseconds(100);
+constexpr auto between_messages = std::chrono::milliseconds(1);
 
 /// Joins the lines of a text, so that it fits into a cell of the table.
 std::string one_line(std::string text) {
@@ -50,19 +54,24 @@ public:
     tl::expected<SweepReport, SweepError> run();
 
 private:
-    Result<void> prepare_folders();
-    Result<std::optional<SweepResult>> gather(const std::string& key);
-    Result<bool> is_done(std::size_t number);
-    Result<void> choose_workers(const std::vector<std::size_t>& waiting);
-    void run_all(const std::vector<std::size_t>& waiting);
-    void work(const std::vector<std::size_t>& waiting, RunControl& control);
+    Result<std::vector<std::size_t>> find_waiting();
+    Result<std::size_t> agree(std::size_t waiting);
+    Result<void> choose_workers(std::size_t waiting);
+    void run_all();
+    void work(RunControl& control);
     void take(std::size_t number, RunControl& control);
     Result<void> run_stages(Script& script, Simulation& simulation, RunControl& control,
                             SweepResult& result);
-    void watch(std::vector<std::unique_ptr<RunControl>>& controls);
+    void watch();
+    void tend();
     void report();
     void keep(std::size_t number, SweepResult result);
     void give_up(SweepError why);
+    tl::expected<SweepReport, SweepError> finish();
+
+    bool is_root() const {
+        return request_.messenger == nullptr || request_.messenger->rank() == 0;
+    }
 
     const Script& script_;
     const SweepRequest& request_;
@@ -72,72 +81,28 @@ private:
     SimulationOptions simulation_;
     SweepPlan plan_;
     std::vector<std::optional<SweepResult>> results_;
-    double waiting_runs_ = 0;  ///< The number of runs to take.
+    std::size_t waiting_runs_ = 0;  ///< The number of runs to take, on all ranks together.
     int workers_ = 1;
     SweepReport report_;
-    Clock::time_point begun_;
+    Clock::time_point begun_, reported_;
+    std::unique_ptr<SweepQueue> queue_;
+    std::vector<std::unique_ptr<RunControl>> controls_;  ///< One for each thread.
     /// Whether no thread could be created. The caller's thread then takes the runs.
     bool is_alone_ = false;
 
     std::mutex mutex_;  ///< Protects the members below, and `results_` during the runs.
     std::condition_variable changed_;
-    std::size_t next_ = 0;
     std::size_t working_ = 0;
     double shares_done_ = 0;  ///< The sum over all runs of the finished fraction of each, 0 … 1.
     std::optional<SweepError> stopped_by_;
 };
 
-Result<void> Sweeper::prepare_folders() {
-    if (auto good = check_sweep_film(request_, control_.cancel); !good) return good;
-    folder_ = request_.folder;
-    if (folder_.empty()) folder_ = output_stem(script_) + "_sweep";
-    if (auto made = make_folder(folder_ / "runs"); !made) return made;
-    for (const char* name : {"sheet.png", "features.csv", "runs/x.json"}) {
-        if (auto good = check_writable(folder_ / name); !good) return good;
-    }
-    for (const auto& folder : {folder_, folder_ / "runs"}) remove_dead_temporaries(folder);
-    return {};
-}
-
-/// Copies the result of a run from another sweep. Returns nothing if no sweep has it.
-Result<std::optional<SweepResult>> Sweeper::gather(const std::string& key) {
-    for (const auto& folder : request_.gathered) {
-        auto result = read_result(folder / "runs", key);
-        if (!result) continue;
-        if (auto written = write_result(folder_ / "runs", key, *result); !written) {
-            return tl::unexpected(written.error());
-        }
-        return result;
-    }
-    return std::optional<SweepResult>();
-}
-
-/// Uses the result of an earlier sweep for a run. Returns false if there is none.
-Result<bool> Sweeper::is_done(std::size_t number) {
-    if (request_.force) return false;
-    const std::string& key = plan_.runs[number].key;
-    auto result = read_result(folder_ / "runs", key);
-    if (!result) {
-        auto gathered = gather(key);
-        if (!gathered) return tl::unexpected(gathered.error());
-        result = *std::move(gathered);
-    }
-    if (!result) return false;
-    const auto saved =
-        folder_ / "fields" / folder_name(request_.varied, plan_.runs[number].values) / "run.json";
-    std::error_code error;
-    const bool has_fields = result->failed() || std::filesystem::exists(saved, error);
-    if (request_.fields && !has_fields) return false;
-    results_[number] = std::move(*result);
-    return true;
-}
-
 /// Chooses the number of concurrent runs, as far as the threads and the free memory allow.
-Result<void> Sweeper::choose_workers(const std::vector<std::size_t>& waiting) {
+Result<void> Sweeper::choose_workers(std::size_t waiting) {
     const int threads =
         request_.simulation.threads > 0 ? request_.simulation.threads : hardware_threads();
-    workers_ = std::min<int>(threads, static_cast<int>(waiting.size()));
-    double memory = static_cast<double>(available_memory());
+    workers_ = std::min<int>(threads, static_cast<int>(waiting));
+    double memory = static_cast<double>(available_memory()) / request_.ranks_here;
     if (request_.simulation.memory_limit > 0) {
         const auto limit = static_cast<double>(request_.simulation.memory_limit);
         memory = memory > 0 ? std::min(memory, limit) : limit;
@@ -210,6 +175,7 @@ void Sweeper::take(std::size_t number, RunControl& control) {
 }
 
 void Sweeper::keep(std::size_t number, SweepResult result) {
+    if (!is_root()) return queue_->give(number, result);
     if (auto written = write_result(folder_ / "runs", plan_.runs[number].key, result); !written) {
         return give_up({written.error()});
     }
@@ -225,7 +191,7 @@ void Sweeper::give_up(SweepError why) {
     control_.cancel = true;
 }
 
-void Sweeper::work(const std::vector<std::size_t>& waiting, RunControl& control) {
+void Sweeper::work(RunControl& control) {
     double counted = 0;  // The fraction of this run that is already included in `shares_done_`.
     control.report = [&](const Progress& progress) {
         const double stage = progress.steps > 0 ? static_cast<double>(progress.step) /
@@ -237,19 +203,13 @@ void Sweeper::work(const std::vector<std::size_t>& waiting, RunControl& control)
             shares_done_ += share - counted;
             counted = share;
         }
-        if (!is_alone_) return;
-        if (control_.cancel) control.cancel = true;
-        report();
+        if (is_alone_) tend();
     };
-    while (true) {
-        std::size_t number = 0;
-        {
-            const std::lock_guard lock(mutex_);
-            if (next_ == waiting.size() || control_.cancel) break;
-            number = waiting[next_++];
-        }
+    while (!control_.cancel) {
+        const auto number = queue_->next(is_alone_);
+        if (!number) break;
         counted = 0;
-        take(number, control);
+        take(*number, control);
         const std::lock_guard lock(mutex_);
         shares_done_ += 1 - counted;
     }
@@ -258,18 +218,41 @@ void Sweeper::work(const std::vector<std::size_t>& waiting, RunControl& control)
     changed_.notify_all();
 }
 
-/// Tells all runs of a cancel, and reports progress. Called in the caller's thread.
-void Sweeper::watch(std::vector<std::unique_ptr<RunControl>>& controls) {
+/// Waits until the threads of this process have ended, and then the other ranks. Called in the
+/// caller's thread.
+void Sweeper::watch() {
+    const std::chrono::milliseconds pause = request_.messenger ? between_messages : between_reports;
     std::unique_lock lock(mutex_);
     while (working_ > 0) {
-        changed_.wait_for(lock, between_reports);
-        if (control_.cancel) {
-            for (auto& control : controls) control->cancel = true;
-        }
+        changed_.wait_for(lock, pause);
         lock.unlock();
-        report();
+        tend();
         lock.lock();
     }
+    lock.unlock();
+    // An error of another rank than rank 0 ends all ranks.
+    while (!(stopped_by_ && !is_root()) && !queue_->has_finished()) {
+        std::this_thread::sleep_for(pause);
+        tend();
+    }
+}
+
+/// Exchanges messages with other ranks, tells all runs of a cancel, and reports progress. Called in
+/// the caller's thread.
+void Sweeper::tend() {
+    for (auto& [number, result] : queue_->serve()) {
+        keep(number, std::move(result));
+        const std::lock_guard lock(mutex_);
+        shares_done_ += 1;
+    }
+    if (queue_->is_cancelled()) control_.cancel = true;
+    if (control_.cancel) {
+        queue_->cancel();
+        for (auto& control : controls_) control->cancel = true;
+    }
+    if (Clock::now() - reported_ < between_reports) return;
+    reported_ = Clock::now();
+    report();
 }
 
 void Sweeper::report() {
@@ -279,7 +262,7 @@ void Sweeper::report() {
     {
         const std::lock_guard lock(mutex_);
         for (const auto& result : results_) progress.runs_done += result ? 1 : 0;
-        progress.share = waiting_runs_ > 0 ? shares_done_ / waiting_runs_ : 1;
+        progress.share = waiting_runs_ > 0 ? shares_done_ / static_cast<double>(waiting_runs_) : 1;
     }
     const double elapsed = seconds_since(begun_);
     if (progress.share > 0.001) {
@@ -288,17 +271,15 @@ void Sweeper::report() {
     control_.report(progress);
 }
 
-void Sweeper::run_all(const std::vector<std::size_t>& waiting) {
-    if (waiting.empty()) return;
+void Sweeper::run_all() {
     begun_ = Clock::now();
-    waiting_runs_ = static_cast<double>(waiting.size());
     working_ = static_cast<std::size_t>(workers_);
-    std::vector<std::unique_ptr<RunControl>> controls;
+    for (int w = 0; w < workers_; ++w) controls_.push_back(std::make_unique<RunControl>());
     std::vector<std::thread> threads;
     for (int w = 0; w < workers_; ++w) {
-        controls.push_back(std::make_unique<RunControl>());
         try {
-            threads.emplace_back([&, control = controls.back().get()] { work(waiting, *control); });
+            RunControl& control = *controls_[static_cast<std::size_t>(w)];
+            threads.emplace_back([&] { work(control); });
         } catch (const std::system_error&) {
             // No more threads can be created. The existing threads take all runs. If there are
             // none, this thread takes them.
@@ -309,11 +290,41 @@ void Sweeper::run_all(const std::vector<std::size_t>& waiting) {
     }
     if (threads.empty()) {
         is_alone_ = true;
-        work(waiting, *controls[0]);
+        work(*controls_[0]);
     }
-    watch(controls);
+    watch();
     for (std::thread& thread : threads) thread.join();
     report_.seconds = seconds_since(begun_);
+}
+
+/// The runs of the part that have no result yet. Other ranks learn them from rank 0.
+Result<std::vector<std::size_t>> Sweeper::find_waiting() {
+    std::vector<std::size_t> waiting;
+    if (!is_root()) return waiting;
+    if (auto good = check_sweep_film(request_, control_.cancel); !good) {
+        return tl::unexpected(good.error());
+    }
+    if (auto ready = prepare_folder(folder_); !ready) return tl::unexpected(ready.error());
+    for (const std::size_t number : plan_.own) {
+        auto result = earlier_result(request_, folder_, plan_.runs[number]);
+        if (!result) return tl::unexpected(result.error());
+        if (!*result) waiting.push_back(number);
+        results_[number] = *std::move(result);
+    }
+    return waiting;
+}
+
+/// The number of runs to take, on all ranks together. Fails if this rank has planned other runs
+/// than rank 0, because it has another script, file or option.
+Result<std::size_t> Sweeper::agree(std::size_t waiting) {
+    if (request_.messenger == nullptr) return waiting;
+    std::uint64_t keys = plan_.runs.size();
+    for (const PlannedRun& run : plan_.runs) keys = fnv1a(run.key, keys);
+    std::array<std::uint64_t, 2> words = {keys, waiting};
+    request_.messenger->broadcast(std::as_writable_bytes(std::span(words)));
+    if (words[0] == keys) return static_cast<std::size_t>(words[1]);
+    return failure("this rank and rank 0 do not have the same runs",
+                   "all ranks need the same script, options and files");
 }
 
 tl::expected<SweepReport, SweepError> Sweeper::run() {
@@ -323,16 +334,26 @@ tl::expected<SweepReport, SweepError> Sweeper::run() {
     plan_ = *std::move(plan);
     results_.resize(plan_.runs.size());
     report_.runs = plan_.own.size();
-    if (auto ready = prepare_folders(); !ready) return failed(ready.error());
-    std::vector<std::size_t> waiting;
-    for (const std::size_t number : plan_.own) {
-        const auto done = is_done(number);
-        if (!done) return failed(done.error());
-        if (!*done) waiting.push_back(number);
+    folder_ = request_.folder;
+    if (folder_.empty()) folder_ = output_stem(script_) + "_sweep";
+    auto waiting = find_waiting();
+    if (!waiting) return failed(waiting.error());
+    report_.done_before = report_.runs - waiting->size();
+    const auto count = agree(waiting->size());
+    if (!count) return failed(count.error());
+    waiting_runs_ = *count;
+    queue_ = std::make_unique<SweepQueue>(*std::move(waiting), request_.messenger);
+    if (auto chosen = choose_workers(waiting_runs_); !chosen) return failed(chosen.error());
+    if (waiting_runs_ > 0) run_all();
+    return finish();
+}
+
+/// Counts the results and writes the table and the sheet.
+tl::expected<SweepReport, SweepError> Sweeper::finish() {
+    if (!is_root()) {
+        if (stopped_by_) return tl::unexpected(std::move(*stopped_by_));
+        return SweepReport();
     }
-    report_.done_before = report_.runs - waiting.size();
-    if (auto chosen = choose_workers(waiting); !chosen) return failed(chosen.error());
-    run_all(waiting);
     for (const std::size_t number : plan_.own) {
         const auto& result = results_[number];
         if (!result) ++report_.missing;
@@ -342,7 +363,7 @@ tl::expected<SweepReport, SweepError> Sweeper::run() {
     }
     if (request_.part.is_all()) {
         auto written = write_sweep(script_, request_, folder_, results_, control_.cancel);
-        if (!written) return failed(written.error());
+        if (!written) return tl::unexpected(SweepError{written.error()});
         report_.written = *std::move(written);
     }
     if (stopped_by_) return tl::unexpected(std::move(*stopped_by_));

@@ -4,6 +4,7 @@
 
 #include "core/result.h"
 #include "core/run_control.h"
+#include "ranks/messenger.h"
 #include "run/commands/film_request.h"
 #include "run/commands/parameter_sets.h"
 #include "run/commands/sweep_result.h"
@@ -54,6 +55,9 @@ struct SweepRequest {
     /// Folders of other sweeps. Their results are copied instead of taking the runs again.
     std::vector<std::filesystem::path> gathered;
     SimulationOptions simulation;  ///< `threads` is the number of concurrent runs.
+    /// The ranks that share the runs. Null if this process takes all of them.
+    Messenger* messenger = nullptr;
+    int ranks_here = 1;  ///< The number of these ranks on this machine, which share its memory.
 };
 
 /// The progress of a sweep.
@@ -94,6 +98,10 @@ struct SweepError {
 /// part of a sweep writes neither sheet nor table. Every script is checked before the first step. A
 /// run that fails because values are not finite counts as a result, too. Fails if no run can be
 /// made or a file cannot be written.
+///
+/// If ranks share the sweep, all of them call this function. Rank 0 hands out the runs and writes
+/// all files but fields. The report of the others is empty. Fails on a rank whose runs have other
+/// keys than on rank 0.
 tl::expected<SweepReport, SweepError> sweep(const Script& script, const SweepRequest& request,
                                             SweepControl& control);
 

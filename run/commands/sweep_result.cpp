@@ -104,8 +104,7 @@ Field stacked(const Canvas& canvas) {
     return all;
 }
 
-std::optional<Canvas> unstacked(const std::filesystem::path& path, std::size_t planes) {
-    const auto array = read_npy(path);
+std::optional<Canvas> unstacked(const Result<NpyArray>& array, std::size_t planes) {
     const auto count = static_cast<std::int64_t>(planes);
     if (!array || (count != 1 && count != 3) || array->rows % count != 0) return std::nullopt;
     const Field all = to_field(*array);
@@ -147,6 +146,34 @@ Field average(const Field& field, std::int64_t factor) {
     return small;
 }
 
+std::string json_text_of(const SweepResult& result) {
+    return json_of(result).dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+/// The result that json_text_of() has written. `tile_of` reads its array, if there is one.
+template <typename TileOf>
+std::optional<SweepResult> result_in(std::string_view text, const TileOf& tile_of) {
+    // The JSON library throws exceptions, none of which may leave this function.
+    try {
+        const auto json = nlohmann::json::parse(text);
+        SweepResult result;
+        result.steps = json.at("steps").get<std::int64_t>();
+        result.remark = json.at("remark").get<std::string>();
+        if (json.at("features").is_null()) return result;
+        result.features = features_of(json.at("features"));
+        if (const auto& cells = json.at("cells"); !cells.is_null()) {
+            result.cells = {cells.at(0).get<std::int64_t>(), cells.at(1).get<std::int64_t>(),
+                            cells.at(2).get<std::int64_t>()};
+        }
+        auto tile = unstacked(tile_of(), json.at("planes").get<std::size_t>());
+        if (!tile) return std::nullopt;
+        result.tile = std::move(*tile);
+        return result;
+    } catch (const nlohmann::json::exception&) {
+        return std::nullopt;
+    }
+}
+
 }  // namespace
 
 std::string key_of_run(const Script& script, const PictureRequest& picture, int tile_side) {
@@ -171,34 +198,26 @@ Result<void> write_result(const std::filesystem::path& folder, const std::string
         auto done = write_npy(folder / (key + ".npy"), stacked(result.tile));
         if (!done) return done;
     }
-    const std::string text =
-        json_of(result).dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
-    return write_file(folder / (key + ".json"), text + "\n");
+    return write_file(folder / (key + ".json"), json_text_of(result) + "\n");
 }
 
 std::optional<SweepResult> read_result(const std::filesystem::path& folder,
                                        const std::string& key) {
     const auto text = read_file(folder / (key + ".json"), largest_result);
     if (!text) return std::nullopt;
-    // The JSON library throws exceptions, none of which may leave this function.
-    try {
-        const auto json = nlohmann::json::parse(*text);
-        SweepResult result;
-        result.steps = json.at("steps").get<std::int64_t>();
-        result.remark = json.at("remark").get<std::string>();
-        if (json.at("features").is_null()) return result;
-        result.features = features_of(json.at("features"));
-        if (const auto& cells = json.at("cells"); !cells.is_null()) {
-            result.cells = {cells.at(0).get<std::int64_t>(), cells.at(1).get<std::int64_t>(),
-                            cells.at(2).get<std::int64_t>()};
-        }
-        auto tile = unstacked(folder / (key + ".npy"), json.at("planes").get<std::size_t>());
-        if (!tile) return std::nullopt;
-        result.tile = std::move(*tile);
-        return result;
-    } catch (const nlohmann::json::exception&) {
-        return std::nullopt;
-    }
+    return result_in(*text, [&] { return read_npy(folder / (key + ".npy")); });
+}
+
+std::string pack_result(const SweepResult& result) {
+    std::string bytes = json_text_of(result) + '\0';
+    if (!result.tile.fields.empty()) bytes += encode_npy(stacked(result.tile));
+    return bytes;
+}
+
+std::optional<SweepResult> unpack_result(std::string_view bytes) {
+    const std::size_t end = bytes.find('\0');
+    if (end == std::string_view::npos) return std::nullopt;
+    return result_in(bytes.substr(0, end), [&] { return parse_npy(bytes.substr(end + 1)); });
 }
 
 Canvas canvas_of(const Image& image) {

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace cascade {
 
@@ -40,6 +41,11 @@ Result<void> write_result(const std::filesystem::path& folder, const std::string
 
 /// The result with that key. Empty if there is none, or if it is damaged.
 std::optional<SweepResult> read_result(const std::filesystem::path& folder, const std::string& key);
+
+/// The result as bytes, for another process of the same build.
+std::string pack_result(const SweepResult& result);
+/// The result that pack_result() has packed. Empty if the bytes are damaged.
+std::optional<SweepResult> unpack_result(std::string_view bytes);
 
 /// An image as a canvas of its colours, so that shrink() can reduce it.
 Canvas canvas_of(const Image& image);

@@ -3,6 +3,7 @@
 
 #include "ranks/messenger.h"
 
+#include <algorithm>
 #include <condition_variable>
 #include <cstdlib>
 #include <cstring>
@@ -36,9 +37,29 @@ public:
         return true;
     }
 
+    void post(int from, int to, std::vector<std::byte> bytes) {
+        const std::lock_guard lock(mutex_);
+        posted_[to].push_back({from, std::move(bytes)});
+    }
+    std::optional<Messenger::Letter> receive(int to) {
+        const std::lock_guard lock(mutex_);
+        std::deque<Messenger::Letter>& letters = posted_[to];
+        if (letters.empty()) return std::nullopt;
+        Messenger::Letter first = std::move(letters.front());
+        letters.pop_front();
+        return first;
+    }
+    /// Whether every posted message has been received.
+    bool is_empty() {
+        const std::lock_guard lock(mutex_);
+        return std::all_of(posted_.begin(), posted_.end(),
+                           [](const auto& each) { return each.second.empty(); });
+    }
+
 private:
     std::mutex mutex_;
     std::condition_variable has_come_;
+    std::map<int, std::deque<Messenger::Letter>> posted_;  ///< By receiver.
     std::map<std::pair<int, int>, std::deque<std::vector<std::byte>>> waiting_;
 };
 
@@ -69,6 +90,10 @@ public:
         if (rank_ > 0) in.push_back({0, bytes});
         exchange(out, in);
     }
+    void post(int rank, std::vector<std::byte> bytes) override {
+        mail_.post(rank_, rank, std::move(bytes));
+    }
+    std::optional<Letter> receive() override { return mail_.receive(rank_); }
     void finish() override {}
     [[noreturn]] void abort(int) override { std::abort(); }
 
@@ -88,6 +113,7 @@ inline void on_ranks(int count, const std::function<void(Messenger& messenger)>&
         });
     }
     for (std::thread& each : threads) each.join();
+    if (!mail.is_empty()) std::abort();  // A message that nobody has received.
 }
 
 }  // namespace cascade::test

@@ -50,7 +50,8 @@ TEST_P(OnGrids, HalosAreTheRowsOfOtherRanks) {
     const Grid grid = grid_of(9, 7, depth);
     const std::int64_t rows = grid.height * depth, layer = depth > 1 ? grid.height : 1;
     on_ranks(count, [&, wraps = wraps](Messenger& messenger) {
-        RankExchange exchange(grid, messenger);
+        RankLoad load;
+        RankExchange exchange(grid, messenger, load);
         const RowRange own = exchange.rows();
         Field field = numbered(PlaneLayout(grid, own), own);
         const Exchange::Shared shared{&field, wraps};
@@ -75,7 +76,8 @@ TEST_P(OnGrids, WholePlanesAreGatheredAndScattered) {
     const Grid grid = grid_of(5, 7, depth);
     const RowRange all{0, grid.height * depth};
     on_ranks(count, [&](Messenger& messenger) {
-        RankExchange exchange(grid, messenger);
+        RankLoad load;
+        RankExchange exchange(grid, messenger, load);
         const RowRange own = exchange.rows();
         Field part = numbered(PlaneLayout(grid, own), own), back(PlaneLayout(grid, own));
         Field whole{PlaneLayout(grid)}, of_root{PlaneLayout(grid)};
@@ -95,7 +97,8 @@ TEST_P(OnGrids, SumsOfRowsReachAllRanks) {
     const auto [count, depth, wraps] = GetParam();
     const Grid grid = grid_of(5, 7, depth);
     on_ranks(count, [&](Messenger& messenger) {
-        RankExchange exchange(grid, messenger);
+        RankLoad load;
+        RankExchange exchange(grid, messenger, load);
         std::vector<double> rows(static_cast<std::size_t>(grid.height * grid.depth), -1);
         for (std::int64_t row = exchange.rows().begin; row < exchange.rows().end; ++row) {
             rows[static_cast<std::size_t>(row)] = static_cast<double>(row);
@@ -116,11 +119,12 @@ INSTANTIATE_TEST_SUITE_P(Ranks, OnGrids,
 TEST(RankExchange, CountsTheBytesOfHalos) {
     const Grid grid = grid_of(100, 12, 1);
     on_ranks(3, [&](Messenger& messenger) {
-        RankExchange exchange(grid, messenger);
+        RankLoad load;
+        RankExchange exchange(grid, messenger, load);
         Field field(PlaneLayout(grid, exchange.rows()));
         const Exchange::Shared shared{&field, true};
         exchange.fill_halos({&shared, 1}, 1);
-        EXPECT_EQ(exchange.halo_bytes_sent(), 2 * field.layout().stride * std::int64_t{4});
+        EXPECT_EQ(load.halo_bytes, 2 * field.layout().stride * std::int64_t{4});
     });
 }
 
@@ -135,6 +139,65 @@ TEST(Ranks, AreRefusedIfTheyDiffer) {
         }
         EXPECT_EQ(ranks.finish(3), ranks.is_root() ? 3 : 0);
     });
+}
+
+TEST(Ranks, LearnTheLoadsOfAll) {
+    on_ranks(3, [](Messenger& messenger) {
+        Ranks ranks(messenger);
+        ranks.load().computing = 1 + ranks.rank();
+        const std::vector<RankLoad> all = ranks.loads();
+        ASSERT_EQ(all.size(), 3u);
+        for (int rank = 0; rank < 3; ++rank) {
+            EXPECT_EQ(all[static_cast<std::size_t>(rank)].computing, 1 + rank);
+        }
+        EXPECT_NE(all[1].machine[0], 0);
+        ranks.finish(0);
+    });
+}
+
+TEST(Ranks, NameASlowRankOnce) {
+    on_ranks(4, [](Messenger& messenger) {
+        Ranks ranks(messenger);
+        std::vector<std::string> told;
+        ranks.tell_slow([&](const std::string& words) { told.push_back(words); });
+        const auto work = [&](double seconds) {
+            ranks.load().computing += seconds;
+            ranks.compare_loads();
+        };
+        work(ranks.rank() == 2 ? 9 : 5);
+        EXPECT_TRUE(told.empty());
+        work(ranks.rank() == 2 ? 15 : 5);
+        work(ranks.rank() == 2 ? 15 : 5);
+        ASSERT_EQ(told.size(), 1u);
+        EXPECT_EQ(told[0].find("rank 2 of 4 on "), 0u);
+        EXPECT_NE(told[0].find(" takes 3.0 times as long"), std::string::npos);
+        ranks.finish(0);
+    });
+}
+
+TEST(SlowRank, TakesMoreThanTwiceTheMedian) {
+    const auto found = [](const std::vector<double>& seconds) { return slow_rank(seconds); };
+    EXPECT_FALSE(found({}));
+    EXPECT_FALSE(found({5}));
+    EXPECT_FALSE(found({5, 10}));
+    EXPECT_FALSE(found({0.1, 0.9}));
+    EXPECT_EQ(found({5, 11})->rank, 1u);
+    EXPECT_EQ(found({30, 5, 5, 6, 7})->rank, 0u);
+    EXPECT_DOUBLE_EQ(found({30, 5, 5, 6, 7})->times, 5);
+    EXPECT_FALSE(found({5, 10, 10, 10}));
+}
+
+TEST(RankLoad, TimesOfStepsLeaveMessagesOut) {
+    RankLoad load;
+    const auto begin = std::chrono::steady_clock::now();
+    {
+        const TimeOfSteps steps(load);
+        const TimeOfMessages messages(load);
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    const std::chrono::duration<double> all = std::chrono::steady_clock::now() - begin;
+    EXPECT_GE(load.messages, 0.02);
+    EXPECT_LE(load.messages + load.computing, all.count());
 }
 
 }  // namespace

@@ -1,0 +1,81 @@
+// What each rank spends on the steps of a run, and which rank keeps the others waiting.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <ctime>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace cascade {
+
+/// What a rank has spent on steps so far. Ranks send it as bytes.
+struct RankLoad {
+    double computing = 0;         ///< Seconds in kernels and copies: in steps, but not in messages.
+    double processor = 0;         ///< Processor seconds of all threads in the same time.
+    double messages = 0;          ///< Seconds in messages, mostly waiting for other ranks.
+    std::int64_t halo_bytes = 0;  ///< The bytes of halos sent to other ranks.
+    std::array<char, 64> machine{};  ///< The name of its machine, which ends with a 0.
+};
+
+/// Adds the time of its lifetime to a load, as steps.
+class TimeOfSteps {
+public:
+    explicit TimeOfSteps(RankLoad& load)
+        : load_(load), began_(Clock::now()), processor_(processor_seconds(whole_process)) {}
+    ~TimeOfSteps() {
+        load_.computing += std::chrono::duration<double>(Clock::now() - began_).count();
+        load_.processor += processor_seconds(whole_process) - processor_;
+    }
+    TimeOfSteps(const TimeOfSteps&) = delete;
+    TimeOfSteps& operator=(const TimeOfSteps&) = delete;
+
+private:
+    friend class TimeOfMessages;
+    using Clock = std::chrono::steady_clock;
+    static constexpr clockid_t whole_process = CLOCK_PROCESS_CPUTIME_ID;
+    static double processor_seconds(clockid_t clock);
+
+    RankLoad& load_;
+    Clock::time_point began_;
+    double processor_;
+};
+
+/// Within the lifetime of a TimeOfSteps: counts the time of its own lifetime as messages, not as
+/// steps. MPI libraries use the processor while they wait.
+class TimeOfMessages {
+public:
+    explicit TimeOfMessages(RankLoad& load)
+        : load_(load), began_(Clock::now()), processor_(TimeOfSteps::processor_seconds(own)) {}
+    ~TimeOfMessages() {
+        const double seconds = std::chrono::duration<double>(Clock::now() - began_).count();
+        load_.messages += seconds;
+        load_.computing -= seconds;
+        load_.processor -= TimeOfSteps::processor_seconds(own) - processor_;
+    }
+    TimeOfMessages(const TimeOfMessages&) = delete;
+    TimeOfMessages& operator=(const TimeOfMessages&) = delete;
+
+private:
+    using Clock = TimeOfSteps::Clock;
+    static constexpr clockid_t own = CLOCK_THREAD_CPUTIME_ID;
+
+    RankLoad& load_;
+    Clock::time_point began_;
+    double processor_;
+};
+
+/// A rank that takes more than twice as long as the median of all ranks for the same work.
+struct SlowRank {
+    std::size_t rank = 0;
+    double times = 0;  ///< Its time as a multiple of the median.
+};
+
+/// The slowest rank, if its seconds are more than twice the median. Of an even number of ranks, the
+/// lower one of the two in the middle is the median, so that one of two ranks may be slow. Times of
+/// less than a second say nothing.
+std::optional<SlowRank> slow_rank(std::span<const double> seconds);
+
+}  // namespace cascade
