@@ -1,18 +1,18 @@
-// Recognises the messages of Open MPI 4 and of Hydra, the launcher of MPICH 4.
+// Recognises what mpiexec of Open MPI 4 prints, and Hydra, which is mpiexec of MPICH 4.
 #include "app/mpiexec_output.h"
 
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
 #include <regex>
+#include <utility>
 #include <unistd.h>
 
 namespace cascade {
 namespace {
 
-bool is_line_of_dashes(std::string_view line) {
-    return line.size() > 40 && line.find_first_not_of('-') == std::string_view::npos;
+bool is_line_of(std::string_view line, char sign) {
+    return line.size() > 40 && line.find_first_not_of(sign) == std::string_view::npos;
 }
 
 /// "mpiexec noticed that process rank 1 with PID 4711 on node here exited on signal 9 (Killed)."
@@ -25,9 +25,10 @@ std::string killed_by(const std::string& text) {
                        found[3].str());
 }
 
-/// Whether this is a line of Open MPI's log: "[machine:4711] …".
+/// Whether this is a line of Open MPI's log, "[machine:4711] …", or of MPICH's, "Abort(3) on node 1
+/// …".
 bool is_logged(std::string_view line) {
-    static const std::regex words(R"(^\[\S+:\d+\] .*)");
+    static const std::regex words(R"(^(\[\S+:\d+\] |Abort\(\d+\) on node ).*)");
     return std::regex_match(line.begin(), line.end(), words);
 }
 
@@ -36,45 +37,84 @@ std::string this_machine() {
     return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "?";
 }
 
-constexpr std::string_view before_process = "cascade: rank 0 is process ";
+constexpr std::string_view before_rank = "cascade: rank ";
 
-/// The process that an announcement names, if it is on this machine.
-std::optional<pid_t> announced(std::string_view line) {
-    pid_t process = 0;
-    const char* const end = line.data() + line.size();
-    const auto read = std::from_chars(line.data() + before_process.size(), end, process);
-    const bool is_here = std::string_view(read.ptr, end) == " on " + this_machine();
-    return read.ec == std::errc() && process > 1 && is_here ? std::optional(process) : std::nullopt;
+/// The rank and the process that an announcement names, if it is on this machine.
+std::optional<std::pair<int, pid_t>> announced(const std::string& line) {
+    static const std::regex words(R"(^cascade: rank (\d{1,6}) is process (\d{1,9}) on (\S+)$)");
+    std::smatch found;
+    if (!std::regex_match(line, found, words)) return std::nullopt;
+    const auto process = static_cast<pid_t>(std::stol(found[2].str()));
+    if (process <= 1 || found[3].str() != this_machine()) return std::nullopt;
+    return std::pair(std::stoi(found[1].str()), process);
+}
+
+bool is_announcement(std::string_view line) {
+    return line.starts_with(before_rank) && line.find(" is process ") != std::string_view::npos;
 }
 
 }  // namespace
 
-std::string announcement_of_root() {
-    return fmt::format("{}{} on {}", before_process, ::getpid(), this_machine());
+std::string announcement_of_rank(int rank) {
+    return fmt::format("{}{} is process {} on {}", before_rank, rank, ::getpid(), this_machine());
+}
+
+/// Adds a line to the explanations.
+bool MpiexecOutput::keep(std::string_view line) {
+    explanations_ += std::string(line) + "\n";
+    return false;
+}
+
+/// Reads a line of MPICH's explanation: a line of equals signs, lines that begin with one, a line
+/// of equals signs, and three lines about the cause.
+bool MpiexecOutput::read_mpich(std::string_view line) {
+    static const std::regex process(R"(^=\s+PID (\d{1,9}) RUNNING AT (\S+))");
+    static const std::regex signal(R"(\(signal (\d{1,3})\))");
+    if (is_line_of(line, '=')) {
+        causes_ = frame_ == '=' ? 3 : 0;
+        frame_ = frame_ == '=' ? '\0' : '=';
+        return keep(line);
+    }
+    if (frame_ == 0) --causes_;
+    const std::string text(line);
+    std::smatch found;
+    if (std::regex_search(text, found, process)) {
+        ended_.process = static_cast<pid_t>(std::stol(found[1].str()));
+        ended_.machine = found[2].str();
+    }
+    if (std::regex_search(text, found, signal)) ended_.signal = std::stoi(found[1].str());
+    return keep(line);
 }
 
 bool MpiexecOutput::takes(std::string_view line) {
-    if (is_line_of_dashes(line)) {
-        if (is_explained_ && killed_.empty()) killed_ = killed_by(paragraph_);
-        is_explained_ = !is_explained_;
+    const bool is_begin = frame_ == 0 && is_line_of(line, '=');
+    if (is_begin || frame_ == '=' || causes_ > 0) return read_mpich(line);
+    if (is_line_of(line, '-')) {
+        if (frame_ == '-' && killed_.empty()) killed_ = killed_by(paragraph_);
+        frame_ = frame_ == '-' ? '\0' : '-';
         paragraph_.clear();
         return false;
     }
-    if (is_explained_) {
+    if (frame_ == '-') {
         paragraph_ += std::string(line) + " ";
-        explanations_ += std::string(line) + "\n";
+        return keep(line);
+    }
+    if (is_announcement(line)) {
+        if (const auto found = announced(std::string(line))) processes_.insert(*found);
         return false;
     }
-    if (line.starts_with(before_process)) {
-        root_ = announced(line);
-        return false;
-    }
-    if (is_logged(line)) {
-        explanations_ += std::string(line) + "\n";
-        return false;
-    }
+    if (is_logged(line)) return keep(line);
     has_error_ = has_error_ || line.find("error:") != std::string_view::npos;
     return true;
+}
+
+std::string MpiexecOutput::killed(const MpiexecOutput& ranks) const {
+    if (!killed_.empty() || ended_.signal == 0) return killed_;
+    std::string who = "a rank";
+    for (const auto& [rank, process] : ranks.processes_) {
+        if (process == ended_.process) who = fmt::format("rank {}", rank);
+    }
+    return fmt::format("{} on {} was killed by signal {}", who, ended_.machine, ended_.signal);
 }
 
 }  // namespace cascade

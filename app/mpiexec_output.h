@@ -1,6 +1,7 @@
 // Reads what mpiexec and the ranks write to standard error.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -8,12 +9,13 @@
 
 namespace cascade {
 
-/// A line that rank 0 prints when it starts. It tells the process that has called mpiexec which
-/// process must receive Ctrl-C.
-std::string announcement_of_root();
+/// A line that a rank prints when it starts. It tells the process that has called mpiexec which
+/// process must receive Ctrl-C, and which rank a killed process was.
+std::string announcement_of_rank(int rank);
 
-/// Separates the messages of ranks, which are passed on, from the explanations of mpiexec, which
-/// Open MPI puts between lines of dashes.
+/// Separates the output of ranks, which is passed on, from the explanations of mpiexec. Open MPI
+/// puts them between lines of dashes on standard error, and MPICH between lines of equals signs on
+/// standard output, so each stream has an object.
 class MpiexecOutput {
 public:
     /// Takes the next line, without its end. Returns whether it is a message that a rank has
@@ -21,21 +23,39 @@ public:
     bool takes(std::string_view line);
 
     /// The process of rank 0. Empty if it is unknown or runs on another machine.
-    std::optional<pid_t> root() const { return root_; }
+    std::optional<pid_t> root() const {
+        const auto found = processes_.find(0);
+        return found != processes_.end() ? std::optional(found->second) : std::nullopt;
+    }
 
-    /// The last signal that has killed a rank, as Open MPI or MPICH explains it; empty if there was
-    /// none: "rank 1 on MACHINE was killed by signal 9".
-    const std::string& killed() const { return killed_; }
+    /// The signal that has killed a rank, as Open MPI or MPICH explains it; empty if there was
+    /// none: "rank 1 on MACHINE was killed by signal 9". `ranks` has seen the announcements of
+    /// ranks.
+    std::string killed(const MpiexecOutput& ranks) const;
     /// The explanations of mpiexec.
     const std::string& explanations() const { return explanations_; }
     /// Whether a rank has reported an error.
     bool has_error() const { return has_error_; }
 
 private:
-    bool is_explained_ = false;  ///< Whether the next line is between lines of dashes.
+    /// A process that MPICH says has ended.
+    struct Ended {
+        pid_t process = 0;
+        std::string machine;
+        int signal = 0;
+    };
+
+    bool keep(std::string_view line);
+    bool read_mpich(std::string_view line);
+
+    /// The sign of the lines around the explanation that is being read: '-' for Open MPI, '=' for
+    /// MPICH, and 0 outside of explanations.
+    char frame_ = 0;
+    int causes_ = 0;  ///< The number of lines about the cause that MPICH still prints.
     bool has_error_ = false;
     std::string explanations_, killed_, paragraph_;
-    std::optional<pid_t> root_;
+    Ended ended_;
+    std::map<int, pid_t> processes_;  ///< Processes of this machine, by rank.
 };
 
 }  // namespace cascade

@@ -97,6 +97,11 @@ void add_ranks(CLI::App& app, Options& options, std::string_view work) {
               fmt::format("Share the {} among N processes, which mpiexec starts", work),
               whole_number(1, 100000), [&](auto ranks) { options.ranks = static_cast<int>(ranks); })
         ->group(execution_group);
+    add_value(app, "--mpi", "openmpi|mpich",
+              "The MPI library of the ranks; by default the one whose\nmpiexec has started them",
+              one_of({"openmpi", "mpich"}),
+              [&](const std::string& name) { options.mpi = mpi_library_named(name); })
+        ->group(execution_group);
 }
 
 void add_device(CLI::App& app, Options& options) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "lang/format/format_script.h"
+#include "ranks/launcher.h"
 #include "run/commands/analyze.h"
 #include "run/commands/bench.h"
 #include "run/commands/follow.h"
@@ -77,10 +78,11 @@ struct Options {
     std::string dump;  ///< The kind of `--dump`. Empty if the script is run instead.
     /// `run --device`: "gpu", "cpu", a number, or "list". If empty, threads take all steps.
     std::string device;
-    int ranks = 0;        ///< `run --ranks`: the number of processes. 0: this process runs alone.
-    bool timing = false;  ///< Whether the program prints how the time was spent.
-    bool json = false;    ///< Whether all output is printed as one JSON object.
-    bool quiet = false;   ///< Whether progress and remarks are omitted.
+    int ranks = 0;  ///< `run --ranks`: the number of processes. 0: this process runs alone.
+    std::optional<MpiLibrary> mpi;  ///< `--mpi`. Empty: the library of the launcher.
+    bool timing = false;            ///< Whether the program prints how the time was spent.
+    bool json = false;              ///< Whether all output is printed as one JSON object.
+    bool quiet = false;             ///< Whether progress and remarks are omitted.
     /// The words to search for with `systems` and `examples`, or the name of the system for `new`.
     std::vector<std::string> words;
     std::filesystem::path new_script;                      ///< `new -o`, `examples -o`, `import -o`

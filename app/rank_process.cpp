@@ -110,7 +110,6 @@ int run_checked(const Options& options, Console& console, Ranks& ranks, CommandO
 }
 
 int run_as_root(const Options& options, Console& console, Ranks& ranks, CommandOnRanks& command) {
-    if (options.ranks > 0) (void)console.error().write(announcement_of_root() + "\n");
     const int status = console.finish(run_checked(options, console, ranks, command));
     if (is_failure(status)) ranks.abort(status);
     return ranks.finish(status);
@@ -179,9 +178,10 @@ int run_as_rank(const Options& options, Console& console, CommandOnRanks& comman
                        "leave --device out, or run one process"},
                       exit_status::wrong_use);
     }
-    const auto messenger = connect_ranks();
+    const auto messenger = choose_mpi(options.mpi).and_then(connect_ranks);
     if (!messenger) return refuse(console, messenger.error(), exit_status::failed_run);
     Ranks ranks(**messenger);
+    if (options.ranks > 0) (void)console.error().write(announcement_of_rank(ranks.rank()) + "\n");
     return ranks.is_root() ? run_as_root(options, console, ranks, command)
                            : run_silently(options, console, ranks, command);
 }

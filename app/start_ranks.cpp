@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -16,7 +17,9 @@
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <poll.h>
 #include <sstream>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -63,10 +66,11 @@ private:
     std::array<struct sigaction, watched.size()> saved_;
 };
 
-/// The launcher of the library for which this program was built, or else of any library.
-std::optional<std::filesystem::path> find_mpiexec(bool is_open_mpi) {
+/// The launcher of the library. Debian adds the name of the library to it.
+std::optional<std::filesystem::path> find_mpiexec(MpiLibrary library) {
     const char* const path = std::getenv("PATH");
-    for (const char* const name : {is_open_mpi ? "mpiexec.openmpi" : "mpiexec.mpich", "mpiexec"}) {
+    const bool is_mpich = library == MpiLibrary::mpich;
+    for (const char* const name : {is_mpich ? "mpiexec.mpich" : "mpiexec.openmpi", "mpiexec"}) {
         std::istringstream folders(path ? path : "");
         for (std::string folder; std::getline(folders, folder, ':');) {
             const auto file = std::filesystem::path(folder.empty() ? "." : folder) / name;
@@ -76,24 +80,45 @@ std::optional<std::filesystem::path> find_mpiexec(bool is_open_mpi) {
     return std::nullopt;
 }
 
-std::vector<std::string> command_line(const std::filesystem::path& mpiexec, bool is_open_mpi,
+std::vector<std::string> command_line(const std::filesystem::path& mpiexec, MpiLibrary library,
                                       const Options& options) {
     std::error_code unknown;
     const auto program = std::filesystem::read_symlink("/proc/self/exe", unknown);
     std::vector<std::string> words = {mpiexec.string()};
-    if (is_open_mpi) words.insert(words.end(), {"--oversubscribe", "--bind-to", "none"});
+    if (library == MpiLibrary::open_mpi) {
+        words.insert(words.end(), {"--oversubscribe", "--bind-to", "none"});
+    }
     words.insert(words.end(), {"-n", std::to_string(options.ranks), program.string()});
     words.insert(words.end(), options.arguments.begin(), options.arguments.end());
     return words;
 }
 
+/// The ends of the pipes from mpiexec that this process reads (0) and that mpiexec writes (1).
+struct Pipes {
+    std::array<int, 2> output = {-1, -1};  ///< Open only for MPICH, which explains failures there.
+    std::array<int, 2> errors = {-1, -1};
+
+    ~Pipes() {
+        for (const int end : {output[0], output[1], errors[0], errors[1]}) {
+            if (end >= 0) ::close(end);
+        }
+    }
+    void close_written() {
+        for (int* const end : {&output[1], &errors[1]}) {
+            if (*end >= 0) ::close(*end);
+            *end = -1;
+        }
+    }
+};
+
 /// In the child process: becomes mpiexec.
-[[noreturn]] void become(std::vector<std::string> words, int errors) {
+[[noreturn]] void become(std::vector<std::string> words, const Pipes& pipes) {
     ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);
     const int nothing = ::open("/dev/null", O_RDONLY);
     ::dup2(nothing, STDIN_FILENO);
-    ::dup2(errors, STDERR_FILENO);
+    ::dup2(pipes.errors[1], STDERR_FILENO);
+    if (pipes.output[1] >= 0) ::dup2(pipes.output[1], STDOUT_FILENO);
     if (::geteuid() == 0) {  // Open MPI asks twice before it starts ranks of the user root.
         ::setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
         ::setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
@@ -112,27 +137,58 @@ void remember_root(const MpiexecOutput& output) {
     if (interrupts > 0) ::kill(root_process, SIGINT);
 }
 
-/// Prints the messages of ranks until mpiexec and all ranks have closed the pipe.
-MpiexecOutput pass_messages_on(int errors, const Console& console) {
-    MpiexecOutput output;
-    std::string text;
-    std::array<char, 4096> buffer{};
-    while (true) {
-        const ssize_t count = ::read(errors, buffer.data(), buffer.size());
-        if (count < 0 && errno == EINTR) continue;
-        if (count <= 0) break;
+/// One of the streams of mpiexec and the ranks, line by line.
+struct ReadStream {
+    int pipe = -1;
+    std::function<void(const std::string& text)> pass_on;
+    MpiexecOutput seen = {};
+    std::string text = {};  ///< The beginning of the next line.
+
+    /// Reads what is there. Returns whether the stream has ended.
+    bool read_some() {
+        std::array<char, 4096> buffer{};
+        const ssize_t count = ::read(pipe, buffer.data(), buffer.size());
+        if (count < 0 && errno == EINTR) return false;
+        if (count <= 0) {
+            if (!text.empty() && seen.takes(text)) pass_on(text);
+            return true;
+        }
         text.append(buffer.data(), static_cast<std::size_t>(count));
         std::size_t begin = 0;
         for (std::size_t end = 0; (end = text.find('\n', begin)) != std::string::npos;) {
             const std::string line = text.substr(begin, end - begin);
-            if (output.takes(line)) console.say(line + "\n");
-            remember_root(output);
+            if (seen.takes(line)) pass_on(line + "\n");
+            remember_root(seen);
             begin = end + 1;
         }
         text.erase(0, begin);
+        return false;
     }
-    if (!text.empty() && output.takes(text)) console.say(text);
-    return output;
+};
+
+/// What mpiexec and the ranks have written.
+struct WrittenStreams {
+    MpiexecOutput output, errors;
+};
+
+/// Prints the messages of ranks until mpiexec and all ranks have closed the pipes.
+WrittenStreams pass_messages_on(const Pipes& pipes, const Console& console) {
+    std::array streams = {
+        ReadStream{pipes.errors[0], [&](const std::string& text) { console.say(text); }},
+        ReadStream{pipes.output[0],
+                   [&](const std::string& text) { (void)console.out().write(text); }},
+    };
+    while (true) {
+        std::array<struct pollfd, streams.size()> polled{};
+        for (std::size_t k = 0; k < streams.size(); ++k) polled[k] = {streams[k].pipe, POLLIN, 0};
+        const bool is_over = std::all_of(streams.begin(), streams.end(),
+                                         [](const ReadStream& each) { return each.pipe < 0; });
+        if (is_over) return {streams[1].seen, streams[0].seen};
+        if (::poll(polled.data(), polled.size(), -1) < 0) continue;  // A signal has arrived.
+        for (std::size_t k = 0; k < streams.size(); ++k) {
+            if (polled[k].revents != 0 && streams[k].read_some()) streams[k].pipe = -1;
+        }
+    }
 }
 
 int wait_for(pid_t process) {
@@ -143,21 +199,23 @@ int wait_for(pid_t process) {
 }
 
 /// Explains a failure, if no rank has done so, and returns the exit status.
-int tell_end(const MpiexecOutput& output, int status, const Options& options,
+int tell_end(const WrittenStreams& written, int status, const Options& options,
              const Console& console) {
-    if (status == exit_status::success || output.has_error()) return status;
+    if (status == exit_status::success || written.errors.has_error()) return status;
     if (interrupts > 0) {
         if (interrupts > 1) console.say("cascade: ended at once; nothing has been written\n");
         return exit_status::signal_base + SIGINT;
     }
-    if (!output.killed().empty() && options.command == Command::sweep) {
-        console.fail({output.killed() + ", so all ranks have ended",
+    std::string killed = written.errors.killed(written.errors);
+    if (killed.empty()) killed = written.output.killed(written.errors);
+    if (!killed.empty() && options.command == Command::sweep) {
+        console.fail({killed + ", so all ranks have ended",
                       "the same command goes on with the runs that are missing"});
         return exit_status::failed_run;
     }
-    if (!output.killed().empty()) {
+    if (!killed.empty()) {
         const bool saves = !options.run.save.empty() && options.run.checkpoint_seconds > 0;
-        console.fail({output.killed() + ", so all ranks have ended",
+        console.fail({killed + ", so all ranks have ended",
                       saves ? fmt::format("'cascade run --resume {}' goes on from the last save, "
                                           "with any number of ranks",
                                           options.run.save.string())
@@ -165,7 +223,9 @@ int tell_end(const MpiexecOutput& output, int status, const Options& options,
         return exit_status::failed_run;
     }
     if (status == exit_status::time_limit) return status;
-    if (!output.explanations().empty()) console.say(output.explanations());
+    for (const MpiexecOutput& each : {written.errors, written.output}) {
+        if (!each.explanations().empty()) console.say(each.explanations());
+    }
     console.fail({fmt::format("mpiexec has ended with status {}", status), ""});
     return exit_status::failed_run;
 }
@@ -173,39 +233,35 @@ int tell_end(const MpiexecOutput& output, int status, const Options& options,
 }  // namespace
 
 int start_ranks(const Options& options, Console& console) {
-    const auto engine = mpi_of_this_build();
-    if (!engine) {
-        console.fail(engine.error());
+    const auto fail = [&](const Failure& why) {
+        console.fail(why);
         return exit_status::failed_run;
-    }
-    const bool is_open_mpi = *engine == "Open MPI";
-    const auto mpiexec = find_mpiexec(is_open_mpi);
+    };
+    const auto library = choose_mpi(options.mpi);
+    if (!library) return fail(library.error());
+    const auto mpiexec = find_mpiexec(*library);
     if (!mpiexec) {
-        console.fail({"mpiexec, which starts the ranks, is not installed",
-                      fmt::format("install {}", is_open_mpi ? "openmpi-bin" : "mpich")});
-        return exit_status::failed_run;
+        return fail({fmt::format("mpiexec of {}, which starts the ranks, is not installed",
+                                 name_of(*library)),
+                     fmt::format("install {}", packages_of(*library))});
     }
-    std::array<int, 2> pipe{};
-    if (::pipe2(pipe.data(), O_CLOEXEC) != 0) {
-        console.fail({fmt::format("mpiexec cannot be started: {}", std::strerror(errno)), ""});
-        return exit_status::failed_run;
-    }
-    const std::vector<std::string> words = command_line(*mpiexec, is_open_mpi, options);
+    Pipes pipes;
+    const bool has_pipes =
+        ::pipe2(pipes.errors.data(), O_CLOEXEC) == 0 &&
+        (*library != MpiLibrary::mpich || ::pipe2(pipes.output.data(), O_CLOEXEC) == 0);
+    const std::vector<std::string> words = command_line(*mpiexec, *library, options);
     const PassedSignals passed;
-    const pid_t process = ::fork();
-    if (process == 0) become(words, pipe[1]);
-    ::close(pipe[1]);
+    const pid_t process = has_pipes ? ::fork() : -1;
+    if (process == 0) become(words, pipes);
     if (process < 0) {
-        console.fail({fmt::format("mpiexec cannot be started: {}", std::strerror(errno)), ""});
-        ::close(pipe[0]);
-        return exit_status::failed_run;
+        return fail({fmt::format("mpiexec cannot be started: {}", std::strerror(errno)), ""});
     }
+    pipes.close_written();
     mpiexec_process = process;
-    const MpiexecOutput output = pass_messages_on(pipe[0], console);
-    ::close(pipe[0]);
+    const WrittenStreams written = pass_messages_on(pipes, console);
     const int status = wait_for(process);
     mpiexec_process = root_process = 0;
-    return tell_end(output, status, options, console);
+    return tell_end(written, status, options, console);
 }
 
 }  // namespace cascade

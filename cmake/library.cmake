@@ -40,7 +40,7 @@ configure_package_config_file(cmake/CascadeConfig.cmake.in CascadeConfig.cmake
 write_basic_package_version_file(CascadeConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 
 install(TARGETS cascade_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
-foreach(module cascade_llvm cascade_openvdb cascade_hdf5 cascade_mpi cascade_sbml)
+foreach(module cascade_llvm cascade_openvdb cascade_hdf5 cascade_openmpi cascade_mpich cascade_sbml)
   if(TARGET ${module})
     cascade_install_module(${module})
   endif()

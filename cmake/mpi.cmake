@@ -1,23 +1,50 @@
-# Builds the module that uses MPI (ranks/messenger.h), if Open MPI or MPICH is installed. Everything
-# else works without the module.
+# Builds a module for each MPI library that is installed (ranks/messenger.h): cascade_openmpi and
+# cascade_mpich. Everything else works without them.
+
+# cascade_mpi_module(HEADERS LIBRARIES): builds the module of the MPI library whose header mpi.h is
+# in the folder HEADERS, unless its module exists.
+function(cascade_mpi_module headers libraries)
+  file(STRINGS ${headers}/mpi.h of_open_mpi REGEX "define OPEN_MPI ")
+  file(STRINGS ${headers}/mpi.h of_mpich REGEX "define MPICH_VERSION ")
+  if(of_open_mpi)
+    set(module cascade_openmpi)
+    set(macro CASCADE_OPENMPI_MODULE)
+  elseif(of_mpich)
+    set(module cascade_mpich)
+    set(macro CASCADE_MPICH_MODULE)
+  else()
+    return()
+  endif()
+  if(TARGET ${module})
+    return()
+  endif()
+  add_library(${module} MODULE ${PROJECT_SOURCE_DIR}/ranks/mpi_module.cpp)
+  # The C++ functions of old MPI headers are not used.
+  target_compile_definitions(${module} PRIVATE OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
+  target_include_directories(${module} SYSTEM PRIVATE ${headers})
+  target_link_libraries(${module} PRIVATE cascade_options cascade_core ${libraries})
+  target_link_options(${module} PRIVATE LINKER:--exclude-libs,ALL)
+  set_target_properties(${module} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+  target_compile_definitions(cascade_ranks PRIVATE ${macro}="lib${module}.so")
+  add_dependencies(cascade_ranks ${module})
+endfunction()
 
 find_package(MPI QUIET COMPONENTS C)
 if(MPI_C_FOUND)
   find_file(mpi_header mpi.h PATHS ${MPI_C_INCLUDE_DIRS} NO_DEFAULT_PATH NO_CACHE)
-  file(STRINGS ${mpi_header} of_open_mpi REGEX "define OPEN_MPI ")
-  if(of_open_mpi)
-    set(mpi_name "Open MPI")
-  else()
-    set(mpi_name "MPICH")
-  endif()
-  add_library(cascade_mpi MODULE ${PROJECT_SOURCE_DIR}/ranks/mpi_module.cpp)
-  # The C++ functions of old MPI headers are not used.
-  target_compile_definitions(cascade_mpi PRIVATE OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
-  target_include_directories(cascade_mpi SYSTEM PRIVATE ${MPI_C_INCLUDE_DIRS})
-  target_link_libraries(cascade_mpi PRIVATE cascade_options cascade_core ${MPI_C_LIBRARIES})
-  target_link_options(cascade_mpi PRIVATE LINKER:--exclude-libs,ALL)
-  set_target_properties(cascade_mpi PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
-  target_compile_definitions(cascade_ranks PRIVATE
-    CASCADE_MPI_MODULE="libcascade_mpi.so" CASCADE_MPI_NAME="${mpi_name}")
-  add_dependencies(cascade_ranks cascade_mpi)
+  get_filename_component(mpi_headers ${mpi_header} DIRECTORY)
+  cascade_mpi_module(${mpi_headers} "${MPI_C_LIBRARIES}")
 endif()
+# Debian can install both, of which FindMPI finds one.
+set(of_system /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE})
+foreach(pair "mpich;/usr/include/${CMAKE_LIBRARY_ARCHITECTURE}/mpich" "mpi;${of_system}/openmpi/include")
+  list(GET pair 0 name)
+  list(GET pair 1 headers)
+  if(EXISTS ${headers}/mpi.h)
+    find_library(library ${name} PATHS ${of_system} ${of_system}/openmpi/lib NO_DEFAULT_PATH NO_CACHE)
+    if(library)
+      cascade_mpi_module(${headers} ${library})
+    endif()
+    unset(library)
+  endif()
+endforeach()

@@ -1,16 +1,29 @@
-// Recognises a start by mpiexec, and loads the module that uses MPI.
+// Recognises a start by mpiexec, and loads the module of an MPI library.
 //
-// The module is built if an MPI library is installed. It is loaded only if the program was started
-// by a launcher.
+// A module is built for each MPI library that is installed. One of them is loaded if the program
+// was started by a launcher.
 #pragma once
 
 #include "core/result.h"
 #include "ranks/messenger.h"
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace cascade {
+
+/// The MPI libraries that have a module. They share no processes: mpiexec of one library starts
+/// programs that use this library.
+enum class MpiLibrary : std::uint8_t { open_mpi, mpich };
+
+/// "Open MPI" or "MPICH"
+std::string_view name_of(MpiLibrary library);
+/// The packages of Debian that provide it: "libmpich-dev and mpich".
+std::string_view packages_of(MpiLibrary library);
+/// The library that the option `--mpi` names: "openmpi" or "mpich". Empty for other texts.
+std::optional<MpiLibrary> mpi_library_named(std::string_view text);
 
 /// The number of ranks according to the environment that a launcher of Open MPI or MPICH sets.
 /// Empty if no launcher has started this process.
@@ -20,13 +33,14 @@ int launched_rank();
 /// The number of ranks of this run that are on this machine; at least 1.
 int ranks_on_this_machine();
 
-/// The messenger of this process. The first call loads the module and initialises MPI. Fails if
-/// this build has no module, if MPI is not installed, or if its number of ranks differs from that
-/// of the launcher.
-Result<Messenger*> connect_ranks();
+/// The library to use: the `wanted` one or, if this is empty, the library of the launcher that has
+/// started this process, or else the first one that has a module. Fails if this build has no module
+/// for it.
+Result<MpiLibrary> choose_mpi(std::optional<MpiLibrary> wanted);
 
-/// The name of the MPI library for which the module was built: "Open MPI" or "MPICH". Fails if this
-/// build has no module.
-Result<std::string> mpi_of_this_build();
+/// The messenger of this process. The first call loads the module of the library and initialises
+/// MPI. Fails if this build has no such module, if the library is not installed, or if its number
+/// of ranks differs from the launcher's.
+Result<Messenger*> connect_ranks(MpiLibrary library);
 
 }  // namespace cascade

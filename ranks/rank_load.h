@@ -18,14 +18,18 @@ struct RankLoad {
     double messages = 0;          ///< Seconds in messages, mostly waiting for other ranks.
     std::int64_t halo_bytes = 0;  ///< The bytes of halos sent to other ranks.
     std::array<char, 64> machine{};  ///< The name of its machine, which ends with a 0.
+    bool is_stepping = false;        ///< Whether a TimeOfSteps exists.
 };
 
 /// Adds the time of its lifetime to a load, as steps.
 class TimeOfSteps {
 public:
     explicit TimeOfSteps(RankLoad& load)
-        : load_(load), began_(Clock::now()), processor_(processor_seconds(whole_process)) {}
+        : load_(load), began_(Clock::now()), processor_(processor_seconds(whole_process)) {
+        load_.is_stepping = true;
+    }
     ~TimeOfSteps() {
+        load_.is_stepping = false;
         load_.computing += std::chrono::duration<double>(Clock::now() - began_).count();
         load_.processor += processor_seconds(whole_process) - processor_;
     }
@@ -44,12 +48,13 @@ private:
 };
 
 /// Within the lifetime of a TimeOfSteps: counts the time of its own lifetime as messages, not as
-/// steps. MPI libraries use the processor while they wait.
+/// steps. Elsewhere it does nothing. MPI libraries use the processor while they wait.
 class TimeOfMessages {
 public:
     explicit TimeOfMessages(RankLoad& load)
         : load_(load), began_(Clock::now()), processor_(TimeOfSteps::processor_seconds(own)) {}
     ~TimeOfMessages() {
+        if (!load_.is_stepping) return;
         const double seconds = std::chrono::duration<double>(Clock::now() - began_).count();
         load_.messages += seconds;
         load_.computing -= seconds;

@@ -8,7 +8,7 @@ unset NO_COLOR
 about="ranks"
 source "$SOURCE/tests/support/program_runs.bash"
 skip() { echo "ranks: $*"; exit 77; }
-[ -e "$BUILD/libcascade_mpi.so" ] || skip "this build has no MPI"
+[ -e "$BUILD/libcascade_openmpi.so" ] || skip "this build has no MPI"
 command -v mpiexec >/dev/null || skip "mpiexec is not installed"
 # Root may start ranks only if both variables are set.
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
@@ -69,6 +69,9 @@ run 0 run all.cascade --ranks 3 --save shared -o again.png
 cmp again.png whole.png || fail "--ranks differs"
 run 0 run all.cascade --ranks 2 -q --timing -o again.png
 says err '2 ranks, rank 0 sent '
+grep -qE '^  1 on \S+ +[0-9.]+ ms +[0-9.]+ ms +[0-9,]+$' err || fail "no line for rank 1 in --timing"
+run 64 run all.cascade --ranks 2 --mpi lam
+says err '--mpi'
 
 # A run saved by two ranks continues on three, and on one.
 run 0 run all.cascade --ranks 2 -q --save half -o again.png --stop-at steps:2
@@ -90,10 +93,10 @@ printf 'domain { surface: sphere; cells: 200 }\nstage skin: scales { founders: 5
 run 3 run skin.cascade --ranks 2 -q -o skin.png
 says err 'cells that crawl are not divided among ranks'
 PATH=$PWD run 3 run all.cascade --ranks 2 -q
-says err 'mpiexec, which starts the ranks, is not installed'
+says err 'mpiexec of Open MPI, which starts the ranks, is not installed'
 cp "$CASCADE" alone
 OMPI_COMM_WORLD_SIZE=2 ./alone run all.cascade >out 2>err </dev/null && fail "a rank without its module runs"
-says err 'MPI could not be loaded'
+says err 'Open MPI could not be loaded'
 says err 'install libopenmpi-dev'
 on 2 run all.cascade --ranks 3 -q && fail "--ranks 3 is accepted on 2 ranks"
 says err '--ranks 3 does not fit the 2 ranks that mpiexec has started'
@@ -152,7 +155,7 @@ same_as_one_process "interrupted"
 
 # A rank is killed.
 begin
-rank=$(pgrep -f "^$CASCADE run long.cascade" | tail -n 1)
+rank=$(pgrep -P "$(pgrep -P $starter)" | tail -n 1)
 kill -9 "$rank"
 wait $starter
 [ $? = 3 ] || fail "a killed rank gives another status"

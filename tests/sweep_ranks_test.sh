@@ -7,7 +7,7 @@ unset NO_COLOR
 about="sweeps on ranks"
 source "$SOURCE/tests/support/program_runs.bash"
 skip() { echo "sweeps on ranks: $*"; exit 77; }
-[ -e "$BUILD/libcascade_mpi.so" ] || skip "this build has no MPI"
+[ -e "$BUILD/libcascade_openmpi.so" ] || skip "this build has no MPI"
 command -v mpiexec >/dev/null || skip "mpiexec is not installed"
 # Root may start ranks only if both variables are set.
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1

@@ -24,6 +24,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <span>
 #include <system_error>
 #include <thread>
 
@@ -322,9 +323,16 @@ Result<std::size_t> Sweeper::agree(std::size_t waiting) {
     for (const PlannedRun& run : plan_.runs) keys = fnv1a(run.key, keys);
     std::array<std::uint64_t, 2> words = {keys, waiting};
     request_.messenger->broadcast(std::as_writable_bytes(std::span(words)));
-    if (words[0] == keys) return static_cast<std::size_t>(words[1]);
-    return failure("this rank and rank 0 do not have the same runs",
-                   "all ranks need the same script, options and files");
+    if (words[0] != keys) {
+        return failure("this rank and rank 0 do not have the same runs",
+                       "all ranks need the same script, options and files");
+    }
+    // Waits for all ranks, so that no run begins if one of them fails.
+    std::vector<std::byte> arrived(static_cast<std::size_t>(request_.messenger->count()));
+    std::vector<std::span<std::byte>> blocks;
+    for (std::byte& each : arrived) blocks.emplace_back(&each, 1);
+    request_.messenger->complete(blocks);
+    return static_cast<std::size_t>(words[1]);
 }
 
 tl::expected<SweepReport, SweepError> Sweeper::run() {
