@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Tests `import cascade` (tests/python), and runs the examples of docs/python.md, one after the other, and the cells of
-# the notebook examples/python/tutorial.ipynb. Skipped if the module is not built because pybind11 or Python's headers
-# are missing.
+# Tests `import cascade` (tests/python), and runs the examples of docs/python.md and docs/tutorial_python.md, one after
+# the other, and the cells of the notebook examples/python/tutorial.ipynb. Skipped if the module is not built because
+# pybind11 or Python's headers are missing.
 set -eu
 python=$(sed -n 's/^Python3_EXECUTABLE:.*=//p' "$BUILD/CMakeCache.txt")
 compgen -G "$BUILD/python/cascade/_core*.so" >/dev/null && "$python" -c 'import numpy' 2>/dev/null || exit 77
@@ -18,6 +18,9 @@ cp "$SOURCE/examples/leopard.cascade" .
 sed -n '/^```python$/,/^```$/{/^```/d;p}' "$SOURCE/docs/python.md" >examples.py
 [ "$(wc -l <examples.py)" -ge 50 ] || { echo "docs/python.md has no examples"; exit 1; }
 "$python" examples.py >examples.out || exit 1
+sed -n '/^```python$/,/^```$/{/^```/d;p}' "$SOURCE/docs/tutorial_python.md" >tutorial.py
+[ "$(wc -l <tutorial.py)" -ge 40 ] || { echo "docs/tutorial_python.md has no examples"; exit 1; }
+"$python" tutorial.py >tutorial.out || exit 1
 
 # The notebook shows its last cell as a page, which needs the engine.
 [ -e "$BUILD/engine.wasm" ] || exit 0
