@@ -6,6 +6,7 @@
 #include "device/device.h"
 #include "device/device_passes.h"
 #include "device/device_planes.h"
+#include "device/problem_text.h"
 #include "solvers/executor_failure.h"
 #include "solvers/field_norms.h"
 
@@ -279,22 +280,10 @@ std::string reason_against(const StepProblem& problem, const DeviceFacts& facts)
     if (problem.precision == Precision::binary64 && !facts.has_double) {
         return "the device has no double precision";
     }
-    for (const StepProblem::Pass& pass : problem.passes) {
-        if (!pass.solves.empty()) return "it has a constraint 0 = …";
-        if (!pass.convolutions.empty()) return "it has a convolution";
-        if (pass.filter) return "its solver filters waves";
-        if (!pass.source) return "its kernels have no text";
-    }
+    if (const std::string reason = reason_against_text(problem); !reason.empty()) return reason;
     const bool has_sums = problem.aggregates > 0 || problem.error_register.has_value();
     if (has_sums && !facts.has_double) {
         return "sums over all cells are taken in double precision, which the device lacks";
-    }
-    for (const ChangingSide& side : problem.changing_sides) {
-        const auto& reads = side.reads;
-        if (std::any_of(reads.begin(), reads.end(),
-                        [](const auto& each) { return each.has_value(); })) {
-            return "the values at its sides depend on species";
-        }
     }
     return "";
 }

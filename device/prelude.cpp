@@ -147,21 +147,25 @@ std::string prelude_text(const TextTarget& target) {
     return text;
 }
 
-std::string stencil_text(const TextTarget& target, Stencil stencil, const PlaneLayout& layout) {
-    if (stencil.links) return std::string(link_functions);
-    std::string text = "#define C_LINKS\n#undef c_laplacian\n";
+std::string neighbour_sum(Stencil stencil, const PlaneLayout& layout, std::string_view cell) {
     std::string sum;
     const auto add_pair = [&](std::int64_t first, std::int64_t second) {
-        const auto value = [](std::int64_t distance) {
-            return fmt::format("c_field_word(c_f[c_at + ({})])", distance);
-        };
-        const std::string begun =
-            sum.empty() ? value(first) : fmt::format("c_add({}, {})", sum, value(first));
-        sum = fmt::format("c_add({}, {})", begun, value(second));
+        for (const std::int64_t distance : {first, second}) {
+            const std::string value =
+                fmt::format("c_field_word({})", fmt::format(fmt::runtime(cell), distance));
+            sum = sum.empty() ? value : fmt::format("c_add({}, {})", sum, value);
+        }
     };
     if (stencil.y) add_pair(-layout.stride, layout.stride);
     if (stencil.x) add_pair(1, -1);
     if (stencil.z) add_pair(-layout.slice_stride, layout.slice_stride);
+    return sum;
+}
+
+std::string stencil_text(const TextTarget& target, Stencil stencil, const PlaneLayout& layout) {
+    if (stencil.links) return std::string(link_functions);
+    std::string text = "#define C_LINKS\n#undef c_laplacian\n";
+    const std::string sum = neighbour_sum(stencil, layout, "c_f[c_at + ({})]");
     const std::string own = "c_field_word(c_f[c_at])";
     const std::string six = target.precision == Precision::single ? "c_word(6.0f)" : "c_word(6.0)";
     text += "cw c_laplacian(__global const cw* c_f, c_long c_at) {\n    return ";

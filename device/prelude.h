@@ -17,6 +17,7 @@
 #include "core/precision.h"
 
 #include <string>
+#include <string_view>
 
 namespace cascade {
 
@@ -38,6 +39,10 @@ struct TextTarget {
 
 /// The types and functions of a program. Must come first.
 std::string prelude_text(const TextTarget& target);
+
+/// The sum of the neighbours of a cell. `cell` is the word at a distance, for example
+/// "c_f[c_at + ({})]".
+std::string neighbour_sum(Stencil stencil, const PlaneLayout& layout, std::string_view cell);
 
 /// The functions that read neighbours on a grid, or links: c_laplacian() and others. Comes after
 /// prelude_text().

@@ -178,6 +178,23 @@ std::size_t first_uniform(const StepProblem& problem, std::size_t pass) {
     return count;
 }
 
+std::string reason_against_text(const StepProblem& problem) {
+    for (const StepProblem::Pass& pass : problem.passes) {
+        if (!pass.solves.empty()) return "it has a constraint 0 = …";
+        if (!pass.convolutions.empty()) return "it has a convolution";
+        if (pass.filter) return "its solver filters waves";
+        if (!pass.source) return "its kernels have no text";
+    }
+    for (const ChangingSide& side : problem.changing_sides) {
+        const auto& reads = side.reads;
+        if (std::any_of(reads.begin(), reads.end(),
+                        [](const auto& each) { return each.has_value(); })) {
+            return "the values at its sides depend on species";
+        }
+    }
+    return "";
+}
+
 std::string problem_text(const StepProblem& problem, const TextTarget& target,
                          std::int64_t rows_of_item) {
     return ProblemPrinter(problem, target, rows_of_item).print();

@@ -35,6 +35,9 @@ std::vector<StepProblem::ChangingUniform> passed_uniforms(const StepProblem::Pas
 ///   - a word for each of passed_uniforms()
 std::string kernel_name(std::size_t pass);
 
+/// Why the passes of a problem cannot be printed, as the end of a sentence; empty if they can.
+std::string reason_against_text(const StepProblem& problem);
+
 /// The whole program. A work-item computes `rows_of_item` rows of a column, in WGSL 1. A program in
 /// WGSL cannot read aggregates.
 std::string problem_text(const StepProblem& problem, const TextTarget& target,

@@ -98,22 +98,11 @@ std::string wgsl_stencil(Stencil stencil, const PlaneLayout& layout) {
                over_links("c_gradient(c_f: i32, c_at: i32, c_components: u32)", "c_components",
                           "c_apart");
     }
-    const auto value = [](std::int64_t distance) {
-        return fmt::format("c_field_word(c_planes[c_f + c_at + ({})])", distance);
-    };
-    std::string sum;
-    const auto add_pair = [&](std::int64_t first, std::int64_t second) {
-        const std::string begun =
-            sum.empty() ? value(first) : fmt::format("c_add({}, {})", sum, value(first));
-        sum = fmt::format("c_add({}, {})", begun, value(second));
-    };
-    if (stencil.y) add_pair(-layout.stride, layout.stride);
-    if (stencil.x) add_pair(1, -1);
-    if (stencil.z) add_pair(-layout.slice_stride, layout.slice_stride);
-    const std::string of_six =
-        fmt::format("c_subtract({}, c_multiply(0x40c00000u, {}))", sum, value(0));
+    const std::string sum = neighbour_sum(stencil, layout, "c_planes[c_f + c_at + ({})]");
+    const std::string own = "c_field_word(c_planes[c_f + c_at])";
+    const std::string of_six = fmt::format("c_subtract({}, c_multiply(0x40c00000u, {}))", sum, own);
     const std::string of_fewer =
-        fmt::format("c_minus_multiple({}, {}.0, {})", sum, 2 * stencil.axes(), value(0));
+        fmt::format("c_minus_multiple({}, {}.0, {})", sum, 2 * stencil.axes(), own);
     return fmt::format("fn c_laplacian(c_f: i32, c_at: i32) -> u32 {{\n    return {};\n}}\n",
                        stencil.axes() == 3 ? of_six : of_fewer);
 }

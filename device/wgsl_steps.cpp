@@ -6,11 +6,11 @@
 #include "device/pass_values.h"
 #include "device/problem_text.h"
 #include "device/wgsl_kernels.h"
+#include "device/wgsl_links.h"
 #include "device/wgsl_prelude.h"
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
 #include <utility>
 
 namespace cascade {
@@ -22,48 +22,11 @@ std::uint32_t group_count(std::int64_t items, std::int64_t group) {
 
 std::uint32_t word_of_place(std::size_t place) { return static_cast<std::uint32_t>(place); }
 
-template <typename T>
-std::vector<std::uint32_t> packed_words(const T* values, std::size_t count) {
-    std::vector<std::uint32_t> words((count * sizeof(T) + 3) / 4);
-    if (values != nullptr) std::memcpy(words.data(), values, count * sizeof(T));
-    return words;
-}
-
 void append_numbers(std::vector<std::uint32_t>& words, const std::vector<double>& numbers) {
     for (const double number : numbers) {
         words.push_back(std::bit_cast<std::uint32_t>(static_cast<float>(number)));
     }
 }
-
-/// The links of a problem: the words of c_links, and the places of its tables, which calls need.
-struct LinkWords {
-    std::vector<std::uint32_t> words;
-    std::vector<std::uint32_t> places;
-
-    LinkWords(const Links& links, const PlaneLayout& layout) {
-        constexpr std::size_t cells = LinkTable<float>::slice_cells;
-        const LinkTable<float> table = links.table<float>();
-        const auto slices = static_cast<std::size_t>(
-            group_count(layout.width, PlaneLayout::row_pad) * layout.row_count());
-        const std::size_t entries = table.starts[slices];
-        add(table.starts, slices + 1);
-        add(table.bases, entries);
-        add(table.offsets, entries * cells);
-        add(table.filled, entries);
-        add(table.weights, entries * cells);
-        for (const float* of_axis : table.gradients) add(of_axis, entries * cells);
-        places.erase(places.begin());  // That of the starts.
-    }
-
-private:
-    template <typename T>
-    void add(const T* values, std::size_t count) {
-        places.push_back(word_of_place(words.size()));
-        if (values == nullptr) return;
-        const auto added = packed_words(values, count);
-        words.insert(words.end(), added.begin(), added.end());
-    }
-};
 
 }  // namespace
 
@@ -72,20 +35,7 @@ std::string reason_against_wgsl(const StepProblem& problem) {
     if (problem.aggregates > 0 || problem.error_register.has_value()) {
         return "sums over all cells are taken in double precision, which WebGPU lacks";
     }
-    for (const StepProblem::Pass& pass : problem.passes) {
-        if (!pass.solves.empty()) return "it has a constraint 0 = …";
-        if (!pass.convolutions.empty()) return "it has a convolution";
-        if (pass.filter) return "its solver filters waves";
-        if (!pass.source) return "its kernels have no text";
-    }
-    for (const ChangingSide& side : problem.changing_sides) {
-        const auto& reads = side.reads;
-        if (std::any_of(reads.begin(), reads.end(),
-                        [](const auto& each) { return each.has_value(); })) {
-            return "the values at its sides depend on species";
-        }
-    }
-    return "";
+    return reason_against_text(problem);
 }
 
 WgslSteps::WgslSteps(const StepProblem& problem, Flushing flushing, std::size_t species,
@@ -151,7 +101,7 @@ std::vector<std::uint32_t> WgslSteps::uniforms() const {
 
 std::vector<std::uint32_t> WgslSteps::links() const {
     if (problem_.links == nullptr) return {};
-    return LinkWords(*problem_.links, layout_).words;
+    return WgslLinks(problem_.links->table<float>(), layout_).words;
 }
 
 void WgslSteps::add(std::size_t pass, CopyRoles roles, const StepMoment& moment,
@@ -161,7 +111,7 @@ void WgslSteps::add(std::size_t pass, CopyRoles roles, const StepMoment& moment,
     call.kernel = kernel_name(pass);
     call.words = {0, 0, static_cast<std::uint32_t>(layout_.row_count()), 0};
     if (problem_.links != nullptr) {
-        const LinkWords links(*problem_.links, layout_);
+        const WgslLinks links(problem_.links->table<float>(), layout_);
         call.words.insert(call.words.end(), links.places.begin(), links.places.end());
     }
     call.words.resize(first_call_word);

@@ -1,25 +1,9 @@
 // Runs the cases that tests/wasm/recorded_kernel.h describes, and compares all bits. All NaN count as equal. Arguments:
 // files of cases.
 import {readFileSync} from 'node:fs';
+import {Reader} from '../support/case_reader.mjs';
 
 const memory = new WebAssembly.Memory({initial: 1});
-
-class Reader {
-  constructor(bytes) {
-    this.bytes = bytes;
-    this.place = 0;
-  }
-  get isAtEnd() { return this.place === this.bytes.length; }
-  number() {
-    this.place += 4;
-    return this.bytes.readUInt32LE(this.place - 4);
-  }
-  list() {
-    const length = this.number();
-    this.place += length;
-    return this.bytes.subarray(this.place - length, this.place);
-  }
-}
 
 // The numbers in the bytes, copied so that they are aligned.
 function numbers(bytes, numberBytes) {

@@ -28,7 +28,7 @@ struct Amount {
     std::uint64_t every;            ///< One of so many systems of the library.
     std::uint64_t scripts;          ///< Random scripts.
 };
-constexpr Amount small_amount{1, 250, 2, 19, 2}, large_amount{4, 250, 250, 1, 60};
+constexpr Amount small_amount{1, 250, 2, 19, 2}, large_amount{4, 250, 60, 1, 60};
 
 /// Names of operations that no kernel had on grids, and on linked cells. multiply_add may be
 /// missing where the processor has none.

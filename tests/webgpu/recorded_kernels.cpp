@@ -3,6 +3,7 @@
 #include "core/floating_point.h"
 #include "device/probed_kernel.h"
 #include "device/wgsl_kernels.h"
+#include "device/wgsl_links.h"
 #include "device/wgsl_prelude.h"
 #include "ir/interpreter.h"
 #include "tests/support/kernel_comparison.h"
@@ -59,8 +60,13 @@ public:
         }
         for (const std::uint8_t* const mask : given.masks) append(bytes_.masks, mask - first, size);
         append_words(recorded_.uniforms, given.uniforms.data(), 4 * given.uniforms.size());
-        bytes_.places_of_links.clear();
-        if (given.links.starts != nullptr) add_links(given.links, layout);
+        if (given.links.starts != nullptr) {
+            // The tables begin at place 0, so that a case has one kernel of linked cells.
+            CHECK(bytes_.links.empty(), "test: one kernel of linked cells in a case");
+            WgslLinks links(given.links, layout);
+            bytes_.links = std::move(links.words);
+            bytes_.places_of_links = std::move(links.places);
+        }
         interpreted_->run(given, cells);
         for (std::size_t k = 0; k < given.results.size(); ++k) {
             WebgpuCase::Expected& expected = recorded_.expected.emplace_back();
@@ -80,26 +86,6 @@ public:
     }
 
 private:
-    void add_links(const LinkTable<float>& links, const PlaneLayout& layout) const {
-        constexpr std::int64_t lanes = LinkTable<float>::slice_cells;
-        const auto slices =
-            static_cast<std::size_t>((layout.width + lanes - 1) / lanes * layout.row_count());
-        const std::size_t entries = links.starts[slices];
-        // The table begins at 0, so each kernel has a case of its own.
-        CHECK(bytes_.links.empty(), "test: one kernel of linked cells in a case");
-        const auto add = [&](const auto* values, std::size_t count) {
-            bytes_.places_of_links.push_back(static_cast<std::uint32_t>(bytes_.links.size()));
-            if (values != nullptr) append_words(bytes_.links, values, count * sizeof *values);
-        };
-        add(links.starts, slices + 1);
-        add(links.bases, entries);
-        add(links.offsets, entries * lanes);
-        add(links.filled, entries);
-        add(links.weights, entries * lanes);
-        for (const float* of_axis : links.gradients) add(of_axis, entries * lanes);
-        bytes_.places_of_links.erase(bytes_.places_of_links.begin());
-    }
-
     KernelPointer interpreted_;
     WebgpuCase& recorded_;
     CaseBytes& bytes_;

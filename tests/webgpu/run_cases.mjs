@@ -3,6 +3,7 @@
 import {readFileSync} from 'node:fs';
 import {createRequire} from 'node:module';
 import {pathToFileURL} from 'node:url';
+import {Reader} from '../support/case_reader.mjs';
 
 const require = createRequire(pathToFileURL(`${process.cwd()}/`));
 const {create, globals} = await import(pathToFileURL(require.resolve('webgpu')));
@@ -22,44 +23,28 @@ const device = kept.device = await kept.adapter.requestDevice({
 const errors = [];
 device.addEventListener('uncapturederror', (event) => errors.push(event.error.message));
 
-class Reader {
-  constructor(bytes) {
-    this.bytes = bytes;
-    this.place = 0;
-  }
-  get isAtEnd() { return this.place === this.bytes.length; }
-  number() {
-    this.place += 4;
-    return this.bytes.readUInt32LE(this.place - 4);
-  }
-  list() {
-    const length = this.number();
-    this.place += length;
-    return this.bytes.subarray(this.place - length, this.place);
-  }
-  text() { return this.list().toString(); }
-  words() { return new Uint32Array(Uint8Array.from(this.list()).buffer); }
-  many(read) { return Array.from({length: this.number()}, () => read(this)); }
-}
+const wordsOf = (reader) => new Uint32Array(Uint8Array.from(reader.list()).buffer);
+const textOf = (reader) => reader.list().toString();
+const manyOf = (reader, read) => Array.from({length: reader.number()}, () => read(reader));
 
 const readCall = (reader) => ({
   isHalo: reader.number() === 1,
-  kernel: reader.text(),
-  words: reader.words(),
+  kernel: textOf(reader),
+  words: wordsOf(reader),
   groups: [reader.number(), reader.number()],
 });
 const readExpected = (reader) => ({
-  name: reader.text(),
+  name: textOf(reader),
   place: reader.number(),
-  words: reader.words(),
+  words: wordsOf(reader),
   isFree: reader.list(),
 });
 const readCase = (reader) => ({
-  name: reader.text(),
-  programs: [reader.text(), reader.text()],
-  buffers: [reader.words(), reader.words(), reader.words(), reader.words(), reader.words()],
-  calls: reader.many(readCall),
-  expected: reader.many(readExpected),
+  name: textOf(reader),
+  programs: [textOf(reader), textOf(reader)],
+  buffers: [wordsOf(reader), wordsOf(reader), wordsOf(reader), wordsOf(reader), wordsOf(reader)],
+  calls: manyOf(reader, readCall),
+  expected: manyOf(reader, readExpected),
 });
 
 const visibility = GPUShaderStage.COMPUTE;
