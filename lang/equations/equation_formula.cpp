@@ -8,6 +8,7 @@
 #include "lang/syntax/kept_spellings.h"
 #include "lang/syntax/paper_notation.h"
 #include "lang/vocabulary/functions.h"
+#include "lang/vocabulary/subscripts.h"
 
 #include <fmt/core.h>
 
@@ -87,7 +88,7 @@ private:
                     text_ +=
                         both("\"" + node.value + "\"", "\\texttt{" + tex_text(node.value) + "}");
                 } else if constexpr (std::is_same_v<Node, ast::Name>) {
-                    text_ += symbols_.name(node.name);
+                    write_name(node.name, least);
                 } else if constexpr (std::is_same_v<Node, ast::Bracketed>) {
                     text_ += symbols_.name(node.name.text);
                 } else if constexpr (std::is_same_v<Node, ast::Qualified>) {
@@ -128,6 +129,12 @@ private:
         if (const auto* name = as<ast::Qualified>(node.base)) family = name->name.text;
         const auto* const rate = as<ast::RateOf>(node.base);
         if (rate) family = rate->name.text;
+        const Span indices = join(script_.expressions[node.index].span,
+                                  script_.expressions[node.second.value_or(node.index)].span);
+        if (const auto parts = derivative_named(family)) {
+            const std::string member = symbols_.member(parts->of, sources_.text(indices));
+            return write_derivative(parts->axes, member, least);
+        }
         if (tex_) {
             std::vector<Piece> pieces = {symbols_.family_in_tex(family) + "_{",
                                          Operand{node.index, anything}};
@@ -139,8 +146,6 @@ private:
             if (rate) pieces.insert(pieces.begin(), "\\partial_t ");
             return push_operator(std::move(pieces), rate ? a_power : an_atom, least);
         }
-        const Span indices = join(script_.expressions[node.index].span,
-                                  script_.expressions[node.second.value_or(node.index)].span);
         const std::string symbol = symbols_.member(family, sources_.text(indices));
         if (rate) write_rate(symbol, least);
         else text_ += symbol;
@@ -264,7 +269,7 @@ private:
             }
             const auto known = function_named(function);
             if (known && info(*known).kind == FunctionKind::derivative) {
-                return write_derivative(function.substr(1), operands[0], least);
+                return write_derivative(function.substr(1), Operand{operands[0], an_atom}, least);
             }
         }
         const Infix* const infix = find(infixes, function);
@@ -332,19 +337,19 @@ private:
         pieces.emplace_back(Operand{operands.back(), an_atom});
         push_operator(std::move(pieces), a_product, least);
     }
-    /// Writes a derivative. `directions` is x, xx, xy, …
-    void write_derivative(std::string_view directions, ast::ExprId operand, int least) {
-        const bool is_second = directions.size() == 2;
-        if (tex_) {
-            return push_operator({"\\partial_{" + std::string(directions) + "} ",
-                                  Operand{operand, an_atom}},
-                                 a_power, least);
-        }
-        std::string below = "/∂" + std::string(directions.substr(0, 1));
-        if (is_second) {
-            below += directions[0] == directions[1] ? "²" : "∂" + std::string(directions.substr(1));
-        }
-        push_operator({is_second ? "∂²" : "∂", Operand{operand, an_atom}, below}, a_power, least);
+    /// Writes a derivative. `axes` is x, xx, xy, …
+    void write_derivative(std::string_view axes, const Piece& operand, int least) {
+        const auto [before, after] = symbols_.around_derivative(axes);
+        push_operator({before, operand, after}, a_power, least);
+    }
+    /// Writes a name, or the derivative that it means.
+    void write_name(std::string_view name, int least) {
+        const auto parts = derivative_named(name);
+        if (parts) return write_derivative(parts->axes, symbols_.name(parts->of), least);
+        text_ += symbols_.name(name);
+    }
+    std::optional<SubscriptedName> derivative_named(std::string_view name) const {
+        return symbols_.declared.contains(name) ? std::nullopt : subscripted_name(name);
     }
 
     /// Writes an aggregate: sum(e over i), mean(e over domain), …

@@ -2,6 +2,7 @@
 #include "lang/equations/equation_symbols.h"
 
 #include "lang/vocabulary/greek_letters.h"
+#include "lang/vocabulary/subscripts.h"
 
 #include <algorithm>
 #include <array>
@@ -157,6 +158,19 @@ std::string Symbols::member(std::string_view family, std::string_view index) con
     const auto under = subscript(tight);
     const bool is_free = parts_of(family).below.empty();
     return under && is_free ? name(family) + *under : name(family) + "[" + tight + "]";
+}
+
+std::pair<std::string, std::string> Symbols::around_derivative(std::string_view axes) const {
+    if (notation == Notation::tex) return {"\\partial_{" + std::string(axes) + "} ", ""};
+    const auto power = [](std::size_t order) {
+        return order == 1 ? "" : superscript(std::to_string(order)).value_or("");
+    };
+    const auto orders = orders_along(axes);
+    std::string below = "/";
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (orders[axis] > 0) below += std::string("∂") + "xyz"[axis] + power(orders[axis]);
+    }
+    return {"∂" + power(axes.size()), below};
 }
 
 std::string Symbols::number(std::string_view digits) const {

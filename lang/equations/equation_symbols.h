@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace cascade {
 
@@ -18,6 +19,8 @@ struct Symbols {
     /// Unicode this is true only if all names of the system can be written so.
     bool subscripts = true;
     std::set<std::string, std::less<>> vectors;  ///< Names that TeX writes in bold.
+    /// Names that the system, or a function, declares. Other names such as u_xx are derivatives.
+    std::set<std::string, std::less<>> declared;
 
     /// A name in this notation. Examples in Unicode and TeX: diff_u gives diffᵤ, \mathrm{diff}_{u};
     /// beta gives β, \beta; p1 gives p₁, p_{1}.
@@ -27,6 +30,9 @@ struct Symbols {
     std::string member(std::string_view family, std::string_view index) const;
     /// The name of a family in TeX, in a form to which an index can be added as a subscript.
     std::string family_in_tex(std::string_view family) const;
+    /// The texts before and after the operand of a derivative along axes such as xxy: ∂³ and
+    /// /∂x²∂y, or \partial_{xxy} and nothing.
+    std::pair<std::string, std::string> around_derivative(std::string_view axes) const;
     /// A number in this notation: 1e-3 gives 10⁻³ or 10^{-3}. Numbers without an exponent are
     /// unchanged.
     std::string number(std::string_view digits) const;

@@ -90,6 +90,14 @@ public:
             symbols_.subscripts = symbols_.subscripts && (is_setting(*said.statement) ||
                                                           has_subscript(said.statement->name.text));
         }
+        for (const SaidStatement& said : system.all()) {
+            symbols_.declared.emplace(said.statement->name.text);
+            for (const ast::FunctionDefinition& function : said.script->functions) {
+                symbols_.declared.emplace(function.name.text);
+                for (const ast::Word& each : function.parameters)
+                    symbols_.declared.emplace(each.text);
+            }
+        }
         if (!system.is_cells()) symbols_.vectors = vector_names(system);
         for (const SaidStatement& said : system.all()) sort(said);
         add_functions();

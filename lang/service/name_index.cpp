@@ -7,6 +7,8 @@
 #include "lang/syntax/index_words.h"
 #include "lang/syntax/parse.h"
 #include "lang/syntax/picture_expression.h"
+#include "lang/vocabulary/greek_letters.h"
+#include "lang/vocabulary/subscripts.h"
 
 #include <fmt/format.h>
 
@@ -72,9 +74,15 @@ private:
         for (ast::ExprId id = function.body.first; id <= function.body.root; ++id) {
             const ast::Expr& expr = tree_.expressions[id];
             const auto* name = std::get_if<ast::Name>(&expr.node);
-            const auto found = name != nullptr ? own.find(name->name) : own.end();
+            if (name == nullptr) continue;
+            auto found = own.find(name->name);
+            Span use = expr.span;
+            if (const auto parts = subscripted_name(name->name); parts && found == own.end()) {
+                found = own.find(parts->of);
+                use.end -= static_cast<std::uint32_t>(parts->axes.size() + 1);
+            }
             if (found == own.end()) continue;
-            add(expr.span, found->second);
+            add(use, found->second);
             parameters_.insert(id);
         }
     }
@@ -143,7 +151,10 @@ private:
 Span name_in(Span span, const Sources& sources) {
     const std::string_view text = sources[span.source].text();
     if (span.begin < text.size() && text[span.begin] == '[') ++span.begin;
-    span.end = static_cast<std::uint32_t>(end_of_word(text, span.begin));
+    const auto end = static_cast<std::uint32_t>(end_of_word(text, span.begin));
+    // In u_xx, which means dxx(u), the name is u.
+    const bool is_subscripted = span.end > span.begin && span.end < end && text[span.end] == '_';
+    if (!is_subscripted) span.end = end;
     return span;
 }
 

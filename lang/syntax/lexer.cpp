@@ -377,9 +377,9 @@ void Lexer::read_other() {
     if (text_[begin] == '`') hint = "write ' for a rate";
     if (text_[begin] == '$') hint = "formulas have no '$'; leave it out";
     if (text_[begin] == '\\') {
-        const std::size_t first = end;
-        while (std::isalpha(static_cast<unsigned char>(at(end))) != 0) ++end;
-        hint = advice_about_latex(text_.substr(first, end - first));
+        const LatexText found = latex_text(text_.substr(end));
+        end += found.size;
+        hint = found.advice;
     }
     const std::string_view run = text_.substr(begin, std::min<std::size_t>(end - begin, 16));
     diagnostics_.error(span(begin, end), fmt::format("'{}' has no meaning in the language", run),

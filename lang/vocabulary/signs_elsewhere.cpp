@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cstdint>
 #include <system_error>
@@ -77,14 +78,16 @@ std::string advice_about_cross(std::string_view word) {
     return "";
 }
 
-}  // namespace
-
+/// Advice on a command of LaTeX. `command` is its name without the backslash, empty for a backslash
+/// alone.
 std::string advice_about_latex(std::string_view command) {
     for (const LatexCommand& each : latex_commands) {
         if (each.name == command) return std::string(each.advice);
     }
     return fmt::format("this is LaTeX; write {}", command);
 }
+
+}  // namespace
 
 std::string advice_about_unit(std::string_view number, std::string_view unit) {
     for (const Unit& each : units) {
@@ -96,6 +99,55 @@ std::string advice_about_unit(std::string_view number, std::string_view unit) {
                            fmt::format("{:g}", value * each.size), number, unit, each.base);
     }
     return "";
+}
+
+namespace {
+
+/// An operator of derivatives with its operand. Its size is 0 if the text is none.
+LatexText latex_operator(std::string_view text) {
+    constexpr std::string_view nabla = "nabla", delta = "Delta";
+    const bool is_nabla = text.starts_with(nabla);
+    if (!is_nabla && !text.starts_with(delta)) return {};
+    std::size_t at = nabla.size();
+    const auto skip_blanks = [&] { at = std::min(text.find_first_not_of(' ', at), text.size()); };
+    const auto take = [&](std::string_view word) {
+        const bool is_here = text.substr(at).starts_with(word);
+        if (is_here) at += word.size();
+        return is_here;
+    };
+    skip_blanks();
+    std::string_view function = is_nabla ? "grad" : "lap";
+    if (is_nabla && (take("^2") || take("^{2}"))) function = "lap";
+    else if (is_nabla && take("\\cdot")) function = "div";
+    skip_blanks();
+    const std::string_view after = text.substr(at);
+    std::size_t size = 0;
+    if (after.starts_with('(')) {
+        const std::size_t end = after.find_first_of(")\n");
+        const bool is_plain =
+            end != after.npos && after[end] == ')' && after.substr(1, end).find('(') == after.npos;
+        size = is_plain ? end + 1 : 0;
+    } else {
+        while (size < after.size() &&
+               (is_digit(after[size]) || after[size] == '_' ||
+                std::isalpha(static_cast<unsigned char>(after[size])) != 0)) {
+            ++size;
+        }
+        if (after.substr(size).starts_with('(')) size = 0;
+    }
+    if (size == 0) return {};
+    const std::string_view operand =
+        after.starts_with('(') ? after.substr(1, size - 2) : after.substr(0, size);
+    return {at + size, fmt::format("this is LaTeX; write '{}({})'", function, operand)};
+}
+
+}  // namespace
+
+LatexText latex_text(std::string_view text) {
+    if (LatexText found = latex_operator(text); found.size > 0) return found;
+    std::size_t size = 0;
+    while (size < text.size() && std::isalpha(static_cast<unsigned char>(text[size])) != 0) ++size;
+    return {size, advice_about_latex(text.substr(0, size))};
 }
 
 std::string advice_about_number(std::string_view number, std::string_view tail) {

@@ -6,9 +6,15 @@
 
 namespace cascade {
 
-/// Advice on a command of LaTeX. `command` is its name without the backslash, empty for a backslash
-/// alone.
-std::string advice_about_latex(std::string_view command);
+/// A command of LaTeX, or an operator with its operand.
+struct LatexText {
+    std::size_t size = 0;  ///< In bytes, without the backslash.
+    std::string advice;
+};
+/// The command after a backslash at the beginning of a text. If it is an operator of derivatives
+/// with a simple operand, such as \nabla^2 u, \nabla \cdot J or \Delta (u + v), the operand belongs
+/// to it.
+LatexText latex_text(std::string_view text);
 
 /// Advice on a unit directly after a number, as in "1cm". The advice states the number converted to
 /// metres or seconds. Empty if the text is not a unit.

@@ -4,6 +4,7 @@
 #include "lang/check/expressions/check_expression.h"
 #include "lang/check/names/domain_lengths.h"
 #include "lang/syntax/operator_polynomials.h"
+#include "lang/vocabulary/subscripts.h"
 
 #include <fmt/format.h>
 
@@ -134,7 +135,7 @@ void Expander::visit_name(ast::ExprId part, const ast::Name& name) {
         if (constant->has_error) return emit(here.span, ast::Garbage{});
         return push(TaskKind::call, part);
     }
-    if (frame.function != nullptr) return emit(here.span, name);
+    if (frame.function != nullptr) return visit_subscripted(here.span, name);
     const auto values = values_.find(name.name);
     if (values != values_.end() && !values->second.empty()) {
         return emit(here.span, ast::Number{static_cast<double>(values->second.back())});
@@ -144,7 +145,7 @@ void Expander::visit_name(ast::ExprId part, const ast::Name& name) {
         Explanation explanation = index_without_value(name.name);
         return error(here.span, std::move(explanation.message), std::move(explanation.hint));
     }
-    emit(here.span, name);
+    emit_name(here.span, here.span, name.name, "");
 }
 
 void Expander::visit_call(ast::ExprId part, const ast::Call& call) {
@@ -284,7 +285,7 @@ bool needs_expansion(Workspace& work, const ast::Script& script, ast::Expression
             const auto is_it = [&](const IndexValue& index) { return index.name == name->name; };
             if (std::ranges::any_of(scope.indices, is_it)) return true;
             if (has_functions && functions_of(work, script).find_constant(name->name)) return true;
-            if (name->name == "lap") return true;
+            if (name->name == "lap" || subscripted_name(name->name)) return true;
         } else if (const auto* call = std::get_if<ast::Call>(&node)) {
             if (has_functions && find_function(work, script, call->function.text)) return true;
         }

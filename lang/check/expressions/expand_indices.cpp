@@ -112,7 +112,7 @@ void Expander::finish_member(const ast::Expr& here, const ast::Indexed& member,
     };
     const ast::Expr& base = expr(member.base);
     if (const auto* name = std::get_if<ast::Name>(&base.node)) {
-        return emit(here.span, ast::Name{named(name->name)});
+        return emit_name(here.span, base.span, name->name, member_name("", values));
     }
     if (const auto* own = std::get_if<ast::Bracketed>(&base.node)) {
         return emit(here.span, ast::Bracketed{{here.span, named(own->name.text)}});

@@ -65,6 +65,10 @@ private:
     void visit_name(ast::ExprId part, const ast::Name& name);
     void visit_call(ast::ExprId part, const ast::Call& call);
     void visit_over(ast::ExprId part, const ast::Over& over);
+    SystemId system_of_names() const;
+    void emit_name(Span span, Span word, std::string_view name, std::string_view index);
+    void visit_subscripted(Span span, const ast::Name& name);
+    void differentiate(Span span, std::string_view axes);
     void emit_length(Span span, const ast::Word& name);
     ast::ExprId append_grown(Span span, ast::ExprId length, int axis);
     void finish(const Task& task);

@@ -7,6 +7,7 @@
 #include "lang/check/names/domain_lengths.h"
 #include "lang/program/order.h"
 #include "lang/vocabulary/settings.h"
+#include "lang/vocabulary/subscripts.h"
 
 #include <fmt/format.h>
 
@@ -166,6 +167,8 @@ void FunctionTableMaker::check_body(std::uint32_t index) {
 void FunctionTableMaker::check_name(std::uint32_t index, std::string_view name, Span span) {
     UserFunction& function = table_.functions_[index];
     if (function.parameters.contains(name) || name == domain_word) return;
+    const auto parts = subscripted_name(name);
+    if (parts && function.parameters.contains(parts->of)) return;
     if (const UserFunction* constant = table_.find_constant(name)) {
         calls_[index].push_back(static_cast<std::uint32_t>(constant - table_.functions_.data()));
         return;

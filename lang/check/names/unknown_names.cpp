@@ -53,6 +53,9 @@ std::string hint_of_subscript(std::string_view name, const std::vector<std::stri
         if (is_derivative && is_whole) return fmt::format("write '{}({})'", axis, of);
         if (is_derivative) return fmt::format("d{0}/dx is dx({0})", of);
     }
+    if (const auto species = species_of_rate(name); is_known(species)) {
+        return fmt::format("write {}'", species);
+    }
     const std::size_t bar = name.rfind('_');
     if (bar == name.npos) return hint_of_joined(name, known);
     const std::string_view operation = name.substr(0, bar), operand = name.substr(bar + 1);
@@ -147,7 +150,9 @@ void report_unknown_own(Workspace& work, const Scope& scope, std::string_view na
 
 void report_first_stage(Workspace& work, const Scope& scope, std::string_view name, Span span) {
     std::string hint;
-    if (scope.system != unknown_system && !is_hopeless(work)) {
+    if (function_named(name)) {
+        hint = fmt::format("'{0}' is a function: {0}(…)", name);
+    } else if (scope.system != unknown_system && !is_hopeless(work)) {
         const System& system = work.program.systems[scope.system];
         if (find(work.names[scope.system], name) != nullptr) {
             hint = fmt::format("[{0}] is the '{0}' of this stage", name);

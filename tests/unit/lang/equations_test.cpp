@@ -218,6 +218,11 @@ TEST(Equations, KnowTheOperators) {
     EXPECT_EQ(unicode("div(grad(u))"), "∇·(∇u)");
     EXPECT_EQ(unicode("grad2(u) + dx(u) + dxx(u) + dxy(u + v)"),
               "|∇u|² + ∂u/∂x + ∂²u/∂x² + ∂²(u + v)/∂x∂y");
+    EXPECT_EQ(unicode("u_x + 2 * u_yx + u_xxyy - c_zzz[i]"),
+              "∂u/∂x + 2 ∂²u/∂x∂y + ∂⁴u/∂x²∂y² − ∂³cᵢ/∂z³");
+    EXPECT_EQ(tex("u_xxy - c_zz[i]"), "\\partial_{xxy} u - \\partial_{zz} c_{i}");
+    EXPECT_EQ(equations("system s { u_x = 2\nq = u_x }", "s", Notation::unicode),
+              "  where    uₓ = 2\n           q = uₓ\n");
     EXPECT_EQ(unicode("advect(a, b, u)"), "(a, b)·∇u");
     EXPECT_EQ(unicode("diffuse(u, a1, a2, theta)"), "A(a₁, a₂, θ) : ∇∇u");
     EXPECT_EQ(unicode("div(tensor(p, q, 0) * grad(u))"), "∇·(A(p, q, 0) ∇u)");

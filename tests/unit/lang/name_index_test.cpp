@@ -134,6 +134,20 @@ TEST(NameIndex, FindsFunctionsParametersConstantsAndIndices) {
     EXPECT_THAT(Asked(with_mark(text, "u[i]'")).lines(), ElementsAre(6, 7, 7, 7));
 }
 
+TEST(NameIndex, RenamesNamesBelowWhichAxesAreWritten) {
+    const std::string text =
+        "fn bend(e) = e_xx\n"
+        "system s { u: 1; φ: 1; c_x: 2; c: 1; u' = u_xx + φ_x + c_x; φ' = bend(u); c' = 0 }\n"
+        "stage one: s { }\n";
+    const auto new_text = [&](std::string_view before) {
+        return Asked(with_mark(text, before)).renamed("w").value_or("");
+    };
+    EXPECT_THAT(new_text("e)"), HasSubstr("bend(w) = w_xx"));
+    EXPECT_THAT(new_text("u: 1"), HasSubstr("w' = w_xx + φ_x + c_x; φ' = bend(w)"));
+    EXPECT_THAT(new_text("φ: 1"), HasSubstr("u_xx + w_x + c_x; w' ="));
+    EXPECT_THAT(new_text("c: 1"), HasSubstr("c_x: 2; w: 1; u' = u_xx + φ_x + c_x;"));
+}
+
 TEST(NameIndex, RenamesEverywhereAndNothingElse) {
     const auto text = Asked(with_mark(two_systems, "k: 2")).renamed("rate");
     ASSERT_TRUE(text);
