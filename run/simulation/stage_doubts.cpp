@@ -5,6 +5,7 @@
 #include "lang/program/nodes_of_rates.h"
 #include "run/simulation/diagnosis.h"
 #include "run/simulation/exact_map.h"
+#include "run/simulation/growth_doubts.h"
 #include "run/simulation/lost_changes.h"
 #include "run/simulation/stage_tools.h"
 #include "run/stage/step_advice.h"
@@ -294,7 +295,27 @@ std::string describe_changes_lost(const Doubted& stage, const ChangesLost& found
         stage.name(), found.species, found.change, found.value, found.lost);
 }
 
+// Amounts in a domain that grows.
+
+bool grows(const Doubted& stage) { return stage.view.stage().growth.has_value(); }
+std::optional<AmountChanged> find_amount_changed(const Doubted& stage) {
+    return find_changed_amount(stage.view);
+}
+
+std::string describe_amount_changed(const Doubted& stage, const AmountChanged& found) {
+    const double speed = stage.view.state().numbers[stage.view.system().speed_item()];
+    const std::string part =
+        found.part < 10 ? fmt::format("by {:.2g} %", 100 * found.part) : "many times over";
+    return fmt::format(
+        "stage '{}': steps of {:.4g} do not follow the growth of the domain: without a reaction "
+        "they would change an amount {}; {}",
+        stage.name(), speed, part,
+        found.speed ? fmt::format("try 'speed: {:.2g}'", *found.speed)
+                    : "its length changes too suddenly");
+}
+
 constexpr Diagnosis<Doubted> doubts[] = {
+    diagnosis<Doubted, grows, find_amount_changed, describe_amount_changed>(),
     diagnosis<Doubted, is_ended, find_unsolved, describe_unsolved>(),
     diagnosis<Doubted, is_ended, find_alternating, describe_chequerboard>(),
     diagnosis<Doubted, allows_trial, find_sure_flicker, describe_flicker>(),

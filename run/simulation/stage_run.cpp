@@ -4,6 +4,7 @@
 
 #include "core/parallel.h"
 #include "run/simulation/coarse_start.h"
+#include "run/simulation/growth_doubts.h"
 #include "run/simulation/grown_domain.h"
 #include "run/simulation/kernel_maker.h"
 #include "run/simulation/other_cells.h"
@@ -162,6 +163,10 @@ std::optional<Result<StageEnd>> StageRun::begin(std::int64_t last_step) {
         control_->warn(
             fmt::format("stage '{}': each step is {}, so that it is stable {}", stage.name, how,
                         here.model ? "in the smallest cells of the model" : "with its size"));
+    }
+    if (state_.steps == 0 && last_step > 0 && control_->warn) {
+        const std::string jump = describe_jump_of_lengths(view_);
+        if (!jump.empty()) control_->warn(jump);
     }
     if (view_.is_frozen()) return end_frozen(last_step);
     if (state_.steps == 0 && last_step > 0 && stage.time.coarse > 1) {

@@ -14,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace cascade::checking {
 
@@ -137,7 +138,7 @@ private:
         const std::array cells{grid.width, grid.height, grid.depth};
         const double end = certain_end(program_, index_);
         const double start = static_cast<double>(cells[axis]) * grid.spacing;
-        double before = value_at(scale, 0);
+        double before = value_at(scale, 0), last_but_one = before;
         for (int look = 0; look <= (end > 0 ? looks : 0); ++look) {
             const double t = end * look / looks, here = value_at(scale, t);
             const double cell = here * grid.spacing;
@@ -157,9 +158,31 @@ private:
                                    "a domain grows without jumps");
                 return false;
             }
-            before = here;
+            const bool is_least = look > 1 && before <= last_but_one && before <= here &&
+                                  (before < last_but_one || before < here);
+            if (is_least && vanishes(scale, end * (look - 2) / looks, t)) {
+                diagnostics_.error(growth_.span,
+                                   fmt::format("the length along {} would be 0 near t = {:.6g}",
+                                               axis_names[axis], end * (look - 1) / looks),
+                                   fmt::format("stage '{}' runs until t = {:.6g}: a length must "
+                                               "stay above 0 and finite",
+                                               stage_.name, end));
+                return false;
+            }
+            last_but_one = std::exchange(before, here);
         }
         return true;
+    }
+
+    /// Whether the least length between two times is 0, by a search in thirds.
+    static bool vanishes(const Formula& scale, double from, double to) {
+        const double largest = std::max(value_at(scale, from), value_at(scale, to));
+        for (int third = 0; third < 100; ++third) {
+            const double a = from + (to - from) / 3, b = to - (to - from) / 3;
+            if (value_at(scale, a) < value_at(scale, b)) to = b;
+            else from = a;
+        }
+        return !(value_at(scale, from) > smallest_jump * largest);
     }
 
     /// Whether the formula jumps between two times: halves the interval again and again, and takes
