@@ -257,6 +257,13 @@ void add_overrides(CLI::App& app, Overrides& overrides) {
         ->allow_extra_args(false)
         ->type_name("NAME=EXPR")
         ->group(group);
+    add_value(app, "--interval", "N",
+              "Observe each stage every N steps: for --log, --frames,\nfilms and --series",
+              typed_values::whole(1, 1'000'000'000),
+              [&](std::int64_t steps) {
+                  overrides.sets.push_back(fmt::format("interval={}", steps));
+              })
+        ->group(group);
     add_rows(false);
     add_allow_read(
         app, overrides.reads,

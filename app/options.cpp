@@ -222,6 +222,11 @@ Leave Parser::wrong_use(const std::string& program, const CLI::ParseError& error
     const std::string told = error.what();
     if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) && told.starts_with("--")) {
         const std::string option = told.substr(0, told.find(':'));
+        if (told.find("At Most") != told.npos) {
+            return leave(program, fmt::format("{}: {} is given more than once; leave one of them "
+                                              "out",
+                                              called(program), option));
+        }
         return leave(program, fmt::format("{}: {} needs a value", called(program), option));
     }
     if (told.ends_with(" was given a disallowed flag override")) {

@@ -34,8 +34,7 @@ hint_of_run() {
 hint_of_run "for a square write --grid 9x9" check s.cascade --grid 9
 "$CASCADE" check s.cascade --grid 9x9 2>&1 | grep -q warning && fail "a square gets a warning"
 hint "did you mean --set k=0.05?" run s.cascade --set k 0.05 -- run s.cascade -q --set k=0.05
-hint "write --set interval=2" run s.cascade --interval 2 -- run s.cascade -q --set interval=2
-hint "write --set interval=2" run --interval=2 s.cascade -- run s.cascade -q --set interval=2
+hint "--seed is given more than once; leave one of them out" run s.cascade --seed 1 --seed 2 -- run s.cascade -q --seed 2
 hint "write --set iterations=3" run --iterations 3 s.cascade -- run s.cascade -q --set iterations=3
 hint "write --set speed=0.25" run s.cascade --dt 0.25 -- run s.cascade -q --set speed=0.25
 hint "write --set k=0.3" run s.cascade --param k=0.3 -- run s.cascade -q --set k=0.3

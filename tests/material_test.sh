@@ -111,6 +111,12 @@ run 0 run -q on_model.cascade --mesh square.obj --cells 2000 -o raised.png --vie
 sed '/height:/d; /emission:/d' on_model.cascade > flat.cascade
 run 0 run -q flat.cascade --mesh square.obj --cells 2000 -o flat.png --view 20,60
 cmp -s raised.png flat.png && fail "height and emission change no picture"
+# Pictures of surfaces and models say which numbers of the material are clamped.
+sed 's/metalness: u/metalness: 2 + u/' on_model.cascade > shiny.cascade
+run 0 run shiny.cascade --mesh square.obj --cells 2000 -o shiny.png
+says err "the metalness goes from"
+run 0 run on_model.cascade --mesh square.obj --cells 2000 -o even.png
+grep -q "is clamped" out err && fail "numbers from 0 to 1 are said to be clamped"
 
 # Numbers outside 0 … 1 are clamped and reported.
 sed 's/roughness: .*/roughness: 2 * u/' waves.cascade > rough.cascade

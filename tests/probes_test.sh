@@ -26,10 +26,16 @@ b,0,0,,,,5,5
 b,1,1,,,,5,5
 END
 cmp -s plane.csv wanted.csv || fail "$(cat plane.csv)"
+# --interval replaces the interval of each stage.
+run 0 run plane.cascade -q -o plane.png --interval 2 --log 'corner=2 * u at (0, 0)' --log-file two.csv
+[ "$(cut -d, -f1,2 two.csv | tr '\n' ' ')" = "stage,step a,0 a,2 b,0 b,1 " ] || fail "--interval 2: $(cat two.csv)"
+
 echo 'system s { u: x; u'"'"' = 0 } domain { grid: 8 } stage a: s { iterations: 1 }' | sed 's/} domain/}\ndomain/; s/} stage/}\nstage/' >line.cascade
 sed 's/grid: 8/grid: 4, 4, 4/; s/u: x/u: x + 10 * y + 100 * z/' line.cascade >volume.cascade
 run 0 run line.cascade -q -o line.png --log 'u at (0.5)' --log-file line.csv
 [ "$(tail -n 1 line.csv)" = a,1,1,0.5625 ] || fail "$(cat line.csv)"
+run 0 run line.cascade -q -o line.png --log 'u at 0.5' --log-file line.csv
+[ "$(tail -n 1 line.csv)" = a,1,1,0.5625 ] || fail "without brackets: $(cat line.csv)"
 run 0 run volume.cascade -q -o volume.png --log 'u at (0, 0.5, 1)' --log-file volume.csv
 [ "$(tail -n 1 volume.csv)" = a,1,1,93.875 ] || fail "$(cat volume.csv)"
 

@@ -120,6 +120,8 @@ n = len(points)
 # Cells lie on the sphere of radius 1, and cover it nearly as densely as circles can be packed: r is
 # in sides of the box, which is 2 wide.
 assert abs(np.linalg.norm(points, axis=1) - 1).max() < 0.03
+# Cells at rest lie on the surface: fewer than one in a thousand is more than a fifth of its radius off it.
+assert (abs(np.linalg.norm(points, axis=1) - 1) > 0.2 * radii).mean() < 0.001
 part = n * np.pi * (2 * 0.06) ** 2 / (4 * np.pi)
 densest = np.pi / np.sqrt(12)
 assert 0.92 < part / densest < 1.12, part / densest

@@ -80,7 +80,7 @@ public:
             for (std::size_t column = 1; column < names_.size(); ++column) add(column);
             return;
         }
-        if (names_.size() < 2) names_ = {{}, {{source_, 0, 0}, stem_}};
+        if (names_.size() < 2) return add_unknown_names(script_, {source_, 0, 0});
         for (std::size_t column = 1; column < names_.size(); ++column) add_damaged(column);
     }
 
@@ -308,6 +308,14 @@ ast::ExprId TableParser::piece(std::size_t column, std::size_t number) {
 }
 
 }  // namespace
+
+void add_unknown_names(ast::Script& script, Span use) {
+    ast::FunctionDefinition function;
+    function.name.span = use;
+    function.body.first = function.body.root = static_cast<ast::ExprId>(script.expressions.size());
+    script.expressions.push_back({use, ast::Garbage{}});
+    script.functions.push_back(std::move(function));
+}
 
 bool is_table_name(std::string_view path) {
     return path.ends_with(".csv") || path.ends_with(".CSV");

@@ -1,4 +1,5 @@
 // Parses the parts of a script outside of blocks: functions, constants, and used files.
+#include "lang/syntax/parse_table.h"
 #include "lang/syntax/script_parser.h"
 
 #include <fmt/core.h>
@@ -116,9 +117,13 @@ void ScriptParser::parse_use() {
     const Token file = cursor_.take();
     cursor_.take_docs(keyword.span.begin, cursor_.peek().span.begin);
     if (file.kind != TokenKind::text) {
-        cursor_.error(file.span, "the name of a file needs quotes",
-                      fmt::format("write use \"{}.cascade\"", shortened(cursor_.text(file))));
-        return cursor_.skip_statement();
+        cursor_.skip_statement();
+        const Span words = join(file.span, cursor_.previous().span);
+        const std::string name = shortened(cursor_.text(words));
+        const bool has_ending = name.find('.') != name.npos;
+        cursor_.error(words, "the name of a file needs quotes",
+                      fmt::format("write use \"{}{}\"", name, has_ending ? "" : ".cascade"));
+        return add_unknown_names(script_, words);
     }
     const std::string_view text = cursor_.text(file);
     script_.uses.push_back({file.span, std::string(text.substr(1, text.size() - 2))});

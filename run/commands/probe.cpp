@@ -16,11 +16,13 @@ namespace cascade {
 
 namespace {
 
-constexpr std::string_view before_place = " at (";
+constexpr std::string_view before_place = " at ";
 
-/// Reads "0.25, 0.5)". Empty if the text has another form.
+/// Reads "(0.25, 0.5)" or "0.25, 0.5". Empty if the text has another form.
 std::vector<double> numbers_of_place(std::string_view text) {
     std::vector<double> numbers;
+    const std::string_view end_of_place = text.starts_with('(') ? ")" : "";
+    text.remove_prefix(end_of_place.size());
     while (true) {
         text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
         double number = 0;
@@ -29,7 +31,7 @@ std::vector<double> numbers_of_place(std::string_view text) {
         numbers.push_back(number);
         text.remove_prefix(static_cast<std::size_t>(end - text.data()));
         text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
-        if (text == ")") return numbers;
+        if (text == end_of_place) return numbers;
         if (!text.starts_with(',')) return {};
         text.remove_prefix(1);
     }
@@ -64,13 +66,15 @@ std::int64_t cell_at(double place, std::int64_t cells, const Grid& grid) {
 bool Probes::take(Script& script, const std::string& option, const std::string& text) {
     const std::size_t at = text.rfind(before_place);
     if (at == std::string::npos) return false;
+    const std::string_view after = std::string_view(text).substr(at + before_place.size());
+    const std::vector<double> numbers = numbers_of_place(after);
+    if (numbers.empty() && !after.starts_with('(')) return false;
     const auto refuse = [&](std::string message, std::string hint) {
         script.diagnostics.error(option_span(script.sources, option, text), std::move(message),
                                  std::move(hint));
         is_wrong_ = true;
         return true;
     };
-    const auto numbers = numbers_of_place(std::string_view(text).substr(at + before_place.size()));
     const DomainSettings& domain = script.program->domain;
     if (domain.model || domain.surface || has_cells(script)) {
         return refuse("only cells of a flat grid are read at a place",

@@ -17,8 +17,8 @@ namespace cascade {
 /// The expressions of a log that are read in one cell.
 class Probes {
 public:
-    /// Whether a text has the form "EXPR at (x, y)". If so, adds a probe, or an error in
-    /// `script.diagnostics` if the domain has no such place.
+    /// Whether a text has the form "EXPR at (x, y)" or "EXPR at x, y". If so, adds a probe, or an
+    /// error in `script.diagnostics` if the domain has no such place.
     bool take(Script& script, const std::string& option, const std::string& text);
     /// Checks the expressions of all probes. Errors are reported in `script.diagnostics`.
     Result<void> check(Script& script, const std::string& option);

@@ -242,8 +242,9 @@ Result<RunReport> Runner::run() {
         remark(remark_on_picture(painter(), shown(), canvas));
         // A sheet shows numbers, so palette and range have an effect.
         if (request_.sheet.empty()) remark(remark_on_look(painter(), shown(), canvas));
-        if (request_.picture.show.empty() && request_.sheet.empty())
-            remark(remark_on_material(script_, canvas));
+        const bool shows_material = request_.picture.show.empty() && request_.sheet.empty() &&
+                                    !request_.model_files.has_maps();
+        if (shows_material) remark(remark_on_material(script_, canvas));
         if (frames_ && frames_->holds_starts_alone()) {
             remark(fmt::format(
                 "{} nothing but starting values: 'interval' is longer than each stage",

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace cascade {
 
@@ -55,6 +56,22 @@ std::string describe_clamped(const Canvas& canvas) {
     if (!is_uniform) return {};
     return fmt::format("{}: between 0 and 1, red, green and blue differ by less than one level",
                        is_one_colour);
+}
+
+/// Describes numbers of a material that are outside of 0 … 1.
+std::string describe_clamped(const MaterialFields& material) {
+    constexpr std::pair<const char*, MaterialPart> settings[] = {
+        {"roughness", MaterialPart::roughness},
+        {"metalness", MaterialPart::metalness},
+        {"opacity", MaterialPart::opacity},
+    };
+    for (const auto& [name, part] : settings) {
+        const Field& field = material.parts[part];
+        const Spread values = field.empty() ? Spread() : spread_of(field);
+        if (values.count == 0 || (values.smallest >= 0 && values.largest <= 1)) continue;
+        return fmt::format("the {} goes from {}: it is clamped to 0 … 1", name, ends_of(values));
+    }
+    return {};
 }
 
 std::string describe_uniform(const Canvas& canvas) {
@@ -132,7 +149,7 @@ std::string remark_on_look(const Painter& painter, const Simulation& simulation,
 }
 
 std::string remark_on_material(const Script& script, const Canvas& canvas) {
-    if (!canvas.body) return {};
+    if (!canvas.body) return describe_clamped(canvas.material);
     const std::string settings = material_said(script);
     if (settings.empty()) return {};
     return fmt::format("the picture does not show {}: pictures of surfaces and models do",

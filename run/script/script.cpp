@@ -76,6 +76,7 @@ std::optional<std::string> UsedFiles::text_of(const std::string& path, const ast
                     .read(path, is_table_name(path) ? largest_table_text : largest_script);
     if (!text) {
         script_.diagnostics.error(use.span, text.error().message, text.error().hint);
+        add_unknown_names(script_.tree, use.span);
         return std::nullopt;
     }
     known.emplace_back(path, *text);

@@ -1,5 +1,6 @@
 // Collects the stages of a script and finds their systems.
 #include "lang/check/blocks/check_blocks.h"
+#include "lang/check/expressions/user_functions.h"
 #include "lang/check/names/unknown_names.h"
 #include "lang/check/names/note_uses.h"
 #include "lang/library/library.h"
@@ -67,7 +68,7 @@ void find_systems_of_stages(Workspace& work, const ast::Script& script, bool all
             work.draft->stages[k].system = found->second;
             if (found->second != unknown_system)
                 note_use(work, name.span, work.program.systems[found->second].span);
-        } else if (all_are_known && !name.empty()) {
+        } else if (all_are_known && !name.empty() && !lacks_names(script)) {
             report_unknown_system(work, name);
         }
     }

@@ -157,8 +157,9 @@ void ExpressionChecker::unknown_function(const ast::Call& call) {
         parts_.back().has_error = true;
         return;
     }
-    report_unknown_function(work_, name, functions_of(work_, from_).names());
     parts_.back().has_error = true;
+    if (lacks_names(from_)) return;
+    report_unknown_function(work_, name, functions_of(work_, from_).names());
 }
 
 bool is_function_name(std::string_view name) {

@@ -39,6 +39,12 @@ std::vector<std::string> FunctionTable::names() const {
     return names;
 }
 
+bool lacks_names(const ast::Script& script) {
+    return std::ranges::any_of(script.functions, [](const ast::FunctionDefinition& function) {
+        return function.name.empty();
+    });
+}
+
 class FunctionTableMaker {
 public:
     FunctionTableMaker(Workspace& work, const ast::Script& script) : work_(work), script_(script) {}
@@ -76,6 +82,7 @@ private:
 };
 
 void FunctionTableMaker::declare(const ast::FunctionDefinition& definition) {
+    if (definition.name.empty()) return;
     UserFunction function;
     function.definition = &definition;
     function.body = body_of(definition);
@@ -200,7 +207,9 @@ void FunctionTableMaker::check_call(std::uint32_t index, const ast::Call& call, 
         if (!has_right_count(work_, *of_cells, call, span)) caller.has_error = true;
     } else if (!is_function_name(call.function.text)) {
         caller.has_error = true;
-        report_unknown_function(work_, call.function, table_.names());
+        if (!lacks_names(script_)) {
+            report_unknown_function(work_, call.function, table_.names());
+        }
     }
 }
 

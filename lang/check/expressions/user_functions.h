@@ -46,6 +46,10 @@ private:
     std::unordered_map<std::string_view, std::uint32_t> by_name_;
 };
 
+/// Whether names of functions and systems are unknown, because a used file or the name of a
+/// function could not be read.
+bool lacks_names(const ast::Script& script);
+
 /// A function and the script in which it is defined.
 struct FoundFunction {
     const UserFunction* function = nullptr;

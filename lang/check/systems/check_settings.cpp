@@ -35,12 +35,27 @@ std::vector<ItemId> read_undiluted(Workspace& work, const ast::Script& script,
     Scope names;
     names.context = Context::rate;
     names.system = scope.system;
+    const System& system = work.program.systems[scope.system];
     for (const ast::Expression value : statement.values) {
+        const auto* const name = std::get_if<ast::Name>(&script.expressions[value.root].node);
+        if (name != nullptr && find(work.names[scope.system], name->name) == nullptr) {
+            std::vector<std::string> known;
+            for (const Quantity& each : system.quantities) {
+                if (each.is_species) known.push_back(each.name);
+            }
+            std::string hint = did_you_mean(work, name->name, known);
+            if (hint.empty()) hint = "its species are " + list_names(known);
+            work.diagnostics.error(span_of(script, value),
+                                   fmt::format("'{}' is not a species of {}", name->name,
+                                               system.name),
+                                   std::move(hint));
+            continue;
+        }
         const auto checked = check_expression(work, script, value, names);
         if (!checked) continue;
         const Node& node = checked->formula.nodes.back();
         const auto* const item = node.as<ItemId>();
-        if (item != nullptr && work.program.systems[scope.system].is_species(*item)) {
+        if (item != nullptr && system.is_species(*item)) {
             species.push_back(*item);
             continue;
         }

@@ -4,6 +4,7 @@
 
 #include "lang/check/systems/check_systems.h"
 #include "lang/check/systems/check_cycles.h"
+#include "lang/check/expressions/user_functions.h"
 #include "lang/check/names/unknown_names.h"
 #include "lang/check/systems/declarations.h"
 #include "lang/check/names/note_uses.h"
@@ -159,7 +160,7 @@ std::optional<std::uint32_t> Derivation::find_base(std::uint32_t index, const as
     if (!found && blocks_[index].block->kind == ast::BlockKind::shape) {
         report_unknown_shape(work_, *blocks_[index].script, base);
     } else if (!found) {
-        report_unknown_system(work_, base);
+        if (!lacks_names(*blocks_[index].script)) report_unknown_system(work_, base);
     } else if (has_cells) {
         work_.diagnostics.error(base.span, fmt::format("'{}' is a system of fields", base.text),
                                 "cells are derived from cells");

@@ -165,6 +165,7 @@ TEST(CompositionFaults, Statements) {
         {"fn f(x) =", "2:9 the value of the function 'f' is missing"},
         {"fn f(x) = x, x", "2:12 ',' has no place in a function | its value is one expression"},
         {"use noise", "2:5 the name of a file needs quotes | write use \"noise.cascade\""},
+        {"use light.csv", "2:5 the name of a file needs quotes | write use \"light.csv\""},
         {"use \"a.cascade\", \"b.cascade\"", "2:16 ',' has no place after the name of a file"},
         {"domain { fn f(x) = 1; seed: 1 }",
          "2:10 'fn' belongs outside of blocks | write it at the top of the script"},
