@@ -73,6 +73,12 @@ grep -qE '^  1 on \S+ +[0-9.]+ ms +[0-9.]+ ms +[0-9,]+$' err || fail "no line fo
 run 64 run all.cascade --ranks 2 --mpi lam
 says err '--mpi'
 
+# The bytes of halos are the ones that the model of bench/ranks_model.py computes.
+python3 "$SOURCE/bench/ranks.py" "$CASCADE" --side 500 --steps 20 --turns 1 --save cost.json >out 2>err ||
+    fail "bench/ranks.py fails"
+python3 "$SOURCE/bench/ranks_model.py" cost.json --steps 0 >out 2>err || fail "bench/ranks_model.py fails"
+[ "$(grep -cE 'measured ([0-9,]+), model \1$' out)" = 2 ] || fail "other bytes of halos than the model computes"
+
 # A run saved by two ranks continues on three, and on one.
 run 0 run all.cascade --ranks 2 -q --save half -o again.png --stop-at steps:2
 run 0 run --resume half --ranks 3 -q --save on_three -o again.png
@@ -80,6 +86,18 @@ run 0 run --resume half -q --save on_one -o again.png
 for file in whole/*.npy; do
     cmp "$file" "on_three/${file#*/}" && cmp "$file" "on_one/${file#*/}" || fail "a resumed run differs"
 done
+
+# The job script: a job that ends early, and the same job again on another number of nodes.
+submit() {
+    OMPI_MCA_rmaps_base_oversubscribe=1 SLURM_NTASKS=$1 SLURM_CPUS_PER_TASK=1 CASCADE=$CASCADE SAVED=job PICTURE=job.png \
+        bash "$SOURCE/examples/large/run.slurm" "${@:2}" >out 2>err </dev/null || fail "the job script fails"
+}
+submit 2 all.cascade --stop-at steps:2
+submit 3 all.cascade --stop-at steps:2
+for file in whole/*.npy; do
+    cmp "$file" "job/${file#*/}" || fail "the job script makes other bits"
+done
+cmp whole.png job.png || fail "the job script draws another picture"
 
 # What is refused: by rank 0 alone, before anything is written.
 run 3 run all.cascade --ranks 16 -q -o wrong.png
