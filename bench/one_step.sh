@@ -58,18 +58,18 @@ row 'C++: border, -O2' 'C++, border cells' 5 ./loops-O2 border
 row 'C++: border, double' 'C++, border cells' 2 ./loops border-double
 row 'C++: border, float' 'C++, border cells' 1 ./loops border
 row 'C++: border, 512 bits' 'C++, border cells' 1 ./loops-wide border
-row 'C++: eight steps a tile' 'C++, border cells+C++, eight steps a tile' 1 ./loops tiles
+row 'C++: eight steps a tile' 'C++, border cells|C++, eight steps a tile' 1 ./loops tiles
 
 libraries=(-l:libOpenCL.so.1)
 if compile opencl opencl.cpp -O2 2>opencl.said && ./opencl "$sources/gray_scott.cl" 8 1 >opencl.said 2>&1; then
-    row 'OpenCL' 'OpenCL, the kernel+OpenCL, the host' 5 ./opencl "$sources/gray_scott.cl"
+    row 'OpenCL' 'OpenCL, the kernel|OpenCL, the host' 5 ./opencl "$sources/gray_scott.cl"
 fi
 halide=${HALIDE:-}/usr
 libraries=(-L"$halide/lib/x86_64-linux-gnu" -Wl,-rpath,"$halide/lib/x86_64-linux-gnu" -l:libHalide14.so.0)
 if [ -e "$halide/include/halide14/Halide.h" ]; then
     compile halide halide.cpp -O2 -isystem "$halide/include/halide14"
-    row 'Halide: row by row' 'Halide, the step+Halide, row by row' 1 ./halide rows
-    row 'Halide: eight steps a tile' 'Halide, the step+Halide, eight steps a tile' 1 ./halide tiles
+    row 'Halide: row by row' 'Halide, the step|Halide, row by row' 1 ./halide rows
+    row 'Halide: eight steps a tile' 'Halide, the step|Halide, eight steps a tile' 1 ./halide tiles
 fi
 
 # cascade-steps OPTION… SIDE STEPS [FILE]: as the other programs. The time is the difference of two runs, so that
@@ -84,6 +84,7 @@ cascade_steps() {
             "${options[@]}" -o picture.png "${@:2}" >said 2>&1 || { cat said >&2; return 1; }
     }
     if [ -n "$file" ]; then
+        rm -rf saved
         run "$steps" --save saved
         "$python" -c 'import numpy, sys; numpy.load("saved/grow.v.npy").tofile(sys.argv[1])' "$file"
         echo 0
@@ -96,10 +97,10 @@ cascade_steps() {
 row 'Cascade' 'Cascade' 1 cascade_steps
 row 'Cascade, --fast' 'Cascade' 1 cascade_steps --fast
 
-lines_of() { # key+key…
+lines_of() { # key|key…
     local key sum=0
     local -a each
-    IFS=+ read -ra each <<<"$1"
+    IFS='|' read -ra each <<<"$1"
     for key in "${each[@]}"; do
         sum=$((sum + $(awk -v key="lines: $key" 'index($0, key) && substr($0, index($0, key)) == key { on = 1; next }
             on && /^(\/\/|#) end$/ { print count + 0; exit } on && NF { ++count }' "$sources"/*)))
