@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# page/site.sh FOLDER [CASCADE]: writes a static site: gallery, library, tutorial and specification, in which
+# page/site.sh FOLDER [CASCADE]: writes a static site: tutorials, help, gallery, library and specification, in which
 # every script can be run. It needs no server; docs/site.md describes it. Needs node and cmark-gfm.
 set -eu
 [ $# -ge 1 ] || { echo "usage: page/site.sh FOLDER [CASCADE]" >&2; exit 2; }
@@ -11,5 +11,6 @@ done
 mkdir -p "$1"
 folder=$(cd "$1" && pwd)
 "$cascade" export "$root/page/film.cascade" --html "$folder/live.html"
-"$cascade" export "$root/examples/on_models/leopard.cascade" --html "$folder/animal.html"
+# With fewer cells than in the picture, for the size of the file.
+"$cascade" export "$root/examples/on_models/leopard.cascade" --cells 24000 --html "$folder/animal.html"
 node "$root/page/site/make.mjs" "$root" "$folder" "$cascade"

@@ -13,11 +13,18 @@ const escape = (text) => text.replaceAll("&", "&amp;").replaceAll("<", "&lt;").r
 const unescape = (text) => text.replaceAll("&lt;", "<").replaceAll("&gt;", ">").replaceAll("&quot;", '"').replaceAll("&amp;", "&");
 
 /// Where each Markdown file is found on the site.
+const in_folder = (from, to) => list(from, ".md").map((name) => [`${from}/${name}`, `${to}/${name.replace("README.md", "index.md").replace(/md$/, "html")}`]);
 const pages = new Map([
-    ["docs/tutorial.md", "tutorial.html"], ["docs/site.md", "site.html"], ["examples/models/README.md", "systems.html"],
-    ["examples/museum/README.md", "museum.html"],
-    ...list("spec", ".md").map((name) => [`spec/${name}`, `spec/${name.replace("README.md", "index.md").replace(/md$/, "html")}`]),
+    ...["tutorial", "tutorial_text", "tutorial_python", "python", "clusters", "importing", "devices", "ranks", "one_step", "beside_others", "glossary", "site"]
+        .map((name) => [`docs/${name}.md`, `${name}.html`]),
+    ["examples/models/README.md", "systems.html"], ["examples/museum/README.md", "museum.html"], ["examples/lessons/README.md", "lessons.html"],
+    ...in_folder("docs/how_to", "how_to"), ...in_folder("docs/explanation", "explanation"), ...in_folder("spec", "spec"),
 ]);
+/// The pages in the header of each page, in the order of learning.
+const main_pages = [
+    ["index.html", "Cascade"], ["tutorial.html", "Tutorial"], ["how_to/index.html", "How to"], ["explanation/index.html", "Why"],
+    ["systems.html", "Systems"], ["museum.html", "Museum"], ["spec/index.html", "Reference"], ["live.html", "Open the page"],
+];
 
 function run(words, options = {}) {
     const { status, stdout, stderr, error } = spawnSync(words[0], words.slice(1), { encoding: "utf8", ...options });
@@ -44,9 +51,19 @@ function copied(path) {
     return path;
 }
 
+/// The parts of all pages that can be found by words: [page, id of the heading, title of the page, heading, text].
+const found_parts = [];
+const text_of = (html) => unescape(html.replace(/<a class="grow".*?<\/a>/gs, " ").replace(/<[^>]*>/g, " ")).replace(/\s+/g, " ").trim();
+function note_parts(page, title, body) {
+    for (const part of body.split(/(?=<h[1-6] id=)/)) {
+        const heading = /^<h[1-6] id="([^"]*)">(.*?)<\/h[1-6]>/s.exec(part);
+        if (heading) found_parts.push([page, heading[1], title, text_of(heading[2]), text_of(part.slice(heading[0].length))]);
+    }
+}
+
 function write_page(page, title, body, is_wide = false) {
-    const links = [["index.html", "Cascade"], ["tutorial.html", "Tutorial"], ["systems.html", "Systems"], ["museum.html", "Museum"], ["spec/index.html", "Language"], ["live.html", "Open the page"]];
-    const header = links.map(([to, name]) => `<a href="${path_to(page, to)}"${to === page ? ' aria-current="page"' : ""}>${name}</a>`).join("\n");
+    note_parts(page, title.replace(" · Cascade", ""), body);
+    const header = main_pages.map(([to, name]) => `<a href="${path_to(page, to)}"${to === page ? ' aria-current="page"' : ""}>${name}</a>`).join("\n");
     mkdirSync(join(folder, dirname(page)), { recursive: true });
     writeFileSync(join(folder, page), `<!doctype html>
 <html lang="en">
@@ -58,8 +75,12 @@ function write_page(page, title, body, is_wide = false) {
 <link rel="stylesheet" href="${path_to(page, "site.css")}">
 </head>
 <body>
-<header>${header}</header>
-<main${is_wide ? ' class="wide"' : ""}>
+<a class="skip" href="#main">Skip to the text</a>
+<header>
+<nav aria-label="Main pages">${header}</nav>
+${page === "search.html" ? "" : `<form action="${path_to(page, "search.html")}" role="search"><input name="q" type="search" aria-label="Search" placeholder="Search"></form>`}
+</header>
+<main id="main"${is_wide ? ' class="wide"' : ""}>
 ${body}
 </main>
 </body>
@@ -124,7 +145,8 @@ for (const [source, page] of pages) {
     let html = with_scripts(with_links(with_ids(stdout), source, page), page);
     if (page === "systems.html") html = with_systems(html, page);
     if (page === "museum.html") html = with_exhibits(html, page);
-    html = with_pictures(html, source, page).replaceAll("<table>", '<div class="table"><table>').replaceAll("</table>", "</table></div>");
+    // What is wider than the screen can be scrolled by keys.
+    html = with_pictures(html, source, page).replaceAll("<pre>", '<pre tabindex="0">').replaceAll("<table>", '<div class="table" tabindex="0"><table>').replaceAll("</table>", "</table></div>");
     write_page(page, `${unescape(html.match(/<h1[^>]*>(.*?)<\/h1>/s)[1].replace(/<[^>]*>/g, ""))} · Cascade`, html);
 }
 
@@ -147,7 +169,15 @@ write_page("index.html", "Cascade", `<h1>Patterns that grow</h1>
 <p class="lead">Cascade is a language, a compiler and solvers for patterns of reaction and diffusion. Here all of it runs in your browser: a click on a picture
 grows it; then type, move sliders, paint, and go back and forth between stages.</p>
 <p><a href="live.html"><img class="film" src="${copied("page/film.webp")}" alt="A pattern grows, a slider changes it, a stroke is painted, the next stage begins"></a></p>
-<p><a class="grow" href="live.html">open the page</a> <a class="grow" href="tutorial.html">15 minutes</a> <a class="grow" href="systems.html">all systems</a> <a class="grow" href="museum.html">100 states</a></p>
+<p><a class="grow" href="live.html">open the page</a> <a class="grow" href="systems.html">all systems</a> <a class="grow" href="museum.html">100 states</a></p>
+<h2 id="learn">Learn</h2>
+<ul>
+<li><b>Begin:</b> fifteen minutes with <a href="tutorial.html">the page</a>, with <a href="tutorial_text.html">text</a>, with <a href="tutorial_python.html">Python</a></li>
+<li><b>Solve a problem:</b> <a href="how_to/index.html">how to …</a></li>
+<li><b>Understand:</b> <a href="explanation/index.html">why …</a></li>
+<li><b>Look up:</b> <a href="spec/index.html">the reference</a>, <a href="systems.html">the library of systems</a>, <a href="glossary.html">the glossary</a></li>
+<li><b>Compare:</b> <a href="beside_others.html">Cascade beside other programs</a>, <a href="one_step.html">one step in C++, Halide, OpenCL, Python and Cascade</a></li>
+</ul>
 <h2 id="lessons">Exercises</h2>
 <p>${lessons}</p>
 <h2>Gallery</h2>
@@ -162,6 +192,15 @@ ${gallery_of("examples/cells")}
 <ul class="gallery">
 ${animals.join("\n")}
 </ul>`, true);
-copyFileSync(join(root, "page/site/site.css"), join(folder, "site.css"));
+found_parts.sort((a, b) => (a[0] < b[0] ? -1 : a[0] > b[0] ? 1 : 0));
+write_page("search.html", "Search · Cascade", `<h1>Search</h1>
+<form role="search"><input id="query" name="q" type="search" aria-label="Words" autofocus></form>
+<p id="count" role="status"></p>
+<ol id="found"></ol>
+<noscript><p>The search needs JavaScript.</p></noscript>
+<script src="search_index.js"></script>
+<script src="search.js"></script>`);
+writeFileSync(join(folder, "search_index.js"), `const parts = ${JSON.stringify(found_parts)};\n`);
+for (const file of ["site.css", "search.js"]) copyFileSync(join(root, "page/site", file), join(folder, file));
 rmSync(empty, { recursive: true });
-console.log(`${pages.size + 1} pages; ${live} of ${blocks} scripts on them can be grown`);
+console.log(`${pages.size + 2} pages; ${live} of ${blocks} scripts on them can be grown`);

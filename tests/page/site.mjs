@@ -1,6 +1,7 @@
-// Follows the links of the static site in the folder `site`, from the disk and without a network: no link is broken, and
-// a script of the specification grows. Argument: the browser. Screenshots are left in the current folder.
-import { existsSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
+// Follows the links of the static site in the folder `site`, from the disk and without a network: no link is broken,
+// scripts grow, words are found, and axe-core finds no serious problem. Arguments: the browser, and the text of axe-core
+// if it is installed. Screenshots are left in the current folder.
+import { existsSync, readFileSync, readdirSync, statSync, writeFileSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { Browser, ending, expect } from "./browser.mjs";
@@ -16,14 +17,16 @@ for (const page of pages) {
         expect(!fragment || fragment.startsWith("script=") || readFileSync(target, "utf8").includes(`id="${fragment}"`), `${page}: ${address} has no such heading`);
         ++links;
     }
-    expect(!/<script/i.test(text), `${page} has a script`);
+    expect(page === "search.html" || !/<script/i.test(text), `${page} has a script`);
 }
-expect(pages.length > 25 && links > 500, `there are only ${pages.length} pages with ${links} links`);
+const bytes = readdirSync("site", { recursive: true }).reduce((sum, name) => sum + statSync(join("site", name)).size, 0);
+expect(bytes < 30e6, `the site has ${bytes} bytes`);
+expect(pages.length > 55 && links > 1000, `there are only ${pages.length} pages with ${links} links`);
 
 const browser = await Browser.start(process.argv[2], join(process.cwd(), "profile"));
 const end = ending(browser);
 
-const open = (page) => browser.open(pathToFileURL(join("site", page)).href);
+const open = (page) => browser.open(pathToFileURL("site/").href + page);
 /// The exported page has the script of the link, and its pattern grows.
 async function expect_growth(words) {
     await browser.until(`document.querySelectorAll("#stages li").length > 0`);
@@ -32,19 +35,36 @@ async function expect_growth(words) {
     expect(text.includes(words), `the script is ${text}`);
 }
 
+/// Problems that axe-core calls serious.
+async function expect_access(name) {
+    if (!process.argv[3]) return;
+    await browser.evaluate(readFileSync(process.argv[3], "utf8"));
+    const found = await browser.evaluate(`axe.run(document, { resultTypes: ["violations"] }).then(({ violations }) => violations
+        .filter(({ impact }) => impact === "serious" || impact === "critical")
+        .map(({ id, nodes }) => id + ": " + nodes.slice(0, 3).map(({ target }) => target).join("; ")))`);
+    expect(found.length === 0, `${name}: ${found.join("\n")}`);
+}
+
 try {
     await browser.call("Network.enable");
     await browser.call("Network.emulateNetworkConditions", { offline: true, latency: 0, downloadThroughput: 0, uploadThroughput: 0 });
-    for (const [name, width, scheme] of [["wide", 1280, "light"], ["dark", 1280, "dark"], ["phone", 390, "light"]]) {
+    for (const [name, width, scheme] of [["wide", 1280, "light"], ["dark", 1280, "dark"], ["phone", 375, "light"]]) {
         await browser.call("Emulation.setDeviceMetricsOverride", { width, height: 844, deviceScaleFactor: 1, mobile: width < 500 });
         await browser.call("Emulation.setEmulatedMedia", { features: [{ name: "prefers-color-scheme", value: scheme }] });
-        for (const page of ["index.html", "tutorial.html", "systems.html", "museum.html", "spec/stages.html"]) {
+        for (const page of ["index.html", "tutorial.html", "systems.html", "museum.html", "spec/stages.html", "one_step.html", "search.html?q=turing"]) {
             await open(page);
             const overflow = await browser.evaluate("document.documentElement.scrollWidth - innerWidth");
             expect(overflow <= 0, `${name}: ${page} is ${overflow} pixels too wide`);
-            writeFileSync(`${name}_${page.replace("/", "_").replace("html", "png")}`, await browser.screenshot());
+            if (name !== "wide") await expect_access(`${name}, ${page}`);
+            writeFileSync(`${name}_${page.replace("/", "_").replace(/html.*/, "png")}`, await browser.screenshot());
         }
     }
+    await open("search.html?q=frozen%20spots");
+    await browser.until(`document.querySelectorAll("#found a").length > 2`);
+    const without = await browser.evaluate(`[...document.querySelectorAll("#found a")].filter(({ href }) => !/\\.html#/.test(href)).length`);
+    expect(without === 0, `${without} results of the search lead nowhere`);
+    await open("search.html?q=nosuchword");
+    await browser.until(`document.getElementById("count").textContent === "0 places"`);
     await open("index.html");
     await browser.until(`document.querySelectorAll(".gallery img").length > 30`);
     await browser.click(`.gallery a[href*="script="]`);
