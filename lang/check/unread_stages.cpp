@@ -1,5 +1,6 @@
 // Marks the stages that formulas and the picture read, and warns of all others.
 #include "lang/check/unread_stages.h"
+#include "lang/program/cell_items.h"
 #include "lang/program/stage_kinds.h"
 
 #include <fmt/format.h>
@@ -73,11 +74,9 @@ void warn_of_unread_stages(const Program& program, std::span<const PictureView> 
         if (stage.founders) note_reads(stage.founders->chance, is_read);
         if (stage.time.until) note_reads(*stage.time.until, is_read);
         const System& system = program.systems[stage.system];
-        if (system.cells) {
-            for (const Definition& each : system.definitions) note_reads(each.formula, is_read);
-            for (const Formula& rate : system.rates) note_reads(rate, is_read);
-            for (const Formula* rule : rules_of(*system.cells)) note_reads(*rule, is_read);
-        }
+        for (const Definition& each : system.definitions) note_reads(each.formula, is_read);
+        for (const Formula& rate : system.rates) note_reads(rate, is_read);
+        for (const Formula* rule : rules_of(system)) note_reads(*rule, is_read);
         for (const auto& sides : stage.sides) {
             for (const SideSetting& side : sides) note_reads(side.value, is_read);
         }

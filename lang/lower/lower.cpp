@@ -5,6 +5,7 @@
 #include "lang/lower/lower_expressions.h"
 #include "lang/lower/step_graph.h"
 #include "lang/lower/step_invariants.h"
+#include "lang/program/cell_items.h"
 #include "lang/program/dependencies.h"
 
 #include <fmt/format.h>
@@ -39,13 +40,6 @@ namespace {
 /// The value of views outside of the mask.
 constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
 
-/// Whether the item is a component of the position of a cell that crawls. Positions are known
-/// before all other values.
-bool is_of_place(const System& system, ItemId item) {
-    return system.cells && item >= system.cells->place &&
-           item.index() < system.cells->place.index() + 3;
-}
-
 /// Plans the starting values of some items: of the items that are computed before there are cells,
 /// or of all others. The plan reads the items that other plans compute.
 StepPlan plan_items(const Program& program, std::uint32_t stage, const PlanOptions& options,
@@ -54,7 +48,7 @@ StepPlan plan_items(const Program& program, std::uint32_t stage, const PlanOptio
     const IdVector<ItemId, bool> late = items_of_aggregates(source);
     std::vector<ItemId> items;
     for (const ItemId item : source.order) {
-        if (is_of_place(program.system_of(stage), item)) continue;
+        if (is_component_of_place(program.system_of(stage), item)) continue;
         if ((source.uniform[item] && !late[item]) == before_cells) items.push_back(item);
     }
     const PassContext context = context_of_start(program, stage);

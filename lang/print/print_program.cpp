@@ -1,5 +1,6 @@
 // Prints the checked program for `--dump program`.
 #include "lang/print/print_formula.h"
+#include "lang/program/cell_items.h"
 #include "lang/program/models.h"
 #include "lang/program/program.h"
 
@@ -33,8 +34,7 @@ void print_settings(const Program& program, const System& system, Output out) {
 /// formulas would fill pages.
 std::string print_start(const Program& program, const System& system, ItemId item,
                         const Formula& start, std::optional<std::uint32_t> stage) {
-    const bool is_of_axes = system.cells && system.cells->has_component(item) &&
-                            item >= system.cells->frame && start.nodes.size() > 1;
+    const bool is_of_axes = is_component_of_frame(system, item) && start.nodes.size() > 1;
     return is_of_axes ? "(of ey and ez)" : print_formula(program, system, start, stage);
 }
 

@@ -5,6 +5,7 @@
 #include "core/palette.h"
 #include "core/utf8.h"
 #include "lang/library/library.h"
+#include "lang/program/cell_items.h"
 #include "lang/vocabulary/greek_letters.h"
 #include "lang/vocabulary/settings.h"
 
@@ -35,7 +36,7 @@ std::string_view without_blanks_before(std::string_view text) {
 void add_items(std::vector<KnownName>& names, const System& system) {
     for (const ItemId item : system.quantities.ids()) {
         const Quantity& quantity = system.quantities[item];
-        if (system.cells && system.cells->has_component(item)) continue;
+        if (is_component(system, item)) continue;
         names.push_back({quantity.name,
                          quantity.is_species ? NameKind::species : NameKind::parameter,
                          quantity.doc});

@@ -4,6 +4,7 @@
 #include "lang/check/expressions/read_setting.h"
 #include "lang/check/systems/cell_frame.h"
 #include "lang/check/systems/check_time.h"
+#include "lang/program/cell_items.h"
 #include "lang/program/stage_kinds.h"
 
 #include <fmt/format.h>
@@ -144,7 +145,7 @@ const Node* sensed_too_early(const System& system, std::uint32_t stage) {
     for (const Quantity& quantity : system.quantities) look(quantity.start);
     for (const Definition& definition : system.definitions) look(definition.formula);
     for (const Formula& rate : system.rates) look(rate);
-    for (const Formula* rule : rules_of(*system.cells)) look(*rule);
+    for (const Formula* rule : rules_of(system)) look(*rule);
     for (const auto* formula : {&system.settings.frozen, &system.settings.show}) {
         if (*formula) look(**formula);
     }
@@ -181,7 +182,7 @@ std::string_view read_of_surface(const System& system, bool is_plane) {
     };
     for (const Definition& definition : system.definitions) look(definition.formula);
     for (const Formula& rate : system.rates) look(rate);
-    for (const Formula* rule : rules_of(*system.cells)) look(*rule);
+    for (const Formula* rule : rules_of(system)) look(*rule);
     return found;
 }
 

@@ -2,6 +2,7 @@
 // names.
 #include "core/near_name.h"
 #include "lang/check/names/check_names.h"
+#include "lang/program/cell_items.h"
 #include "lang/vocabulary/settings.h"
 
 #include <fmt/format.h>
@@ -163,7 +164,7 @@ void report(Workspace& work, Span span, std::string message, std::string hint, s
 std::vector<std::string> quantity_names(const System& system) {
     std::vector<std::string> names;
     for (const ItemId item : system.quantities.ids()) {
-        if (system.cells && system.cells->has_component(item)) continue;
+        if (is_component(system, item)) continue;
         names.push_back(system.quantities[item].name);
     }
     if (system.cells) names.emplace_back("p");

@@ -6,6 +6,7 @@
 #include "lang/check/systems/system_checker.h"
 #include "lang/vocabulary/settings.h"
 #include "lang/check/expressions/read_setting.h"
+#include "lang/program/cell_items.h"
 
 #include <fmt/format.h>
 
@@ -239,20 +240,21 @@ void SystemChecker::check_rules_of_cells() {
 
 /// Collects the distances of `over near(d)`.
 void SystemChecker::find_near() {
-    CellRules& rules = *system().cells;
+    std::vector<Formula> near;
     const auto collect = [&](const Formula& formula) {
         for (const Formula& distance : near_distances(formula)) {
             Formula found = without_definitions(system(), distance);
             const auto is_found = [&](const Formula& each) { return is_same(each, found); };
-            if (std::ranges::none_of(rules.near, is_found)) rules.near.push_back(std::move(found));
+            if (std::ranges::none_of(near, is_found)) near.push_back(std::move(found));
         }
     };
     for (const Definition& definition : system().definitions) collect(definition.formula);
     for (const Formula& rate : system().rates) collect(rate);
-    for (const Formula* rule : rules_of(rules)) collect(*rule);
+    for (const Formula* rule : rules_of(system())) collect(*rule);
     const Settings& settings = system().settings;
     if (settings.show) collect(*settings.show);
     if (settings.time.until) collect(*settings.time.until);
+    system().cells->near = std::move(near);
 }
 
 }  // namespace cascade::checking
