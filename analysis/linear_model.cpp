@@ -3,6 +3,7 @@
 
 #include "analysis/kernel_tapes.h"
 #include "analysis/lineariser.h"
+#include "lang/program/calls.h"
 
 #include <fmt/format.h>
 
@@ -62,8 +63,9 @@ Result<LinearModel> linear_model(const Program& program, std::uint32_t stage,
     std::vector<NodeId> constraints;
     for (const NodeId id : ids_below<NodeId>(rates.count)) {
         const Node& node = rates.algebra[id];
-        if (!node.calls(Function::solved)) continue;
-        model.unknowns.push_back({node.as<Call>()->detail});
+        const auto number = solved_constraint(node);
+        if (!number) continue;
+        model.unknowns.push_back({*number});
         constraints.push_back(node.operands[0]);
     }
     Lineariser parts(model);

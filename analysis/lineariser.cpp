@@ -1,6 +1,7 @@
 // Linearises numbers: items, operators, functions, and the kernels of convolutions.
 #include "analysis/lineariser.h"
 #include "lang/calculus/derivative_rules.h"
+#include "lang/program/calls.h"
 #include "lang/program/nodes_of_rates.h"
 
 #include <fmt/format.h>
@@ -157,7 +158,7 @@ Result<void> Lineariser::add_call(const Node& node, Part& part) {
             }
             return {};
         case Function::convolve: return add_convolution(node, part);
-        case Function::solved: add_unknown({node.as<Call>()->detail}, part); return {};
+        case Function::solved: add_unknown({*solved_constraint(node)}, part); return {};
         default: break;
     }
     if (info(node.function).is_aggregate) return add_aggregate(node, part);

@@ -59,9 +59,6 @@ bool starts_with_noise_alone(const LinearModel& model) {
 /// stages that draw no random numbers or continue from the pattern of an earlier stage.
 bool may_start_with_noise(const Program& program, std::uint32_t number) {
     const Stage& stage = program.stages[number];
-    const auto is_noise = [](const Node& node) {
-        return is_draw(node) || node.calls(Function::noise);
-    };
     const auto is_pattern = [&](const Node& node) {
         const auto* there = node.as<StageItem>();
         return there != nullptr && program.system_of(there->stage).is_species(there->item);
@@ -70,7 +67,7 @@ bool may_start_with_noise(const Program& program, std::uint32_t number) {
         if (holds_in(stage.items[item], is_pattern)) return false;
     }
     return std::any_of(stage.items.begin(), stage.items.end(),
-                       [&](const Formula& formula) { return holds_in(formula, is_noise); });
+                       [&](const Formula& formula) { return holds_in(formula, is_draw); });
 }
 
 bool is_weak(const Vector& scatter, const Vector& state, const Vector& start) {

@@ -3,6 +3,7 @@
 
 #include "core/check.h"
 #include "lang/program/fold.h"
+#include "lang/vocabulary/function_groups.h"
 
 #include <algorithm>
 #include <array>
@@ -15,8 +16,7 @@ namespace {
 template <typename Step>
 double value_of(const Step& step, const std::vector<double>& registers) {
     const double a = registers[step.a], b = registers[step.b];
-    const bool is_power = step.function == Function::power || step.function == Function::pow;
-    if (is_power && b == 2) return a * a;
+    if (b == 2 && is_power(step.function)) return a * a;
     return fold(step.function, std::array{a, b, registers[step.c]})
         .value_or(std::numeric_limits<double>::quiet_NaN());
 }

@@ -17,18 +17,9 @@ namespace {
 /// Whether an operator of numbers can be computed here. Vectors are computed where `div` reads
 /// them.
 bool is_known_operator(const Node& node) {
-    switch (node.function) {
-        case Function::grad2:
-        case Function::advect:
-        case Function::diffuse:
-        case Function::upwind:
-        case Function::limited:
-        case Function::beside:
-        case Function::div:
-        case Function::domain_mean:
-        case Function::domain_sum: return true;
-        default: return difference_of(node.function).has_value();
-    }
+    const bool is_sum_of_cells = is_aggregate(node) && is_linear_in(node.function, 0, 1);
+    return is_sum_of_cells || node.calls(Function::div) || difference_of(node.function) ||
+           FieldExpressions::rule_of(node.function) != nullptr;
 }
 
 /// Whether the values are read once, before anything changes.

@@ -39,6 +39,11 @@ public:
                                            const PaddedGrid& grid, std::span<const ItemId> changing,
                                            const ConstantValues& constants);
 
+    /// Computes one operator from the parts of its operands.
+    using OperatorRule = Part (FieldExpressions::*)(const Node& node, const Boundaries& beyond);
+    /// The rule of an operator. Null for plain differences, divergences, means and other functions.
+    static OperatorRule rule_of(Function function);
+
     /// Whether every value that does not change during the continuation is the same in all cells.
     bool is_same_everywhere() const;
     std::size_t root_count() const { return plan_->roots().size(); }
@@ -61,8 +66,13 @@ private:
     Values folded(const Node& node) const;
     SparseRows chained(NodeId id) const;
     Part operated(NodeId id);
-    Part upwind(NodeId velocity, NodeId operand, int axis, const Boundaries& beyond);
-    Part limited(NodeId operand, int axis, const Boundaries& beyond);
+    Part beside(const Node& node, const Boundaries& beyond);
+    Part squared_gradient(const Node& node, const Boundaries& beyond);
+    Part advection(const Node& node, const Boundaries& beyond);
+    Part diffusion(const Node& node, const Boundaries& beyond);
+    Part upwind(const Node& node, const Boundaries& beyond);
+    Part limited(const Node& node, const Boundaries& beyond);
+    Part flow(NodeId velocity, NodeId operand, int axis, const Boundaries& beyond);
     Part aggregated(const Node& node);
     Part difference(NodeId operand, Difference kind, int first, int second,
                     const Boundaries& beyond);

@@ -4,6 +4,7 @@
 #include "lang/program/vector_functions.h"
 
 #include <span>
+#include <utility>
 
 namespace cascade::continuation {
 
@@ -32,47 +33,69 @@ Part FieldExpressions::operated(NodeId id) {
     if (const auto own = difference_of(node.function)) {
         return difference(operand, own->difference, own->first, own->second, beyond);
     }
-    const auto detail = node.as<Call>()->detail;
-    switch (node.function) {
-        case Function::beside:
-            if (parts_[operand].is_uniform()) return parts_[operand];
-            return applied(differences_->beside(Offset::of(detail), beyond), parts_[operand]);
-        case Function::grad2: {
-            Part squares;
-            for (const int axis : grid_->axes().present) {
-                const Part along = difference(operand, Difference::central, axis, 0, beyond);
-                squares = sum(squares, product(along, along));
-            }
-            return squares;
-        }
-        case Function::advect: {
-            Part all;
-            for (const int axis : grid_->axes().present) {
-                if (axis + 1 >= node.operand_count) continue;
-                const NodeId velocity = node.operands[static_cast<std::size_t>(axis)];
-                all = sum(all, upwind(velocity, operand, axis, beyond));
-            }
-            return all;
-        }
-        case Function::upwind:
-            return upwind(node.operands[0], operand, static_cast<int>(detail), beyond);
-        case Function::limited: return limited(operand, static_cast<int>(detail), beyond);
-        case Function::diffuse: {
-            const Node& tensor = (*plan_)[node.operands[0]];
-            const auto term = [&](std::size_t entry, Difference kind, int first, int second) {
-                return product(parts_[tensor.operands[entry]],
-                               difference(operand, kind, first, second, beyond));
-            };
-            return sum(sum(term(0, Difference::second, 0, 0), term(2, Difference::second, 1, 0)),
-                       scaled(term(1, Difference::mixed, 0, 1), 2));
-        }
-        default: break;
+    const OperatorRule rule = rule_of(node.function);
+    CHECK(rule != nullptr, "operators have been checked");
+    return (this->*rule)(node, beyond);
+}
+
+FieldExpressions::OperatorRule FieldExpressions::rule_of(Function function) {
+    static constexpr std::pair<Function, OperatorRule> rules[] = {
+        {Function::beside, &FieldExpressions::beside},
+        {Function::grad2, &FieldExpressions::squared_gradient},
+        {Function::advect, &FieldExpressions::advection},
+        {Function::diffuse, &FieldExpressions::diffusion},
+        {Function::upwind, &FieldExpressions::upwind},
+        {Function::limited, &FieldExpressions::limited},
+    };
+    for (const auto& [of, rule] : rules) {
+        if (of == function) return rule;
     }
-    CHECK(false, "operators have been checked");
+    return nullptr;
+}
+
+Part FieldExpressions::beside(const Node& node, const Boundaries& beyond) {
+    const Part& of = parts_[node.operands[0]];
+    if (of.is_uniform()) return of;
+    return applied(differences_->beside(Offset::of(node.as<Call>()->detail), beyond), of);
+}
+
+Part FieldExpressions::squared_gradient(const Node& node, const Boundaries& beyond) {
+    Part squares;
+    for (const int axis : grid_->axes().present) {
+        const Part along = difference(node.operands[0], Difference::central, axis, 0, beyond);
+        squares = sum(squares, product(along, along));
+    }
+    return squares;
+}
+
+Part FieldExpressions::advection(const Node& node, const Boundaries& beyond) {
+    Part all;
+    for (const int axis : grid_->axes().present) {
+        if (axis + 1 >= node.operand_count) continue;
+        const NodeId velocity = node.operands[static_cast<std::size_t>(axis)];
+        all = sum(all, flow(velocity, node.reads().back(), axis, beyond));
+    }
+    return all;
+}
+
+/// By the entries of a tensor, the first operand.
+Part FieldExpressions::diffusion(const Node& node, const Boundaries& beyond) {
+    const Node& tensor = (*plan_)[node.operands[0]];
+    const auto term = [&](std::size_t entry, Difference kind, int first, int second) {
+        return product(parts_[tensor.operands[entry]],
+                       difference(node.reads().back(), kind, first, second, beyond));
+    };
+    return sum(sum(term(0, Difference::second, 0, 0), term(2, Difference::second, 1, 0)),
+               scaled(term(1, Difference::mixed, 0, 1), 2));
+}
+
+Part FieldExpressions::upwind(const Node& node, const Boundaries& beyond) {
+    return flow(node.operands[0], node.reads().back(), static_cast<int>(node.as<Call>()->detail),
+                beyond);
 }
 
 /// v · (v > 0 ? c − W : E − c) / h.
-Part FieldExpressions::upwind(NodeId velocity, NodeId operand, int axis, const Boundaries& beyond) {
+Part FieldExpressions::flow(NodeId velocity, NodeId operand, int axis, const Boundaries& beyond) {
     const Part& v = parts_[velocity];
     const Values is_forwards = (v.values > 0).cast<double>();
     const Part backward = difference(operand, Difference::backward, axis, 0, beyond);
@@ -81,7 +104,9 @@ Part FieldExpressions::upwind(NodeId velocity, NodeId operand, int axis, const B
 }
 
 /// Van Leer's limiter, as in lang/lower/lower_operators.cpp.
-Part FieldExpressions::limited(NodeId operand, int axis, const Boundaries& beyond) {
+Part FieldExpressions::limited(const Node& node, const Boundaries& beyond) {
+    const NodeId operand = node.reads().back();
+    const auto axis = static_cast<int>(node.as<Call>()->detail);
     const Part a =
         scaled(difference(operand, Difference::forward, axis, 0, beyond), grid_->spacing());
     const Part b =

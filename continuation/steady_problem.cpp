@@ -4,6 +4,7 @@
 #include "continuation/decompositions.h"
 #include "lang/calculus/side_values.h"
 #include "lang/lower/lower_expressions.h"
+#include "lang/program/calls.h"
 #include "lang/program/nodes_of_rates.h"
 
 #include <fmt/format.h>
@@ -76,7 +77,7 @@ Result<void> check_steady(const Program& program, std::uint32_t stage) {
     if (holds_in_rates(system, is_moment) || holds_in_sides(own, is_moment)) {
         return failure("its rates depend on time, " + std::string(no_steady_state));
     }
-    const auto is_solved = [](const Node& node) { return node.calls(Function::solved); };
+    const auto is_solved = [](const Node& node) { return solved_constraint(node).has_value(); };
     if (holds_in_rates(system, is_solved)) return failure("constraints are not supported");
     return {};
 }

@@ -3,6 +3,7 @@
 
 #include "lang/calculus/algebra.h"
 #include "lang/calculus/derivative_rules.h"
+#include "lang/program/calls.h"
 
 #include <algorithm>
 #include <array>
@@ -49,8 +50,7 @@ private:
             return algebra_.number(std::abs(quotient - 1) < same_number ? 1 : quotient);
         }
         const auto [a, b] = std::array{node.operands[0], node.operands[1]};
-        const bool is_sum = node.calls(Function::add) || node.calls(Function::subtract);
-        if (is_sum && depth < deepest_sum) {
+        if (calls(node, is_sum) && depth < deepest_sum) {
             const NodeId first = divided(a, divisor, depth + 1);
             return algebra_.call(node.function, {first, divided(b, divisor, depth + 1)});
         }
@@ -97,12 +97,12 @@ private:
     NodeId logarithmic_slope_of(NodeId id) {
         const Node node = algebra_[id];
         const auto [a, b] = std::array{node.operands[0], node.operands[1]};
-        const bool is_power = node.calls(Function::power) || node.calls(Function::pow);
         if (node.calls(Function::multiply)) return algebra_.sum(logarithmic_[a], logarithmic_[b]);
         if (node.calls(Function::divide))
             return algebra_.difference(logarithmic_[a], logarithmic_[b]);
         if (node.calls(Function::exp)) return slopes_[a];
-        if (is_power && algebra_.is_number(b)) return algebra_.product(b, logarithmic_[a]);
+        if (calls(node, is_power) && algebra_.is_number(b))
+            return algebra_.product(b, logarithmic_[a]);
         if (algebra_.is_number(slopes_[id], 0)) return slopes_[id];
         return algebra_.quotient(slopes_[id], id);
     }

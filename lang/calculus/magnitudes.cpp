@@ -3,6 +3,7 @@
 #include "lang/calculus/magnitudes.h"
 
 #include "lang/calculus/algebra.h"
+#include "lang/program/calls.h"
 #include "lang/vocabulary/by_name.h"
 
 #include <algorithm>
@@ -147,7 +148,7 @@ private:
         // If the size is unknown, the loss is unknown, too.
         if (!std::isfinite(part.lost) || !std::isfinite(part.size.most)) part.lost = 0;
         if (!std::isfinite(part.size.most)) return part;
-        if (node.calls(Function::add) || node.calls(Function::subtract)) swallow(node, part);
+        if (calls(node, is_sum)) swallow(node, part);
         const bool multiplies = node.calls(Function::multiply) || node.calls(Function::divide) ||
                                 node.calls(Function::power) || node.calls(Function::exp);
         if (!multiplies) return part;

@@ -6,6 +6,7 @@
 #include "core/check.h"
 #include "lang/calculus/algebra.h"
 #include "lang/calculus/derivative_rules.h"
+#include "lang/program/calls.h"
 #include "lang/program/nodes_of_rates.h"
 
 #include <algorithm>
@@ -223,9 +224,7 @@ Conductivity conductivity_at(const System& system,
     const NodeId rate = rates.rate(item);
     const IdVector<NodeId, bool> needed = needed_by(rates.algebra, {&rate, 1});
     for (const NodeId id : ids_below<NodeId>(needed.size())) {
-        const Node& node = rates.algebra[id];
-        if (needed[id] && (node.calls(Function::diffuse) || node.calls(Function::tensor) ||
-                           node.calls(Function::symmetric)))
+        if (needed[id] && calls(rates.algebra[id], has_tensor))
             return {std::nullopt, "diffuses in a direction"};
     }
     const SpeciesDiffusion& diffusion = diffusion_of_all[species];

@@ -3,6 +3,7 @@
 
 #include "lang/calculus/derivative_rules.h"
 #include "lang/program/vector_functions.h"
+#include "lang/vocabulary/function_groups.h"
 
 #include <algorithm>
 #include <span>
@@ -87,11 +88,10 @@ std::optional<Slopes> SlopeRules::slopes_of(NodeId id, ItemId species,
 std::optional<Slope> SlopeRules::of_number(const Node& node,
                                            const IdVector<NodeId, Slopes>& before) {
     const Slopes& first = before[node.operands[0]];
+    if (carries(node.function)) return of_advection(node, before);
     switch (node.function) {
         case Function::div: return of_divergence(first);
         case Function::grad2: return of_squared_gradient(node, first[0]);
-        case Function::advect:
-        case Function::transport: return of_advection(node, before);
         case Function::diffuse:
             for (std::size_t n = 1; n < 4; ++n) {
                 if (!is_zero(before[node.operands[n]][0])) return std::nullopt;

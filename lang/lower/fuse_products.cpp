@@ -3,6 +3,7 @@
 // the planes to which nodes are written later. So every plan of a step computes the same bits.
 #include "lang/lower/graph_passes.h"
 #include "lang/lower/plan_graph.h"
+#include "lang/program/calls.h"
 
 #include <optional>
 
@@ -50,9 +51,8 @@ private:
             const auto quotient = product(at());
             return term(quotient->first) * term(quotient->second);
         }
-        const bool is_difference = node.calls(Function::subtract);
         const auto [a, b, c, d, e, f] = facts_[at()].operands;
-        if ((!node.calls(Function::add) && !is_difference) || a == b) return keep(node);
+        if (!calls(node, is_sum) || a == b) return keep(node);
         const auto left = product(a), right = product(b);
         if (!left && !right) return keep(node);
         // If both operands are products, the first is fused if only it has a uniform factor,
@@ -61,7 +61,7 @@ private:
             left && (!right || (left->has_coefficient && !right->has_coefficient));
         auto [first, second, has_coefficient] = fuses_left ? *left : *right;
         NodeId added = image(fuses_left ? b : a);
-        if (is_difference) {
+        if (node.calls(Function::subtract)) {
             // Negates the varying factor, because a negated uniform factor would need another
             // register.
             NodeId& turned = fuses_left ? added : second;

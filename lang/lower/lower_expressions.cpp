@@ -3,6 +3,7 @@
 
 #include "core/check.h"
 #include "lang/calculus/derivative.h"
+#include "lang/program/calls.h"
 
 #include <algorithm>
 #include <array>
@@ -26,17 +27,13 @@ bool has_border(const PassContext& context) { return context.has_values_at_borde
 bool has_fewer_roundings(const PassContext& context) { return context.has_fewer_roundings; }
 
 bool any_node(const Node&) { return true; }
-bool is_tensor(const Node& node) {
-    return node.calls(Function::tensor) || node.calls(Function::symmetric) ||
-           node.calls(Function::diffuse);
-}
+bool is_tensor(const Node& node) { return calls(node, has_tensor); }
 bool is_transport(const Node& node) { return node.calls(Function::transport); }
 bool is_shift(const Node& node) { return node.calls(Function::shifted); }
-bool is_operator(const Node& node) { return node.is<Call>() && differentiates(node.function); }
+bool is_operator(const Node& node) { return calls(node, differentiates); }
 bool is_of_whole_planes(const Node& node) { return is_aggregate(node) || is_nonlocal(node); }
 bool is_sum_or_quotient(const Node& node) {
-    return node.calls(Function::add) || node.calls(Function::subtract) ||
-           node.calls(Function::divide);
+    return calls(node, is_sum) || node.calls(Function::divide);
 }
 bool is_of_cell(const Node& node) { return is_operator(node) || node.is<Builtin>(); }
 
@@ -86,12 +83,11 @@ void add_walls_of_constraints(Expressions& expressions, const PassContext& conte
     const auto& sides = context.program.stages[context.stage].definition_sides;
     for (std::size_t k = 0; k < sides.size(); ++k) {
         const Node& defined = system.definitions[sides[k].definition].formula.nodes.back();
-        if (!defined.calls(Function::solved)) continue;
-        const std::uint32_t number = defined.as<Call>()->detail;
+        const auto number = solved_constraint(defined);
+        if (!number) continue;
         for (const NodeId id : expressions.graph.nodes().ids()) {
             const Node& node = expressions.graph[id];
-            const bool is_field = node.is(Unknown{number}) || (node.calls(Function::solved) &&
-                                                               node.as<Call>()->detail == number);
+            const bool is_field = node.is(Unknown{*number}) || solved_constraint(node) == number;
             if (is_field) expressions.walls.emplace_back(id, k);
         }
     }

@@ -1,6 +1,8 @@
 // Makes the planner's decisions in one loop over the nodes, operands first.
 #include "lang/lower/pass_planner.h"
 
+#include "lang/program/calls.h"
+
 #include <algorithm>
 #include <bit>
 
@@ -83,7 +85,7 @@ void PassPlanner::decide(NodeId id) {
         return;
     }
     const NodeId last = node.reads().back();
-    if (node.calls(Function::solved)) {
+    if (solved_constraint(node)) {
         written_[id] = true;  // Computed before the first pass.
         return;
     }

@@ -6,6 +6,7 @@
 // computed as on a plane, and the flow of a gradient is a tensor times ∇. spec/surfaces.md has the
 // formulas.
 #include "lang/lower/graph_passes.h"
+#include "lang/vocabulary/function_groups.h"
 
 #include <optional>
 #include <utility>
@@ -120,6 +121,10 @@ class SurfaceOperators : public GraphPass {
     NodeId image_of(const Node& node) override {
         if (!node.is<Call>()) return keep(node);
         const Term first = term(node.operands[0]), second = term(node.operands[1]), area = s();
+        if (carries(node.function)) {
+            const Term column = in_columns(first, second), row = r() * second;
+            return Term::call(node.function, column, row, term(node.operands[2]));
+        }
         switch (node.function) {
             case Function::lap: return div(flow_of_gradient(grad(first))) / area;
             case Function::div: return div(first) / area;
@@ -130,11 +135,6 @@ class SurfaceOperators : public GraphPass {
             case Function::grad2: {
                 const Term along = along_row(first), across = across_row(first);
                 return sum_of_products(along, along, across, across);
-            }
-            case Function::advect:
-            case Function::transport: {
-                const Term column = in_columns(first, second), row = r() * second;
-                return Term::call(node.function, column, row, term(node.operands[2]));
             }
             case Function::diffuse: return diffuse(in_cells(first), second);
             case Function::multiply:

@@ -3,6 +3,7 @@
 #include "lang/program/field_vectors.h"
 
 #include "lang/program/vector_functions.h"
+#include "lang/vocabulary/function_groups.h"
 
 #include <array>
 #include <span>
@@ -95,6 +96,7 @@ NodeId FieldVectors::add(const Node& node, Written written) {
 std::optional<NodeId> FieldVectors::written_out(const Node& node) {
     const NodeId a = node.operands[0];
     if (node.type == ValueType::tensor) return of_tensors(node);
+    if (carries(node.function) && node.operand_count == 2) return carried(node);
     switch (node.function) {
         case Function::unit: return inverse(length(components(a)).term) * term(a);
         case Function::curl: return curl(node);
@@ -109,10 +111,6 @@ std::optional<NodeId> FieldVectors::written_out(const Node& node) {
         case Function::mix:
             if (node.type != ValueType::vector) return std::nullopt;
             return choice(node);
-        case Function::advect:
-        case Function::transport:
-            if (node.operand_count != 2) return std::nullopt;
-            return carried(node);
         default: break;
     }
     if (info(node.function).kind != FunctionKind::geometry) return std::nullopt;

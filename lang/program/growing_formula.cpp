@@ -2,6 +2,8 @@
 // replaced by a sum of such products.
 #include "lang/program/growing_formula.h"
 
+#include "lang/vocabulary/function_groups.h"
+
 #include <utility>
 
 namespace cascade {
@@ -53,8 +55,8 @@ Formula GrowingFormula::diluted(const Formula& rate, ItemId species) {
         if (has_axis(axis)) dilution = sound(dilution, axis);
     }
     const NodeId value = append({species, span_});
-    const NodeId loss = call(Function::multiply, {dilution, value});
-    call(Function::subtract, {before, loss});
+    const NodeId loss = product(dilution, value);
+    difference(before, loss);
     return std::move(result_);
 }
 
@@ -88,36 +90,32 @@ NodeId GrowingFormula::sound(NodeId value, std::size_t axis) {
     if (is_above_zero(growth_.scale[axis])) return value;
     const NodeId zero = number(0), length = copied(growth_.scale[axis]);
     const NodeId is_there = call(Function::less, {zero, length});
-    return call(Function::divide, {value, is_there});
+    return quotient(value, is_there);
 }
 
 /// 1 / scale
 NodeId GrowingFormula::inverse(std::size_t axis) {
     if (!inverses_[axis]) {
         const NodeId one = number(1);
-        inverses_[axis] = call(Function::divide, {one, scale(axis)});
+        inverses_[axis] = quotient(one, scale(axis));
     }
     return *inverses_[axis];
 }
 
 NodeId GrowingFormula::inverse_square(std::size_t axis) {
-    if (!squares_[axis]) {
-        squares_[axis] = call(Function::multiply, {inverse(axis), inverse(axis)});
-    }
+    if (!squares_[axis]) squares_[axis] = square(inverse(axis));
     return *squares_[axis];
 }
 
 /// A number or a vector, divided by the scale of an axis.
 NodeId GrowingFormula::shrunk(NodeId value, std::size_t axis) {
     if (!changes(axis)) return value;
-    const NodeId by = inverse(axis);
-    return call(Function::multiply, {by, value}, result_.nodes[value].type);
+    return product(inverse(axis), value);
 }
 
 NodeId GrowingFormula::twice_shrunk(NodeId value, std::size_t axis) {
     if (!changes(axis)) return value;
-    const NodeId by = inverse_square(axis);
-    return call(Function::multiply, {by, value}, result_.nodes[value].type);
+    return product(inverse_square(axis), value);
 }
 
 NodeId GrowingFormula::image_of(const Node& node) {
@@ -134,7 +132,7 @@ NodeId GrowingFormula::times_scale(const Node& node) {
     const auto axis = static_cast<std::size_t>(*result_.nodes[node.operands[1]].as<double>());
     const std::size_t own = axis < 3 ? axis : main_axis();
     if (!changes(own)) return node.operands[0];
-    return call(Function::multiply, {node.operands[0], scale(own)});
+    return product(node.operands[0], scale(own));
 }
 
 /// White noise is divided by the root of a cell's content.
@@ -142,11 +140,11 @@ NodeId GrowingFormula::white(NodeId value) {
     std::optional<NodeId> content;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (!has_axis(axis) || !changes(axis)) continue;
-        content = content ? call(Function::multiply, {*content, scale(axis)}) : scale(axis);
+        content = content ? product(*content, scale(axis)) : scale(axis);
     }
     if (!content) return value;
     const NodeId root = call(Function::sqrt, {*content});
-    return call(Function::divide, {value, root});
+    return quotient(value, root);
 }
 
 NodeId GrowingFormula::sum(const std::vector<NodeId>& terms) {
@@ -171,7 +169,7 @@ NodeId GrowingFormula::scaled_vector(NodeId vector, const std::array<std::size_t
     const NodeId tensor = stencil_.z ? call(Function::symmetric, {x, zero, zero, y, zero, entry(2)},
                                             ValueType::tensor)
                                      : call(Function::symmetric, {x, zero, y}, ValueType::tensor);
-    return call(Function::multiply, {tensor, vector}, ValueType::vector);
+    return product(tensor, vector);
 }
 
 NodeId GrowingFormula::curl(const Node& node) {
@@ -185,11 +183,23 @@ NodeId GrowingFormula::curl(const Node& node) {
             return shrunk(call(first_derivatives[along], {component(of, value)}), along);
         };
         const NodeId first = slope(i, j);
-        return call(Function::subtract, {first, slope(j, i)});
+        return difference(first, slope(j, i));
     };
     if (node.type == ValueType::number) return part(0, 1);
     const NodeId x = part(1, 2), y = part(2, 0);
     return call(Function::vector, {x, y, part(0, 1)}, ValueType::vector);
+}
+
+/// Transport by a velocity, given as a vector or by components.
+NodeId GrowingFormula::carried(Node node) {
+    if (node.operand_count == 2 && result_.nodes[node.operands[0]].type == ValueType::vector) {
+        node.operands[0] = scaled_vector(node.operands[0], {0, 1, 2});
+        return append(node);
+    }
+    for (std::size_t axis = 0; axis + 1 < node.operand_count; ++axis) {
+        node.operands[axis] = shrunk(node.operands[axis], axis);
+    }
+    return append(node);
 }
 
 /// An operator whose axes have different scales.
@@ -202,6 +212,7 @@ NodeId GrowingFormula::by_axes(const Node& node) {
         if (derivative.order == 1) return shrunk(value, first);
         return first == second ? twice_shrunk(value, first) : shrunk(shrunk(value, first), second);
     }
+    if (carries(node.function)) return carried(node);
     switch (node.function) {
         case Function::lap: {
             std::vector<NodeId> terms;
@@ -215,8 +226,7 @@ NodeId GrowingFormula::by_axes(const Node& node) {
             std::vector<NodeId> terms;
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 if (!has_axis(axis)) continue;
-                const NodeId slope = shrunk(call(first_derivatives[axis], {of}), axis);
-                terms.push_back(call(Function::multiply, {slope, slope}));
+                terms.push_back(square(shrunk(call(first_derivatives[axis], {of}), axis)));
             }
             return sum(terms);
         }
@@ -225,19 +235,6 @@ NodeId GrowingFormula::by_axes(const Node& node) {
         case Function::div: {
             const NodeId flux = scaled_vector(of, {0, 1, 2});
             return call(Function::div, {flux});
-        }
-        case Function::advect:
-        case Function::transport: {
-            Node image = node;
-            if (node.operand_count == 2 &&
-                result_.nodes[node.operands[0]].type == ValueType::vector) {
-                image.operands[0] = scaled_vector(node.operands[0], {0, 1, 2});
-                return append(image);
-            }
-            for (std::size_t axis = 0; axis + 1 < node.operand_count; ++axis) {
-                image.operands[axis] = shrunk(node.operands[axis], axis);
-            }
-            return append(image);
         }
         default: return append(node);  // The checker refuses other operators.
     }

@@ -37,6 +37,13 @@ private:
         std::ranges::copy(operands, node.operands.begin());
         return append(node);
     }
+    /// The type of a product is the type of its second factor.
+    NodeId product(NodeId a, NodeId b) {
+        return call(Function::multiply, {a, b}, result_.nodes[b].type);
+    }
+    NodeId square(NodeId a) { return product(a, a); }
+    NodeId quotient(NodeId a, NodeId b) { return call(Function::divide, {a, b}); }
+    NodeId difference(NodeId a, NodeId b) { return call(Function::subtract, {a, b}); }
     NodeId copied(const Formula& formula);
 
     bool has_axis(std::size_t axis) const {
@@ -61,6 +68,7 @@ private:
     NodeId white(NodeId value);
     NodeId scaled_vector(NodeId vector, const std::array<std::size_t, 3>& axes);
     NodeId curl(const Node& node);
+    NodeId carried(Node node);
     NodeId component(NodeId vector, std::size_t axis);
     NodeId sum(const std::vector<NodeId>& terms);
 

@@ -1,6 +1,9 @@
 // Lists the functions that have no meaning on a model, with the reasons that messages give.
 #include "lang/program/models.h"
 
+#include "lang/program/cell_items.h"
+#include "lang/vocabulary/function_groups.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,11 +21,10 @@ constexpr std::int64_t cells_of_row = 512;
 /// Why an operator is refused on a model; "" if it has a meaning there.
 std::string_view reason_against(Function function) {
     if (includes(info(function).domains, Domains::model)) return "";
+    if (carries(function)) {
+        return "it needs columns and rows; dot(v, grad(e)) is advection by central differences";
+    }
     switch (function) {
-        case Function::advect:
-        case Function::transport:
-            return "it needs columns and rows; "
-                   "dot(v, grad(e)) is advection by central differences";
         case Function::symmetric:
             return "tensor(a1, a2, theta) works there, with theta along(grad(v)) or "
                    "along(axis(0, 1, 0))";
@@ -154,9 +156,7 @@ void for_each_formula(const Program& program, const Take& take) {
             used[stage.system] = true;
             for (const Formula& rate : system.rates) add(rate);
             for (const Definition& definition : system.definitions) add(definition.formula);
-            if (system.cells) {
-                for (const Formula* rule : rules_of(*system.cells)) add(*rule);
-            }
+            for (const Formula* rule : rules_of(system)) add(*rule);
         }
         add(stage.remove);
         add(stage.body);

@@ -9,30 +9,30 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <optional>
 
 namespace cascade {
 
 namespace {
 
+/// The operator that a token stands for between two operands. `=` is read as `==`.
 std::optional<Function> binary_of(TokenKind kind) {
-    switch (kind) {
-        case TokenKind::keyword_or: return Function::logical_or;
-        case TokenKind::keyword_and: return Function::logical_and;
-        case TokenKind::less: return Function::less;
-        case TokenKind::less_equal: return Function::less_equal;
-        case TokenKind::greater: return Function::greater;
-        case TokenKind::greater_equal: return Function::greater_equal;
-        case TokenKind::equal:
-        case TokenKind::assign: return Function::equal;
-        case TokenKind::not_equal: return Function::not_equal;
-        case TokenKind::plus: return Function::add;
-        case TokenKind::minus: return Function::subtract;
-        case TokenKind::star: return Function::multiply;
-        case TokenKind::slash: return Function::divide;
-        case TokenKind::caret: return Function::power;
-        default: return std::nullopt;
-    }
+    static const auto operators = [] {
+        std::array<std::optional<Function>, static_cast<std::size_t>(TokenKind::bar) + 1> table;
+        for (std::size_t t = 0; t < table.size(); ++t) {
+            const auto token = static_cast<TokenKind>(t);
+            const auto text = spelling(token == TokenKind::assign ? TokenKind::equal : token);
+            for (std::size_t k = 0; k < function_count; ++k) {
+                const FunctionInfo& row = info(static_cast<Function>(k));
+                const bool is_binary = row.is_operator && row.arity.takes(2);
+                if (is_binary && row.spelling == text) table[t] = static_cast<Function>(k);
+            }
+        }
+        return table;
+    }();
+    return operators[static_cast<std::size_t>(kind)];
 }
 
 constexpr const char* form_of_near = "such as sum(e over near(0.1))";

@@ -1,6 +1,8 @@
 // Decides whether a product applies an operator, by searching for a `lap` without brackets.
 #include "lang/syntax/operator_polynomials.h"
 
+#include "lang/vocabulary/function_groups.h"
+
 #include <vector>
 
 namespace cascade {
@@ -15,17 +17,10 @@ bool is_operator(const ast::Script& script, ast::ExprId node) {
         } else if (const auto* unary = std::get_if<ast::Unary>(&part)) {
             if (unary->op == Function::negate) waiting.push_back(unary->operand);
         } else if (const auto* binary = std::get_if<ast::Binary>(&part)) {
-            switch (binary->op) {
-                case Function::add:
-                case Function::subtract:
-                    waiting.push_back(binary->left);
-                    waiting.push_back(binary->right);
-                    break;
-                case Function::multiply: waiting.push_back(binary->right); break;
-                case Function::divide:
-                case Function::power: waiting.push_back(binary->left); break;
-                default: break;
-            }
+            const Function op = binary->op;
+            const bool is_raised = op == Function::divide || op == Function::power;
+            if (is_sum(op) || is_raised) waiting.push_back(binary->left);
+            if (is_sum(op) || op == Function::multiply) waiting.push_back(binary->right);
         }
     }
     return false;

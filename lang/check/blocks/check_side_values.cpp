@@ -4,6 +4,7 @@
 
 #include "lang/calculus/algebra.h"
 #include "lang/calculus/side_values.h"
+#include "lang/program/calls.h"
 #include "lang/program/nodes_of_rates.h"
 
 #include <fmt/format.h>
@@ -123,8 +124,7 @@ private:
                               "");
             }
             // The constraint of a solved field reads the field.
-            const bool is_solved = root.calls(Function::solved);
-            if (!is_solved && !is_read_beside(system(), sides.definition)) {
+            if (!solved_constraint(root) && !is_read_beside(system(), sides.definition)) {
                 return report(setting.span,
                               fmt::format("no operator reads '{}', so a side of it has no effect",
                                           definition.name),

@@ -249,7 +249,7 @@ void ExpressionChecker::check_types(const Node& node) {
         case FunctionKind::colour:
             if (node.function == Function::palette) return check_palette(node);
             formula_.nodes.back().type = ValueType::colour;
-            if (node.function == Function::rgb) check_rgb(node);
+            check_rgb(node);
             break;
         default: break;
     }

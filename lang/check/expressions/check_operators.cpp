@@ -5,6 +5,7 @@
 // of cells. In a system of cells that crawl, vectors are positions and directions in space.
 #include "lang/check/expressions/expression_checker.h"
 #include "lang/program/stencils.h"
+#include "lang/vocabulary/function_groups.h"
 
 #include <fmt/format.h>
 
@@ -209,9 +210,7 @@ void ExpressionChecker::check_operator(const Node& node) {
                      "such as grad(e), d * grad(e) or vector(ex, ey)");
     }
     if (node.function == Function::curl) return check_curl(node);
-    if (node.function == Function::advect || node.function == Function::transport) {
-        return check_carrying(node);
-    }
+    if (carries(node.function)) return check_carrying(node);
     for (const NodeId operand : node.reads()) need(operand, ValueType::number);
     if (parts_.back().has_error) return;
     if (node.function == Function::symmetric && work_.on_surface && node.operand_count == 6) {
