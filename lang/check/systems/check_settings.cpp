@@ -35,27 +35,12 @@ std::vector<ItemId> read_undiluted(Workspace& work, const ast::Script& script,
     Scope names;
     names.context = Context::rate;
     names.system = scope.system;
-    const System& system = work.program.systems[scope.system];
     for (const ast::Expression value : statement.values) {
-        const auto* const name = std::get_if<ast::Name>(&script.expressions[value.root].node);
-        if (name != nullptr && find(work.names[scope.system], name->name) == nullptr) {
-            std::vector<std::string> known;
-            for (const Quantity& each : system.quantities) {
-                if (each.is_species) known.push_back(each.name);
-            }
-            std::string hint = did_you_mean(work, name->name, known);
-            if (hint.empty()) hint = "its species are " + list_names(known);
-            work.diagnostics.error(span_of(script, value),
-                                   fmt::format("'{}' is not a species of {}", name->name,
-                                               system.name),
-                                   std::move(hint));
-            continue;
-        }
         const auto checked = check_expression(work, script, value, names);
         if (!checked) continue;
         const Node& node = checked->formula.nodes.back();
         const auto* const item = node.as<ItemId>();
-        if (item != nullptr && system.is_species(*item)) {
+        if (item != nullptr && work.program.systems[scope.system].is_species(*item)) {
             species.push_back(*item);
             continue;
         }
@@ -63,6 +48,38 @@ std::vector<ItemId> read_undiluted(Workspace& work, const ast::Script& script,
                                "as in undiluted: u, v");
     }
     return species;
+}
+
+std::optional<Formula> read_shown(Workspace& work, const ast::Script& script,
+                                  const ast::Statement& statement, const Scope& scope) {
+    Scope picture = scope;
+    picture.context = Context::picture;
+    picture.last_stage = scope.stage.value_or(0);
+    auto checked = check_expression(work, script, statement.values[0], picture);
+    if (!checked) return std::nullopt;
+    if (checked->type() == ValueType::number || checked->type() == ValueType::colour)
+        return std::move(checked->formula);
+    const TypeWords words = words_of(checked->type(), is_of_cells(work, scope));
+    work.diagnostics.error(span_of(script, statement.values[0]),
+                           fmt::format("{} cannot be shown", words.name), std::string(words.hint));
+    return std::nullopt;
+}
+
+std::optional<Formula> read_speed(Workspace& work, const ast::Script& script,
+                                  const ast::Statement& statement, const Scope& scope) {
+    const Span span = span_of(script, statement.values[0]);
+    if (asks_for_automatic(work, script, statement, scope)) {
+        work.diagnostics.error(span, "speed is the length of a step, or auto",
+                               "write 'speed: auto'");
+        return std::nullopt;
+    }
+    auto checked = check_number(work, script, statement.values[0], scope);
+    if (!checked) return std::nullopt;
+    if (checked->constant && !(*checked->constant > 0)) {
+        work.diagnostics.error(span, "speed must be above 0");
+        return std::nullopt;
+    }
+    return std::move(checked->formula);
 }
 
 }  // namespace
@@ -92,33 +109,16 @@ void check_setting(Workspace& work, const ast::Script& script, const ast::Statem
     } else if (setting == Setting::interval) {
         put(settings.interval, read_number(work, script, statement));
     } else if (setting == Setting::show) {
-        Scope picture = scope;
-        picture.context = Context::picture;
-        picture.last_stage = scope.stage.value_or(0);
-        auto checked = check_expression(work, script, statement.values[0], picture);
-        if (!checked) return;
-        if (checked->type() != ValueType::number && checked->type() != ValueType::colour) {
-            const TypeWords words = words_of(checked->type(), has_cells);
-            work.diagnostics.error(span_of(script, statement.values[0]),
-                                   fmt::format("{} cannot be shown", words.name),
-                                   std::string(words.hint));
-            return;
-        }
-        settings.show = std::move(checked->formula);
-    } else if (setting == Setting::frozen || is_speed) {
-        if (is_speed && asks_for_automatic(work, script, statement, scope)) {
-            work.diagnostics.error(span_of(script, statement.values[0]),
-                                   "speed is the length of a step, or auto", "write 'speed: auto'");
-            return;
-        }
-        auto checked = check_number(work, script, statement.values[0], scope);
-        if (!checked) return;
-        if (is_speed && checked->constant && !(*checked->constant > 0)) {
-            work.diagnostics.error(span_of(script, statement.values[0]), "speed must be above 0");
-            return;
-        }
-        if (is_speed) settings.time.automatic_speed = false;
-        (is_speed ? settings.speed : settings.frozen) = std::move(checked->formula);
+        if (auto shown = read_shown(work, script, statement, scope))
+            settings.show = std::move(*shown);
+    } else if (is_speed) {
+        auto speed = read_speed(work, script, statement, scope);
+        if (!speed) return;
+        settings.speed = std::move(*speed);
+        settings.time.automatic_speed = false;
+    } else if (setting == Setting::frozen) {
+        if (auto checked = check_number(work, script, statement.values[0], scope))
+            settings.frozen = std::move(checked->formula);
     } else {
         check_time_setting(work, script, statement, scope, settings);
     }
