@@ -6,7 +6,9 @@
 
 namespace cascade::option_groups {
 
-void add_sweep(CLI::App& app, Options& options) {
+namespace {
+
+void add_varied(CLI::App& app, Options& options) {
     SweepRequest& sweep = options.sweep;
     const std::string varied = "What is varied";
     const auto read_all = [&](const std::vector<std::string>& texts) {
@@ -32,6 +34,10 @@ void add_sweep(CLI::App& app, Options& options) {
               "with their 95 % intervals",
               parse_seeds, [&](auto seeds) { options.sweep_seeds = std::move(seeds); })
         ->group(varied);
+}
+
+void add_sweep_files(CLI::App& app, Options& options) {
+    SweepRequest& sweep = options.sweep;
     const std::string files = "Files";
     add_value(app, "-o,--output", "FOLDER",
               "Folder of the results; by default SCRIPT_sweep in this folder", parse_folder,
@@ -58,6 +64,9 @@ void add_sweep(CLI::App& app, Options& options) {
     app.add_flag("--fields", sweep.fields, "Save every field of every run, to read or to resume")
         ->group(files);
     app.add_flag("--force", sweep.force, "Repeat runs of an earlier sweep")->group(files);
+}
+
+void add_sweep_processes(CLI::App& app, SweepRequest& sweep) {
     const std::string divided = "Many processes";
     add_value(app, "--part", "K/N",
               "Take the K-th of N parts of the runs; the same command\n"
@@ -73,6 +82,14 @@ void add_sweep(CLI::App& app, Options& options) {
         ->allow_extra_args(false)
         ->type_name("FOLDER")
         ->group(divided);
+}
+
+}  // namespace
+
+void add_sweep(CLI::App& app, Options& options) {
+    add_varied(app, options);
+    add_sweep_files(app, options);
+    add_sweep_processes(app, options.sweep);
 }
 
 }  // namespace cascade::option_groups

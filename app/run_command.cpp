@@ -214,6 +214,32 @@ int run_command(const Options& options, Console& console) {
     return run_script(options, console, nullptr);
 }
 
+/// The request of the options, with the options and the session that a picture of Cascade contains.
+static Result<RunRequest> request_of(const LoadedFile& file, const Options& options,
+                                     Console& console) {
+    RunRequest request = options.run;
+    if (!file.picture_options.empty()) {
+        auto stored = picture_request_from_json(file.picture_options);
+        if (!stored) return tl::unexpected(stored.error());
+        request.picture = std::move(*stored);
+    }
+    request.picture = apply(options.picture, std::move(request.picture));
+    auto session = session_to_play(file, options.overrides, console, options.quiet);
+    if (!session) return tl::unexpected(session.error());
+    request.session = std::move(*session);
+    return request;
+}
+
+/// Lets several ranks or a device take the steps, if options ask for it.
+static Result<void> choose_executor(const Options& options, const Script& script, Ranks* ranks,
+                                    RunRequest& request, RunControl& control) {
+    if (ranks != nullptr) {
+        if (auto shared = share_steps(script, *ranks, request, control); !shared) return shared;
+    }
+    if (options.device.empty()) return {};
+    return use_device(options.device, script, request, control);
+}
+
 static int run_script(const Options& options, Console& console, Ranks* ranks) {
     TimeAccount times;
     auto file = [&] {
@@ -228,22 +254,12 @@ static int run_script(const Options& options, Console& console, Ranks* ranks) {
     if (!script.program) return exit_status::wrong_script;
     script.diagnostics = {};  // These warnings have been printed.
 
-    RunRequest request = options.run;
-    if (!file->picture_options.empty()) {
-        auto stored = picture_request_from_json(file->picture_options);
-        if (!stored) {
-            console.fail(stored.error());
-            return exit_status::wrong_script;
-        }
-        request.picture = std::move(*stored);
-    }
-    request.picture = apply(options.picture, std::move(request.picture));
-    auto session = session_to_play(*file, options.overrides, console, options.quiet);
-    if (!session) {
-        console.fail(session.error());
+    auto requested = request_of(*file, options, console);
+    if (!requested) {
+        console.fail(requested.error());
         return exit_status::wrong_script;
     }
-    request.session = std::move(*session);
+    RunRequest request = std::move(*requested);
     if (options.timing) request.simulation.account = &times;
 
     RunControl control;
@@ -257,17 +273,9 @@ static int run_script(const Options& options, Console& console, Ranks* ranks) {
         display.clear();
         if (!options.quiet) console.note(message);
     };
-    if (ranks != nullptr) {
-        if (auto shared = share_steps(script, *ranks, request, control); !shared) {
-            console.fail(shared.error());
-            return exit_status::failed_run;
-        }
-    }
-    if (!options.device.empty()) {
-        if (auto used = use_device(options.device, script, request, control); !used) {
-            console.fail(used.error());
-            return exit_status::failed_run;
-        }
+    if (auto chosen = choose_executor(options, script, ranks, request, control); !chosen) {
+        console.fail(chosen.error());
+        return exit_status::failed_run;
     }
     // Several ranks end at the same step, on which they agree.
     std::atomic<bool>& to_end = ranks != nullptr ? ranks->end_flag() : control.cancel;

@@ -201,6 +201,34 @@ std::optional<std::size_t> ready_chemical_number(std::string_view name, std::siz
     return std::nullopt;
 }
 
+/// Declares the chemicals. Reports an error if their number is wrong.
+static bool read_species(ReadyPattern& pattern, Import& import, const pugi::xml_node& formula) {
+    const auto count = number_attribute(import, formula, "number_of_chemicals");
+    if (!count) return false;
+    if (*count < 1 || *count > most_ready_chemicals || *count != std::floor(*count)) {
+        import.diagnostics.error(place_of(import, formula), "1 to 100 chemicals are expected", "");
+        return false;
+    }
+    for (std::size_t k = 0; k < static_cast<std::size_t>(*count); ++k) {
+        pattern.species.push_back(pattern.names.declare(ready_chemical(k)));
+    }
+    return true;
+}
+
+/// The statements of the domain.
+static std::vector<std::string> domain_of(ReadyPattern& pattern) {
+    const auto [width, height, depth] = pattern.cells;
+    std::string grid = fmt::format("grid: {}", width);
+    if (height > 1 || depth > 1) grid += fmt::format(", {}", height);
+    if (depth > 1) grid += fmt::format(", {}", depth);
+    std::vector<std::string> statements{grid};
+    if (pattern.has_spacing()) {
+        statements.push_back("spacing: " + number_text(pattern.values["dx"]));
+    }
+    statements.emplace_back(pattern.is_periodic ? "boundary: periodic" : "boundary: noflux");
+    return statements;
+}
+
 std::optional<Draft> read_ready(Import& import) {
     pugi::xml_document document;
     const auto file = VtkFile::read(import, document);
@@ -229,14 +257,7 @@ std::optional<Draft> read_ready(Import& import) {
 
     ReadyPattern pattern{import};
     const pugi::xml_node formula = rule.child("formula");
-    const auto count = number_attribute(import, formula, "number_of_chemicals");
-    if (!count) return std::nullopt;
-    if (*count < 1 || *count > most_ready_chemicals || *count != std::floor(*count)) {
-        return refuse(formula, "1 to 100 chemicals are expected");
-    }
-    for (std::size_t k = 0; k < static_cast<std::size_t>(*count); ++k) {
-        pattern.species.push_back(pattern.names.declare(ready_chemical(k)));
-    }
+    if (!read_species(pattern, import, formula)) return std::nullopt;
     pattern.is_periodic = std::string_view(rule.attribute("wrap").as_string("1")) == "1";
     Draft draft;
     draft.about = description_of(import, rd);
@@ -249,14 +270,7 @@ std::optional<Draft> read_ready(Import& import) {
                          add_ready_formula(pattern, formula, draft);
     if (!is_read) return std::nullopt;
 
-    const auto [width, height, depth] = pattern.cells;
-    draft.domain = {fmt::format("grid: {}, {}", width, height)};
-    if (height == 1 && depth == 1) draft.domain[0] = fmt::format("grid: {}", width);
-    if (depth > 1) draft.domain[0] += fmt::format(", {}", depth);
-    if (pattern.has_spacing()) {
-        draft.domain.push_back("spacing: " + number_text(pattern.values["dx"]));
-    }
-    draft.domain.push_back(pattern.is_periodic ? "boundary: periodic" : "boundary: noflux");
+    draft.domain = domain_of(pattern);
     if (const std::string stencil = stencil_of(pattern, formula, draft); !stencil.empty()) {
         draft.domain.push_back("stencil: " + stencil);
     }
