@@ -11,6 +11,7 @@
 #include "run/pictures/body_picture.h"
 #include "run/pictures/drawn_cells.h"
 #include "run/pictures/measured.h"
+#include "run/pictures/picture_size.h"
 #include "run/session/changed_script.h"
 #include "run/session/kept_state.h"
 #include "run/session/session_picture.h"
