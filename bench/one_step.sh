@@ -19,6 +19,7 @@ sources=$(realpath "$(dirname "$0")")/one_step
 made=$(mktemp -d)
 trap 'rm -rf "$made"' EXIT
 cd "$made"
+ln -s "$sources" programs # A path without spaces.
 export CASCADE_KERNEL_CACHE=$made/kernels POCL_CACHE_DIR=$made/pocl
 core=$(taskset -cp $$ | sed 's/.*[ ,-]//') # The last one that may be used.
 steps_at_once=8 # Programs with tiles take steps in groups of this size.
@@ -30,11 +31,11 @@ row() { names+=("$1") keys+=("$2") shares+=("$3") commands+=("${*:4}"); }
 
 python=${PYTHON:-python3}
 if "$python" -c 'import numpy' 2>/dev/null; then
-    row "Python's lists" "Python's lists" 4000 "$python" "$sources/arrays.py" lists
-    row 'NumPy, np.roll' 'NumPy, np.roll' 40 "$python" "$sources/arrays.py" rolls
-    row 'NumPy, views and out=' 'NumPy, views and out=' 20 "$python" "$sources/arrays.py" views
+    row "Python's lists" "Python's lists" 4000 "$python" programs/arrays.py lists
+    row 'NumPy, np.roll' 'NumPy, np.roll' 40 "$python" programs/arrays.py rolls
+    row 'NumPy, views and out=' 'NumPy, views and out=' 20 "$python" programs/arrays.py views
     if "$python" -c 'import numba' 2>/dev/null; then
-        row Numba Numba 4 "$python" "$sources/arrays.py" numba
+        row Numba Numba 4 "$python" programs/arrays.py numba
     fi
 fi
 
@@ -61,8 +62,8 @@ row 'C++: border, 512 bits' 'C++, border cells' 1 ./loops-wide border
 row 'C++: eight steps a tile' 'C++, border cells|C++, eight steps a tile' 1 ./loops tiles
 
 libraries=(-l:libOpenCL.so.1)
-if compile opencl opencl.cpp -O2 2>opencl.said && ./opencl "$sources/gray_scott.cl" 8 1 >opencl.said 2>&1; then
-    row 'OpenCL' 'OpenCL, the kernel|OpenCL, the host' 5 ./opencl "$sources/gray_scott.cl"
+if compile opencl opencl.cpp -O2 2>opencl.said && ./opencl programs/gray_scott.cl 8 1 >opencl.said 2>&1; then
+    row 'OpenCL' 'OpenCL, the kernel|OpenCL, the host' 5 ./opencl programs/gray_scott.cl
 fi
 halide=${HALIDE:-}/usr
 libraries=(-L"$halide/lib/x86_64-linux-gnu" -Wl,-rpath,"$halide/lib/x86_64-linux-gnu" -l:libHalide14.so.0)
