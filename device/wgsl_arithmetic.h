@@ -17,8 +17,10 @@ const C_ONE = 0x3f800000u;
 const C_LEAST = 0x00800000u;
 const C_INFINITY = 0x7f800000u;
 const C_NAN = 0x7fc00000u;
-fn c_number(c_w: u32) -> f32 { return bitcast<f32>(c_w); }
-fn c_word(c_x: f32) -> u32 { return bitcast<u32>(c_x) ^ c_call[0].x; }
+// The word c_call[0].x is 0, but compilers do not know that. So they know no operand, and cannot
+// join an operation with the previous one.
+fn c_number(c_w: u32) -> f32 { return bitcast<f32>(c_w ^ c_call[0].x); }
+fn c_word(c_x: f32) -> u32 { return bitcast<u32>(c_x); }
 fn c_flush(c_w: u32) -> u32 { return select(c_w, c_w & C_SIGN, (c_w & C_SIZE) < C_LEAST); }
 fn c_true(c_w: u32) -> bool { return (c_w & C_SIZE) >= C_LEAST; }
 fn c_truth(c_b: bool) -> u32 { return select(0u, C_ONE, c_b); }

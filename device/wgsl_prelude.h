@@ -11,7 +11,7 @@
 //   3  c_uniforms, read: the uniforms of all passes
 //   4  c_links, read: the tables of links, on linked cells
 // The words of a call:
-//   0      0, which no compiler knows: results are combined with it, so that no compiler may join
+//   0      0, which no compiler knows: operands are combined with it, so that no compiler may join
 //          an operation with the next one
 //   1, 2   the first row, and the row after the last one
 //   4 – 7  on linked cells, the places of bases, offsets, filled and weights in c_links, which
