@@ -2,6 +2,7 @@
 // reaches only this process. mpiexec would kill the ranks a second later.
 #include "app/exit_status.h"
 #include "app/mpiexec_output.h"
+#include "app/process_tree.h"
 #include "app/rank_process.h"
 #include "core/printable.h"
 #include "ranks/launcher.h"
@@ -169,10 +170,34 @@ struct ReadStream {
 /// What mpiexec and the ranks have written.
 struct WrittenStreams {
     MpiexecOutput output, errors;
+    bool is_stuck = false;  ///< mpiexec was ended, because it did not notice the end of the ranks.
+};
+
+/// Ends mpiexec if all ranks have ended, but mpiexec still waits for them. Open MPI 4.1 does so if
+/// a rank is killed while the ranks connect to each other.
+class StuckLauncher {
+public:
+    /// To be called whenever this time has passed without output.
+    static constexpr int milliseconds = 3000;
+    /// Returns whether mpiexec was ended.
+    bool look() {
+        const pid_t mpiexec = mpiexec_process;
+        if (mpiexec <= 0) return false;
+        looks_ = only_ended_below(mpiexec) ? looks_ + 1 : 0;
+        if (looks_ < most_looks) return false;
+        ::kill(mpiexec, SIGKILL);
+        return true;
+    }
+
+private:
+    static constexpr int most_looks = 4;
+    int looks_ = 0;  ///< In how many successive looks no rank was left.
 };
 
 /// Prints the messages of ranks until mpiexec and all ranks have closed the pipes.
 WrittenStreams pass_messages_on(const Pipes& pipes, const Console& console) {
+    StuckLauncher launcher;
+    bool is_stuck = false;
     std::array streams = {
         ReadStream{pipes.errors[0], [&](const std::string& text) { console.say(text); }},
         ReadStream{pipes.output[0],
@@ -183,8 +208,13 @@ WrittenStreams pass_messages_on(const Pipes& pipes, const Console& console) {
         for (std::size_t k = 0; k < streams.size(); ++k) polled[k] = {streams[k].pipe, POLLIN, 0};
         const bool is_over = std::all_of(streams.begin(), streams.end(),
                                          [](const ReadStream& each) { return each.pipe < 0; });
-        if (is_over) return {streams[1].seen, streams[0].seen};
-        if (::poll(polled.data(), polled.size(), -1) < 0) continue;  // A signal has arrived.
+        if (is_over) return {streams[1].seen, streams[0].seen, is_stuck};
+        const int ready = ::poll(polled.data(), polled.size(), StuckLauncher::milliseconds);
+        if (ready < 0) continue;  // A signal has arrived.
+        if (ready == 0) {
+            is_stuck = launcher.look() || is_stuck;
+            continue;
+        }
         for (std::size_t k = 0; k < streams.size(); ++k) {
             if (polled[k].revents != 0 && streams[k].read_some()) streams[k].pipe = -1;
         }
@@ -201,13 +231,15 @@ int wait_for(pid_t process) {
 /// Explains a failure, if no rank has done so, and returns the exit status.
 int tell_end(const WrittenStreams& written, int status, const Options& options,
              const Console& console) {
-    if (status == exit_status::success || written.errors.has_error()) return status;
+    if (status == exit_status::success) return status;
+    if (written.errors.has_error()) return written.is_stuck ? exit_status::failed_run : status;
     if (interrupts > 0) {
         if (interrupts > 1) console.say("cascade: ended at once; nothing has been written\n");
         return exit_status::signal_base + SIGINT;
     }
     std::string killed = written.errors.killed(written.errors);
     if (killed.empty()) killed = written.output.killed(written.errors);
+    if (killed.empty() && written.is_stuck) killed = "a rank was killed";
     if (!killed.empty() && options.command == Command::sweep) {
         console.fail({killed + ", so all ranks have ended",
                       "the same command goes on with the runs that are missing"});

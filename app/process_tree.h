@@ -1,0 +1,13 @@
+// The processes that a process has started, as /proc lists them.
+#pragma once
+
+#include <sys/types.h>
+
+namespace cascade {
+
+/// Whether a process has children, and all of them, with the children of these and so on, either
+/// have ended without being waited for, or only wait for such processes. False if /proc does not
+/// list children.
+bool only_ended_below(pid_t process);
+
+}  // namespace cascade
