@@ -1,3 +1,4 @@
+// Reads the processes below a process from /proc.
 #include "app/process_tree.h"
 
 #include <fmt/format.h>
