@@ -6,8 +6,9 @@ namespace cascade::option_groups {
 
 void add_bench(CLI::App& app, Options& options) {
     const std::string group = "What is measured";
-    add_value(app, "--stage", "STAGE", "Name or number of the only stage; by default all of them",
-              any_text, [&](auto stage) { options.bench.stage = stage; })
+    add_value(app, "--stage", "STAGE",
+              "Name or number of one stage to measure; by default all stages", any_text,
+              [&](auto stage) { options.bench.stage = stage; })
         ->group(group);
     add_value(app, "--seconds", "S", "How long to measure each stage, in seconds (1)",
               parse_measuring_time, [&](double seconds) { options.bench.seconds = seconds; })

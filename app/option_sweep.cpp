@@ -56,8 +56,9 @@ void add_sweep_files(CLI::App& app, Options& options) {
               path_of(FormatKind::film), [&](auto path) { sweep.film = path; })
         ->group(files);
     add_run_options(app, options.run, RunOption::fps, RunOption::seconds);
-    app.add_option("--curve", sweep.curves,
-                   "Draw a feature over the first varied name, as FEATURE.svg;\nmay be given again")
+    app.add_option(
+           "--curve", sweep.curves,
+           "Plot a feature against the first varied name, as FEATURE.svg;\nmay be given several times")
         ->allow_extra_args(false)
         ->type_name("FEATURE")
         ->group(files);

@@ -180,7 +180,7 @@ Expression FormulaReader::after_bracket() {
     }
     Expression inner = binary(0);
     if (dialect_.is_c && at(",")) {
-        fail(next().span, "a vector of different values has no counterpart");
+        fail(next().span, "a vector of several values has no counterpart in Cascade");
     }
     expect(")");
     if (dialect_.is_c && at(".")) fail(next().span, "components of vectors have no counterpart");

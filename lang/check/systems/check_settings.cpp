@@ -97,7 +97,7 @@ void check_setting(Workspace& work, const ast::Script& script, const ast::Statem
     const bool has_cells = is_of_cells(work, scope);
     if (has_cells && is_speed) {
         work.diagnostics.error(statement.name.span, "cells choose the length of their steps",
-                               "leave speed out; largest_step limits it");
+                               "leave out speed; largest_step limits the length of steps");
         return;
     }
     if (has_cells && setting == Setting::start) {

@@ -339,7 +339,7 @@ inline constexpr HintCase hint_cases[] = {
      "radius = 1; shade = t"},
     {"cells", "b: 1 after", "write b: 0 after divide", "b: 0 after divide"},
     {"cells", "age' = 2", "give a quantity of another name this rate", "b' = 2"},
-    {"cells", "speed: 2", "leave speed out; largest_step limits it", "largest_step: 2"},
+    {"cells", "speed: 2", "leave out speed; largest_step limits the length of steps", "largest_step: 2"},
     {"cells", "divide: random(0, 1) > a",
      "a threshold can be random: limit: random(1, 0.1) after divide",
      "limit: random(1, 0.1) after divide; divide: a > limit"},
