@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -28,6 +29,18 @@ bool asks_for_automatic(const Workspace& work, const ast::Script& script,
     return !has_names || find(work.names[scope.system], name->name) == nullptr;
 }
 
+void report_unknown_species(Workspace& work, Span span, std::string_view name,
+                            const System& system) {
+    std::vector<std::string> known;
+    for (const Quantity& each : system.quantities) {
+        if (each.is_species) known.push_back(each.name);
+    }
+    std::string hint = did_you_mean(work, name, known);
+    if (hint.empty()) hint = "its species are " + list_names(known);
+    work.diagnostics.error(span, fmt::format("'{}' is not a species of {}", name, system.name),
+                           std::move(hint));
+}
+
 /// The species that growth does not dilute. Reports other values.
 std::vector<ItemId> read_undiluted(Workspace& work, const ast::Script& script,
                                    const ast::Statement& statement, const Scope& scope) {
@@ -35,12 +48,18 @@ std::vector<ItemId> read_undiluted(Workspace& work, const ast::Script& script,
     Scope names;
     names.context = Context::rate;
     names.system = scope.system;
+    const System& system = work.program.systems[scope.system];
     for (const ast::Expression value : statement.values) {
+        const auto* const name = std::get_if<ast::Name>(&script.expressions[value.root].node);
+        if (name != nullptr && find(work.names[scope.system], name->name) == nullptr) {
+            report_unknown_species(work, span_of(script, value), name->name, system);
+            continue;
+        }
         const auto checked = check_expression(work, script, value, names);
         if (!checked) continue;
         const Node& node = checked->formula.nodes.back();
         const auto* const item = node.as<ItemId>();
-        if (item != nullptr && work.program.systems[scope.system].is_species(*item)) {
+        if (item != nullptr && system.is_species(*item)) {
             species.push_back(*item);
             continue;
         }
