@@ -83,7 +83,8 @@ void share_threads(SimulationOptions& simulation) {
 }
 
 /// Ends a rank because of a failure that all ranks find. Only rank 0 prints it.
-int refuse(const Console& console, const Failure& failure, int status) {
+int refuse(Console& console, const Failure& failure, int status) {
+    if (launched_rank() != 0) console.leave_answer_to_other();
     if (launched_rank() == 0) console.fail(failure);
     return status;
 }
@@ -115,8 +116,8 @@ int run_as_root(const Options& options, Console& console, Ranks& ranks, CommandO
     return ranks.finish(status);
 }
 
-int run_silently(const Options& options, const Console& console, Ranks& ranks,
-                 CommandOnRanks& command) {
+int run_silently(const Options& options, Console& console, Ranks& ranks, CommandOnRanks& command) {
+    console.leave_answer_to_other();
     // Rank 0 receives the signals and ends all ranks together.
     for (const int each : {SIGINT, SIGTERM, SIGHUP}) std::signal(each, SIG_IGN);
     const Messages messages;
@@ -161,6 +162,13 @@ Result<void> share_steps(const Script& script, Ranks& ranks, RunRequest& request
     return {};
 }
 
+Result<void> check_readable_by_ranks(const Options& options) {
+    const bool reads_input = std::ranges::find(options.scripts, "-") != options.scripts.end();
+    if (!reads_input || options.typed) return {};
+    return failure("standard input reaches only one of several ranks",
+                   "write the script to a file that all ranks can read");
+}
+
 int run_as_rank(const Options& options, Console& console, CommandOnRanks& command) {
     const int launched = launched_ranks().value_or(1);
     const int wanted = options.ranks;
@@ -172,6 +180,9 @@ int run_as_rank(const Options& options, Console& console, CommandOnRanks& comman
                       exit_status::wrong_use);
     }
     if (launched == 1) return command(options, console, nullptr);
+    if (const auto readable = check_readable_by_ranks(options); !readable) {
+        return refuse(console, readable.error(), exit_status::wrong_use);
+    }
     if (!options.device.empty()) {
         return refuse(console,
                       {"ranks take steps on threads, so --device cannot be used with mpiexec",

@@ -11,6 +11,9 @@ class Ranks;
 /// A command that runs on ranks, or in this process alone if `ranks` is null.
 using CommandOnRanks = int(const Options& options, Console& console, Ranks* ranks);
 
+/// Fails if the script comes from standard input, which ranks cannot share.
+Result<void> check_readable_by_ranks(const Options& options);
+
 /// Runs a command as one of the ranks that a launcher has started. Only rank 0 writes files and
 /// messages. If a rank fails, all ranks end: rank 0 reports its failure, and any other rank waits a
 /// moment for that before it reports its own.

@@ -199,7 +199,8 @@ WrittenStreams pass_messages_on(const Pipes& pipes, const Console& console) {
     StuckLauncher launcher;
     bool is_stuck = false;
     std::array streams = {
-        ReadStream{pipes.errors[0], [&](const std::string& text) { console.say(text); }},
+        ReadStream{pipes.errors[0],
+                   [&](const std::string& text) { (void)console.error().write(text); }},
         ReadStream{pipes.output[0],
                    [&](const std::string& text) { (void)console.out().write(text); }},
     };
@@ -229,11 +230,17 @@ int wait_for(pid_t process) {
 }
 
 /// Explains a failure, if no rank has done so, and returns the exit status.
-int tell_end(const WrittenStreams& written, int status, const Options& options,
-             const Console& console) {
-    if (status == exit_status::success) return status;
-    if (written.errors.has_error()) return written.is_stuck ? exit_status::failed_run : status;
+int tell_end(const WrittenStreams& written, int status, const Options& options, Console& console) {
+    if (status == exit_status::success) {
+        console.leave_answer_to_other();
+        return status;
+    }
+    if (written.errors.has_error()) {
+        if (options.json) console.fail({"a rank has failed", "standard error says why"});
+        return written.is_stuck ? exit_status::failed_run : status;
+    }
     if (interrupts > 0) {
+        if (interrupts == 1) console.leave_answer_to_other();
         if (interrupts > 1) console.say("cascade: ended at once; nothing has been written\n");
         return exit_status::signal_base + SIGINT;
     }
@@ -254,7 +261,9 @@ int tell_end(const WrittenStreams& written, int status, const Options& options,
                             : "with --save and --checkpoint such a run can be resumed"});
         return exit_status::failed_run;
     }
-    if (status == exit_status::time_limit) return status;
+    const bool root_answers = options.json && written.errors.root() && interrupts == 0;
+    if (root_answers) console.leave_answer_to_other();
+    if (status == exit_status::time_limit || root_answers) return status;
     for (const MpiexecOutput& each : {written.errors, written.output}) {
         if (!each.explanations().empty()) console.say(each.explanations());
     }
@@ -269,6 +278,10 @@ int start_ranks(const Options& options, Console& console) {
         console.fail(why);
         return exit_status::failed_run;
     };
+    if (const auto readable = check_readable_by_ranks(options); !readable) {
+        console.fail(readable.error());
+        return exit_status::wrong_use;
+    }
     const auto library = choose_mpi(options.mpi);
     if (!library) return fail(library.error());
     const auto mpiexec = find_mpiexec(*library);

@@ -118,6 +118,19 @@ says err 'Open MPI could not be loaded'
 says err 'install libopenmpi-dev'
 on 2 run all.cascade --ranks 3 -q && fail "--ranks 3 is accepted on 2 ranks"
 says err '--ranks 3 does not fit the 2 ranks that mpiexec has started'
+# With --json one rank writes one object, also if the run fails. Ranks cannot share standard input.
+one_object() { python3 -c 'import json, sys; assert json.load(open(sys.argv[1]))["status"] == int(sys.argv[2])' out "$1"; }
+run 0 run all.cascade --ranks 2 -q -o again.png --json
+one_object 0 || fail "--json does not write one object"
+on 2 run all.cascade -q -o again.png --json || fail "--json fails with mpiexec"
+one_object 0 || fail "--json does not write one object with mpiexec"
+run 3 run skin.cascade --ranks 2 -q -o skin.png --json
+one_object 3 || fail "--json does not write one object after a failure"
+run 64 run - --ranks 2 <all.cascade
+says err 'standard input reaches only one of several ranks'
+timeout 60 "${launch[@]}" -n 2 "$CASCADE" run - -q >out 2>err <all.cascade
+[ $? = 64 ] || fail "ranks read standard input"
+says err 'standard input reaches only one of several ranks'
 
 # One rank has another script, other arguments, or does not see the folder.
 mkdir one two

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace cascade {
@@ -17,14 +18,14 @@ std::array<double, 3> cell_lengths(const Simulation& simulation, std::uint32_t s
 }
 
 std::optional<Failure> shrinks_to_nothing(const SimulationDomain& domain, std::uint32_t stage,
-                                          double t, double step) {
+                                          double t, double end, double step) {
     constexpr int steps = 100;  // Values are checked every 64 steps.
     constexpr std::array names{"x", "y", "z"};
     const Stage& its = domain.stage(stage);
     const std::array cells{domain.grid.width, domain.grid.height, domain.grid.depth};
     if (!its.growth) return std::nullopt;
     for (int n = 0; n <= steps; ++n) {
-        const double moment = t + n * step;
+        const double moment = std::min(t + n * step, end);
         const auto scales = scales_at(its, moment);
         for (std::size_t axis = 0; axis < scales.size(); ++axis) {
             if (scales[axis] > 0 && std::isfinite(scales[axis])) continue;

@@ -14,9 +14,9 @@ namespace cascade {
 /// length.
 std::array<double, 3> cell_lengths(const Simulation& simulation, std::uint32_t stage);
 
-/// The failure of a stage whose domain shrinks to nothing within a few steps after `t`. Empty if it
-/// does not. `step` is the length of a step.
+/// The failure of a stage whose domain shrinks to nothing within a few steps after `t`, before the
+/// stage ends at `end`. Empty if it does not. `step` is the length of a step.
 std::optional<Failure> shrinks_to_nothing(const SimulationDomain& domain, std::uint32_t stage,
-                                          double t, double step);
+                                          double t, double end, double step);
 
 }  // namespace cascade

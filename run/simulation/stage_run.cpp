@@ -11,6 +11,7 @@
 #include "run/simulation/stage_doubts.h"
 #include "run/simulation/stage_tools.h"
 #include "run/stage/not_finite.h"
+#include "run/stage/stage_time.h"
 #include "solvers/executor_failure.h"
 
 #include <fmt/format.h>
@@ -51,7 +52,9 @@ Failure explain(const StepTooShort& place, const StageView& view) {
 Failure explain(const StageOutcome& outcome, const StageView& view, StageState& state,
                 const std::atomic<bool>& cancel) {
     const double step = outcome.steps > 0 ? outcome.t / static_cast<double>(outcome.steps) : 0;
-    if (auto shrinks = shrinks_to_nothing(view.environment(), view.number(), outcome.t, step))
+    const double end = std::min(duration_of(view.stage(), view.system(), state),
+                                step * static_cast<double>(view.stage().iterations));
+    if (auto shrinks = shrinks_to_nothing(view.environment(), view.number(), outcome.t, end, step))
         return *shrinks;
     if (!outcome.not_finite) return explain(*outcome.too_short, view);
     NotFiniteReport report;

@@ -6,6 +6,7 @@
 #include "lang/check/systems/system_checker.h"
 #include "lang/check/expressions/user_functions.h"
 #include "lang/vocabulary/settings.h"
+#include "lang/vocabulary/subscripts.h"
 
 #include <fmt/format.h>
 
@@ -35,6 +36,24 @@ std::vector<ast::Word> names_in(const Declaration& declaration) {
         names.push_back({expressions[id].span, name->name});
     }
     return names;
+}
+
+/// The names, with psi in place of psi_xx and psi_yy if there are several names and one of them is
+/// psi or another derivative of psi.
+std::vector<ast::Word> without_derivatives(const std::vector<ast::Word>& names) {
+    const auto base_of = [](const ast::Word& name) {
+        const auto subscripted = subscripted_name(name.text);
+        return subscripted ? subscripted->of : name.text;
+    };
+    std::vector<ast::Word> result;
+    for (const ast::Word& name : names) {
+        const std::string_view base = base_of(name);
+        const bool is_shared = std::ranges::count(names, base, base_of) > 1;
+        const std::string_view text = is_shared ? base : name.text;
+        const bool is_new = std::ranges::find(result, text, &ast::Word::text) == result.end();
+        if (is_new) result.push_back({name.span, text});
+    }
+    return result;
 }
 
 class Inliner {
@@ -127,6 +146,14 @@ void SystemChecker::find_unknowns() {
     for (Declaration* each : constraints) find_unknown(*each, true);
 }
 
+/// The name that a word reads: u for u_xx, if u is declared and u_xx is not.
+std::string_view SystemChecker::name_read_by(const ast::Word& word) const {
+    const auto subscripted = subscripted_name(word.text);
+    const bool is_derivative = subscripted && !declared_.contains(std::string(word.text)) &&
+                               declared_.contains(std::string(subscripted->of));
+    return is_derivative ? subscripted->of : word.text;
+}
+
 /// The names without a value in a constraint and, if `in_definitions`, in the definitions that the
 /// constraint reads.
 std::vector<ast::Word> SystemChecker::names_without_values(const Declaration& constraint,
@@ -134,27 +161,32 @@ std::vector<ast::Word> SystemChecker::names_without_values(const Declaration& co
     std::vector<ast::Word> unknown;
     std::vector<const Declaration*> waiting{&constraint};
     std::unordered_set<const Declaration*> seen;
+    const auto wait_for = [&](std::string_view name) {
+        for (const Declaration* each : definitions_) {
+            if (each && each->name == name) waiting.push_back(each);
+        }
+    };
     while (!waiting.empty()) {
         const Declaration& from = *waiting.back();
         waiting.pop_back();
         if (!seen.insert(&from).second) continue;
         const FunctionTable& functions = functions_of(work_, *from.script);
         for (const ast::Word& name : names_in(from)) {
-            if (in_definitions) {
-                for (const Declaration* each : definitions_) {
-                    if (each && each->name == name.text) waiting.push_back(each);
-                }
-            }
+            if (in_definitions) wait_for(name.text);
             const bool is_known =
                 declared_.contains(std::string(name.text)) || reserved(name.text) != Reserved::no ||
                 cell_value_named(name.text) || functions.find(name.text) != nullptr;
+            if (!is_known && name_read_by(name) != name.text) {
+                if (in_definitions) wait_for(name_read_by(name));
+                continue;
+            }
             const bool is_new = std::ranges::none_of(unknown, [&](const ast::Word& other) {
                 return other.text == name.text;
             });
             if (!is_known && is_new) unknown.push_back(name);
         }
     }
-    return unknown;
+    return without_derivatives(unknown);
 }
 
 /// Declares the name in a constraint that nothing else declares. A constraint of a derived system
@@ -173,15 +205,15 @@ bool SystemChecker::find_unknown(Declaration& constraint, bool in_definitions) {
         for (const ast::Word& name : names_in(constraint)) {
             const auto other = std::ranges::find_if(definitions_, [&](const Declaration* each) {
                 return each && each->kind() == ast::StatementKind::constraint &&
-                       each->name == name.text;
+                       each->name == name_read_by(name);
             });
             if (other == definitions_.end()) continue;
             if ((*other)->level == constraint.level) {
                 report_twice(work_, constraint.span(), (*other)->span(),
-                             fmt::format("'{}' is determined twice", name.text));
+                             fmt::format("'{}' is determined twice", (*other)->name));
                 return true;
             }
-            constraint.name = std::string(name.text);
+            constraint.name = (*other)->name;
             *other = &constraint;
             return true;
         }

@@ -55,6 +55,7 @@ private:
     void report_no_species(const Declaration& declaration, const Meaning* meaning);
     void find_unknowns();
     bool find_unknown(Declaration& constraint, bool in_definitions);
+    std::string_view name_read_by(const ast::Word& word) const;
     std::vector<ast::Word> names_without_values(const Declaration& constraint,
                                                 bool in_definitions) const;
     void report_families();
