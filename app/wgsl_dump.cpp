@@ -41,7 +41,7 @@ Result<std::string> dump_wgsl(const Program& program) {
         std::vector<const CellKernel*> kernels;
         for (const auto& pass : plan.passes) kernels.push_back(pass.bound.kernel.get());
         const WgslKernels made = wgsl_kernels(kernels, program.domain.grid, Flushing::by_kernel);
-        text += fmt::format("// stage '{}': one step\n", program.stages[k].name);
+        text += fmt::format("// stage '{}': one step of Euler's method\n", program.stages[k].name);
         for (std::size_t pass = 0; pass < kernels.size(); ++pass) {
             text += fmt::format("// c_kernel_{} {}\n", pass,
                                 planes_of(*kernels[pass], made.places[pass].plane));
