@@ -85,8 +85,8 @@ says err 'this rank and rank 0 do not have the same runs'
 run 64 sweep spots.cascade "${vary[@]}" --ranks 0
 
 # A rank is killed: results are kept, and the same command goes on. Ctrl-C ends all ranks.
-printf 'domain { grid: 48, 32 }\nstage s: turing_spots { iterations: 8000 }\n' >long.cascade
-long=(sweep long.cascade --vary ka=1/80..1/20:60 -o long)
+printf 'domain { grid: 48, 32 }\nstage s: turing_spots { iterations: 30000 }\n' >long.cascade
+long=(sweep long.cascade --vary ka=1/80..1/20:40 -o long)
 begin() {
     "$CASCADE" "${long[@]}" --ranks 3 >out 2>err </dev/null &
     starter=$!
@@ -103,16 +103,16 @@ wait $starter
 says err 'was killed by signal 9'
 says err 'the same command goes on with the runs that are missing'
 kept=$(ls long/runs/*.json | wc -l)
-[ "$kept" -lt 60 ] || fail "the rank was killed too late"
+[ "$kept" -lt 40 ] || fail "the rank was killed too late"
 begin $((kept + 3))
 kill -INT $starter
 wait $starter
 [ $? = 130 ] || fail "an interrupted sweep has another status"
 says err 'interrupted; '
 kept=$(ls long/runs/*.json | wc -l)
-[ "$kept" -lt 60 ] || fail "the sweep was interrupted too late"
+[ "$kept" -lt 40 ] || fail "the sweep was interrupted too late"
 run 0 "${long[@]}" --ranks 2
-says err "60 runs ($kept done before)"
+says err "40 runs ($kept done before)"
 run 0 "${long[@]:0:4}" -q -o alone_long
 cmp long/features.csv alone_long/features.csv && cmp long/sheet.png alone_long/sheet.png ||
     fail "a sweep that was killed and interrupted has other bytes"
