@@ -20,7 +20,7 @@ namespace {
 /// The parts into which the duration of a stage is divided.
 constexpr int parts_of_duration = 4;
 
-/// The program with a number in place of `t` in the rates of a stage.
+/// A copy of the program in which the given time replaces `t` in the rates of a stage.
 Program at_moment(const Program& program, std::uint32_t stage, double t) {
     Program result = program;
     System& system = result.systems[result.stages[stage].system];

@@ -1,4 +1,4 @@
-// The Jacobian of a wave from the slopes of all rates.
+// Computes the Jacobian that acts on a wave from the derivatives of all rates.
 #include "analysis/linear_model.h"
 
 #include "analysis/kernel_tapes.h"

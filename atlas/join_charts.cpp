@@ -103,7 +103,7 @@ private:
         note(static_cast<std::uint32_t>(charts_.size() - 1));
     }
 
-    /// All pairs with a common border whose join has not failed yet.
+    /// All pairs of charts with a common border, except pairs that could not be joined.
     std::vector<Pair> pairs() const {
         std::vector<double> outline(charts_.size());
         for (std::uint32_t c = 0; c < charts_.size(); ++c) {

@@ -25,8 +25,8 @@ public:
         std::size_t without_place = 0;
     };
     const Skipped& skipped() const { return skipped_; }
-    /// The total area of all triangles, as a multiple of the texture's area. If it is above 1,
-    /// triangles must overlap.
+    /// The total area of all triangles, as a multiple of the texture's area. Above 1, the triangles
+    /// cannot all fit without overlaps.
     double covered_area() const { return covered_area_; }
     /// The fraction of that area in triangles whose image is mirrored.
     double mirrored_part() const { return covered_area_ > 0 ? mirrored_area_ / covered_area_ : 0; }

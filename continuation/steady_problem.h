@@ -50,8 +50,8 @@ public:
     /// The derivatives of a state along the axes along which a steady state can be moved: those
     /// that are periodic, if no rate depends on the position.
     std::vector<Vector> translations(const Vector& state) const;
-    /// Changes that are even about the first cell, of the species that `like` changes most: lines
-    /// of cells across each axis, and the first cell alone.
+    /// Changes of the species that `like` changes most, symmetric about the first cell. For each
+    /// axis one changes all cells at position 0. The last one changes only the first cell.
     std::vector<Vector> even_shapes(const Vector& like) const;
 
 private:

@@ -1,5 +1,5 @@
-// Turns a lack of memory into a Failure. An allocation throws std::bad_alloc, or ends the program
-// where there are no exceptions, as in WebAssembly.
+// Turns the std::bad_alloc of a failed allocation into a Failure. Without exceptions, as in
+// WebAssembly, a failed allocation ends the program.
 #pragma once
 
 #include "core/result.h"

@@ -56,8 +56,8 @@ void FieldSamples::paint(const SampleRow& row) {
     }
 }
 
-/// The number of samples from one knot to the next, if two neighbouring samples are at `one` and
-/// `other`.
+/// The number of samples from one knot to the next, where neighbouring samples are as far apart as
+/// `one` and `other`.
 std::size_t FieldSamples::steps_of(const SurfacePlace& one, const SurfacePlace& other) const {
     const double apart = length(position_of(mesh_, one) - position_of(mesh_, other));
     const double reach = knots_apart * filter_.radius();

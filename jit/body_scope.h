@@ -89,7 +89,7 @@ public:
     llvm::Value* flushed_number(ValueId id) {
         return forms(id).may_be_denormal ? flushed(id) : number(id);
     }
-    /// A value as one branch of a choice. `other` is the value of the other branch.
+    /// Returns a value for use as one branch of a choice whose other branch is `other`.
     llvm::Value* branch(ValueId id, ValueId other);
 
     /// The word of a value that is the same constant in all cells, even if only LLVM has found that

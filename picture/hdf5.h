@@ -19,7 +19,7 @@
 namespace cascade {
 
 using Hdf5Attribute = std::variant<double, std::int64_t, std::string>;
-/// Attributes by name. Their texts must be shorter than 64 kB.
+/// Attributes by name. A value that is a text must be shorter than 64 kB.
 using Hdf5Attributes = std::map<std::string, Hdf5Attribute>;
 
 /// Numbers along an axis of the cells.

@@ -23,8 +23,8 @@ namespace cascade {
 template <typename Number>
 struct WaveBlock {
     std::size_t species = 0;
-    /// The number of elements from cell (0, 0, 0) of a plane to the elements that store numbers for
-    /// this block.
+    /// The offset of this block in a plane: the number of elements from cell (0, 0, 0) to the first
+    /// element in which numbers of the block are stored.
     std::int64_t offset = 0;
     std::int64_t lines = 0, count = 0;
     bool is_complex = false;

@@ -119,8 +119,8 @@ std::vector<RingTriangle> PointRemoval::cut_ears_around(std::uint32_t point, Car
     });
 }
 
-/// Cuts off each ear by flipping the edge from the point to the ear's tip. At the end, the three
-/// triangles left around the point (one at a boundary) become one.
+/// Cuts off each ear by flipping the edge from the point to the ear's tip. In the end, the three
+/// triangles around an inner point are merged into one. At a boundary, the last one is deleted.
 void PointRemoval::fill(std::span<const RingTriangle> triangles) {
     changed_.clear();
     for (const HalfedgeHandle spoke : spokes_) {

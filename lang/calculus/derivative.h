@@ -23,8 +23,8 @@ struct LocalJacobian {
 /// if the formulas become too large.
 std::optional<LocalJacobian> local_jacobian(const Program& program, std::uint32_t stage);
 
-/// Bounds of the Jacobian J of the rates in a state. Each is a formula for one number, the largest
-/// over all cells (an aggregate over the domain). slopes.h explains how operators are counted.
+/// Bounds of the Jacobian J of the rates, evaluated at a state. Each bound is a formula whose one
+/// value is its maximum over all cells (an aggregate). slopes.h explains what operators contribute.
 struct JacobianBound {
     /// A bound of the eigenvalues' magnitude: the largest Σ |J_ij| of a row i, where i and j are
     /// pairs of a species and a cell (S. Gerschgorin, 1931). It limits the step of an explicit

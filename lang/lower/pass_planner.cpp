@@ -116,8 +116,8 @@ void PassPlanner::decide(NodeId id) {
     decide_own(id);
 }
 
-/// Plans to write an operand that is read as a whole plane to a plane, unless it is already in a
-/// plane.
+/// Plans to store an operand in a plane, because its reader needs the whole plane. Does nothing if
+/// the operand is already in a plane.
 void PassPlanner::write_whole(NodeId operand, NodeId reader) {
     if (is_plane(operand) || written_[operand]) return;
     choices_.push_back({operand, reader, 0, true, true, false});

@@ -1,4 +1,4 @@
-// A checked stage: its starting values, its time, and its sides.
+// A checked stage: starting values, settings of time, and conditions at the sides of the domain.
 #pragma once
 
 #include "lang/program/growth.h"

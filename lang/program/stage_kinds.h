@@ -18,8 +18,8 @@ bool has_stage_of_fields(const Program& program);
 /// founders, it continues with the cells of that stage.
 std::optional<std::uint32_t> stage_of_cells_before(const Program& program, std::uint32_t stage);
 
-/// The last stage of fields before this stage. Empty if there is none. The formula for the colour
-/// of the skin below cells reads names of this stage.
+/// The last stage of fields before `stage`. Empty if there is none. If `stage` grows cells, the
+/// formula for the colour of the skin below the cells reads names of that earlier stage.
 std::optional<std::uint32_t> stage_of_fields_before(const Program& program, std::uint32_t stage);
 
 }  // namespace cascade

@@ -243,8 +243,8 @@ private:
     float spacing_;
 };
 
-/// The opacity where a ray hits the surface. It is computed from nearby cells even if the camera is
-/// far away, so that holes have sharp edges, as in GLB files.
+/// The opacity where a ray hits the surface. It is computed only from the cells next to that point,
+/// however far away the camera is. So holes have sharp edges, as they have in GLB files.
 class Opacity {
 public:
     Opacity(std::span<const float> of_cells, const CellFilter& filter, const Ground& ground)

@@ -138,7 +138,7 @@ std::string remark_on_look(const Painter& painter, const Simulation& simulation,
     const PictureRequest& request = painter.request();
     const bool has_palette = request.palette != PictureRequest().palette;
     if (!(has_palette || request.range) || !simulation.state(0).started) return {};
-    // The range applies to the number of the canvas, so the options have an effect.
+    // The canvas shows a number, so --palette and --range have an effect.
     if (canvas.number() != nullptr) return {};
     const char* const options = !request.range ? "--palette changes"
                                 : has_palette  ? "--palette and --range change"

@@ -140,8 +140,8 @@ public:
     const SimulationDomain& domain(std::uint32_t stage) const;
     /// The state in the stage's own cells.
     const StageState& state(std::uint32_t stage) const;
-    /// The values of an item that varies, in the cells of the domain. In a stage of crawling cells,
-    /// each cell has one value.
+    /// The values of an item that varies, one for each cell of the domain's grid. In a stage of
+    /// crawling cells there is one value for each crawling cell instead.
     const Field& field(std::uint32_t stage, ItemId item) const;
     /// The present state of a stage and of all stages before it, in the cells of the domain.
     StageView view(std::uint32_t stage) const;
