@@ -168,8 +168,14 @@ async function measure() {
     const box_of_pattern = () => browser.evaluate(`(({ x, y, width, height }) => [x, y, width, height])(document.getElementById("pattern").getBoundingClientRect())`);
     let box = await box_of_pattern();
     const at = (column, row) => [box[0] + (column + 0.5) / 48 * box[2], box[1] + (row + 0.5) / 32 * box[3]];
-    await browser.drag(...at(24, 14), ...at(26, 14));
-    await browser.until(`${caption("probe")}.startsWith("cell 24, 14:")`);
+    // The pattern moves while the panel grows, so that a press may meet another cell.
+    const chosen = `!document.getElementById("probe").hidden && ${caption("probe")}.startsWith("cell 24, 14:")`;
+    await browser.eventually(async () => {
+        box = await box_of_pattern();
+        await browser.drag(...at(24, 14), ...at(26, 14));
+        await new Promise((resolve) => setTimeout(resolve, 500));
+        return browser.evaluate(chosen);
+    }, () => `never true: ${chosen}`);
     expect(await asked("paint") === 0, "choosing a cell paints");
     box = await box_of_pattern();  // The panel has grown.
     const ring = await browser.evaluate(`(({ x, y, width, height }) => [x + width / 2, y + height / 2])(document.querySelector(".mark.probe").getBoundingClientRect())`);
