@@ -1,9 +1,10 @@
 // Recognises what mpiexec of Open MPI 4 prints, and Hydra, which is mpiexec of MPICH 4.
 #include "app/mpiexec_output.h"
 
+#include "ranks/launcher.h"
+
 #include <fmt/format.h>
 
-#include <array>
 #include <regex>
 #include <utility>
 #include <unistd.h>
@@ -30,11 +31,6 @@ std::string killed_by(const std::string& text) {
 bool is_logged(std::string_view line) {
     static const std::regex words(R"(^(\[\S+:\d+\] |Abort\(\d+\) on node ).*)");
     return std::regex_match(line.begin(), line.end(), words);
-}
-
-std::string this_machine() {
-    std::array<char, 256> name{};
-    return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "?";
 }
 
 constexpr std::string_view before_rank = "cascade: rank ";

@@ -229,6 +229,19 @@ int wait_for(pid_t process) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : exit_status::signal_base + WTERMSIG(status);
 }
 
+/// What continues a run or a sweep after a rank was killed.
+std::string how_to_go_on(const Options& options) {
+    if (options.command == Command::sweep) {
+        return "the same command goes on with the runs that are missing";
+    }
+    if (options.run.save.empty() || options.run.checkpoint_seconds <= 0) {
+        return "with --save and --checkpoint such a run can be resumed";
+    }
+    return fmt::format(
+        "'cascade run --resume {}' goes on from the last save, with any number of ranks",
+        options.run.save.string());
+}
+
 /// Explains a failure, if no rank has done so, and returns the exit status.
 int tell_end(const WrittenStreams& written, int status, const Options& options, Console& console) {
     if (status == exit_status::success) {
@@ -247,21 +260,11 @@ int tell_end(const WrittenStreams& written, int status, const Options& options, 
     std::string killed = written.errors.killed(written.errors);
     if (killed.empty()) killed = written.output.killed(written.errors);
     if (killed.empty() && written.is_stuck) killed = "a rank was killed";
-    if (!killed.empty() && options.command == Command::sweep) {
-        console.fail({killed + ", so all ranks have ended",
-                      "the same command goes on with the runs that are missing"});
-        return exit_status::failed_run;
-    }
     if (!killed.empty()) {
-        const bool saves = !options.run.save.empty() && options.run.checkpoint_seconds > 0;
-        console.fail({killed + ", so all ranks have ended",
-                      saves ? fmt::format("'cascade run --resume {}' goes on from the last save, "
-                                          "with any number of ranks",
-                                          options.run.save.string())
-                            : "with --save and --checkpoint such a run can be resumed"});
+        console.fail({killed + ", so all ranks have ended", how_to_go_on(options)});
         return exit_status::failed_run;
     }
-    const bool root_answers = options.json && written.errors.root() && interrupts == 0;
+    const bool root_answers = options.json && written.errors.root();
     if (root_answers) console.leave_answer_to_other();
     if (status == exit_status::time_limit || root_answers) return status;
     for (const MpiexecOutput& each : {written.errors, written.output}) {

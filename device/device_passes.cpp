@@ -3,6 +3,7 @@
 
 #include "core/check.h"
 #include "core/overloaded.h"
+#include "device/link_arrays.h"
 #include "device/pass_values.h"
 
 #include <algorithm>
@@ -10,8 +11,6 @@
 
 namespace cascade {
 namespace {
-
-constexpr std::int64_t lanes = LinkTable<float>::slice_cells;
 
 std::int64_t padded_width(const PlaneLayout& layout) {
     return (layout.width + PlaneLayout::row_pad - 1) / PlaneLayout::row_pad * PlaneLayout::row_pad;
@@ -93,20 +92,12 @@ void DevicePasses::write_links() {
 template <typename Number>
 void DevicePasses::write_links_as() {
     const LinkTable<Number> table = problem_.links->table<Number>();
-    const auto slices =
-        static_cast<std::size_t>(padded_width(layout_) / lanes * layout_.row_count());
-    const std::size_t entries = table.starts[slices];
     const auto add = [&](const auto* values, std::size_t count) {
         const std::size_t bytes = values != nullptr ? count * sizeof *values : 0;
         links_.push_back(device_.open().buffer(bytes));
         device_.open().write(links_.back(), 0, values, bytes);
     };
-    add(table.starts, slices + 1);
-    add(table.bases, entries);
-    add(table.offsets, entries * lanes);
-    add(table.filled, entries);
-    add(table.weights, entries * lanes);
-    for (const Number* of_axis : table.gradients) add(of_axis, entries * lanes);
+    for_link_arrays(table, layout_, add);
 }
 
 void DevicePasses::add_halos(std::size_t pass) {

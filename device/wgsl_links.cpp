@@ -1,19 +1,13 @@
 // Joins the tables of links.
 #include "device/wgsl_links.h"
 
+#include "device/link_arrays.h"
+
 namespace cascade {
 
 WgslLinks::WgslLinks(const LinkTable<float>& table, const PlaneLayout& layout) {
-    constexpr std::size_t cells = LinkTable<float>::slice_cells;
-    const std::size_t slices = (static_cast<std::size_t>(layout.width) + cells - 1) / cells *
-                               static_cast<std::size_t>(layout.row_count());
-    const std::size_t entries = table.starts[slices];
-    add(table.starts, slices + 1);
-    add(table.bases, entries);
-    add(table.offsets, entries * cells);
-    add(table.filled, entries);
-    add(table.weights, entries * cells);
-    for (const float* of_axis : table.gradients) add(of_axis, entries * cells);
+    for_link_arrays(table, layout,
+                    [&](const auto* values, std::size_t count) { add(values, count); });
     places.erase(places.begin());
 }
 

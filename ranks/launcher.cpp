@@ -5,6 +5,7 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -95,6 +96,11 @@ std::optional<int> launched_ranks() {
 
 int launched_rank() {
     return number_in(std::array{"OMPI_COMM_WORLD_RANK", "PMI_RANK"}).value_or(0);
+}
+
+std::string this_machine() {
+    std::array<char, 256> name{};
+    return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "?";
 }
 
 int ranks_on_this_machine() {

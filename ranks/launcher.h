@@ -38,6 +38,9 @@ int ranks_on_this_machine();
 /// for it.
 Result<MpiLibrary> choose_mpi(std::optional<MpiLibrary> wanted);
 
+/// The name of this machine, or "?" if it is unknown.
+std::string this_machine();
+
 /// The messenger of this process. The first call loads the module of the library and initialises
 /// MPI. Fails if this build has no such module, if the library is not installed, or if its number
 /// of ranks differs from the launcher's.

@@ -2,11 +2,12 @@
 #include "ranks/ranks.h"
 
 #include "core/hash.h"
+#include "ranks/launcher.h"
 
 #include <fmt/format.h>
 
 #include <array>
-#include <unistd.h>
+#include <string>
 
 namespace cascade {
 
@@ -14,19 +15,14 @@ namespace {
 
 constexpr auto between_comparisons = std::chrono::seconds(10);
 
-std::array<char, 64> this_machine() {
-    std::array<char, 64> name{};
-    if (::gethostname(name.data(), name.size() - 1) != 0) name = {'?'};
-    return name;
-}
-
 }  // namespace
 
 Ranks::Ranks(Messenger& messenger)
     : messenger_(messenger),
       compared_(static_cast<std::size_t>(messenger.count())),
       is_told_(compared_.size()) {
-    load_.machine = this_machine();
+    const std::string name = this_machine();
+    name.copy(load_.machine.data(), load_.machine.size() - 1);
 }
 
 std::vector<RankLoad> Ranks::loads() {
@@ -80,7 +76,7 @@ int Ranks::finish(int status) {
 }
 
 std::string name_of_rank(const Ranks& ranks) {
-    return fmt::format("rank {} of {} on {}", ranks.rank(), ranks.count(), this_machine().data());
+    return fmt::format("rank {} of {} on {}", ranks.rank(), ranks.count(), this_machine());
 }
 
 }  // namespace cascade
