@@ -7,12 +7,7 @@ unset NO_COLOR
 
 about="ranks"
 source "$SOURCE/tests/support/program_runs.bash"
-skip() { echo "ranks: $*"; exit 77; }
-[ -e "$BUILD/libcascade_openmpi.so" ] || skip "this build has no MPI"
-command -v mpiexec >/dev/null || skip "mpiexec is not installed"
-# Root may start ranks only if both variables are set.
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-launch=(mpiexec --oversubscribe --bind-to none)
+source "$SOURCE/tests/support/open_mpi.bash"
 on() { "${launch[@]}" -n "$1" "$CASCADE" "${@:2}" >out 2>err </dev/null; }
 
 # Every kind of stage: each on a plane and in a volume, with sides, masks, draws, aggregates and parameters that vary.
