@@ -1,4 +1,4 @@
-// Gives each kernel planes of its own in the buffers, and prints the kernel c_halo.
+// Gives each kernel separate planes in the buffers, and prints the kernel c_halo.
 #include "device/wgsl_kernels.h"
 
 #include "device/kernel_text.h"

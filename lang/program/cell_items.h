@@ -20,7 +20,7 @@ inline bool is_component_of_place(const System& system, ItemId item) {
     return is_component(system, item) && item < system.cells->frame;
 }
 
-/// The formulas of the rules of cells, as those of rules_of(CellRules).
+/// The same formulas as rules_of(CellRules) gives. Empty for systems of fields.
 inline std::vector<const Formula*> rules_of(const System& system) {
     return system.cells ? rules_of(*system.cells) : std::vector<const Formula*>();
 }

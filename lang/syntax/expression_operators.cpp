@@ -17,7 +17,7 @@ namespace cascade {
 
 namespace {
 
-/// The operator that a token stands for between two operands. `=` is read as `==`.
+/// The operator that a token means between two operands. `=` is read as `==`.
 std::optional<Function> binary_of(TokenKind kind) {
     static const auto operators = [] {
         std::array<std::optional<Function>, static_cast<std::size_t>(TokenKind::bar) + 1> table;
