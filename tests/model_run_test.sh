@@ -288,7 +288,7 @@ refused() {
 for name in refused.ply refused.obj refused.glb refused.vtp refused.npz refused.cells.vtp; do
     refused "only models are written to such files" run -q spots.cascade -o $name
 done
-refused "only a domain with a model has this setting" run -q spots.cascade -o refused.png --up z
+refused "this setting needs a domain with a model" run -q spots.cascade -o refused.png --up z
 for option in "--retile" "--bump 0.1" "--cache kept2"; do
     refused "the domain is not a model" run -q spots.cascade -o refused.png $option
 done

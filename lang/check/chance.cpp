@@ -38,8 +38,8 @@ void warn_of_idle_seed(const ast::Script& script, const Program& program,
         return;
     }
     diagnostics.warning(seed->span,
-                        "nothing in this script is random, so no seed changes its result",
-                        "random(0, 0.01) in a starting value would be");
+                        "the seed has no effect, because nothing in this script is random",
+                        "for example, add random(0, 0.01) to a starting value");
 }
 
 void warn_of_draws_by_step(const Program& program, Diagnostics& diagnostics) {
@@ -48,11 +48,12 @@ void warn_of_draws_by_step(const Program& program, Diagnostics& diagnostics) {
         const Node* const draw = find_in_rates(program.systems[stage.system], draws_by_step);
         if (draw == nullptr) continue;
         return diagnostics.warning(draw->span,
-                                   fmt::format("this is drawn anew at each step, and stage '{}' "
-                                               "chooses how long its steps are: the "
-                                               "shorter they are, the weaker the noise",
+                                   fmt::format("the strength of this noise depends on the length "
+                                               "of the steps, which stage '{}' chooses itself: "
+                                               "shorter steps weaken the noise",
                                                stage.name),
-                                   "the strength of white(s) does not depend on the step");
+                                   "write white(s): its strength does not depend on the length "
+                                   "of the steps");
     }
 }
 

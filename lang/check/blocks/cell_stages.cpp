@@ -35,8 +35,10 @@ const ast::Call* call_of_keys(const ast::Script& script, ast::Expression express
 void check_places(Workspace& work, const ast::Script& script, ast::Expression expression,
                   const ast::Call& call, Founders& founders) {
     if (call.argument_count == 0 || call.argument_count % 3 != 0) {
-        work.diagnostics.error(founders.span, "keys takes three coordinates for each founder",
-                               "as in founders: keys(0.5, 0.5, 0)");
+        work.diagnostics.error(founders.span,
+                               "keys(…) must give three coordinates for each "
+                               "founder",
+                               "for example, write founders: keys(0.5, 0.5, 0)");
         return;
     }
     ast::ExprId first = expression.first;
@@ -63,7 +65,8 @@ void check_count_of_founders(Workspace& work, const ast::Script& script, ast::Ex
         return;
     }
     work.diagnostics.error(span_of(script, value),
-                           fmt::format("the number of founders is whole, from 1 to {:.0f}",
+                           fmt::format("the number of founders must be a whole number from 1 to "
+                                       "{:.0f}",
                                        most_founders));
 }
 
@@ -76,8 +79,9 @@ void check_founders(Workspace& work, const ast::Script& script, const ast::State
     const std::size_t most = call_of_keys(script, first) != nullptr ? 1 : 2;
     if (statement.values.size() > most) {
         work.diagnostics.error(span_of(script, statement.values[most]),
-                               "'founders' takes a number and optionally a chance, or positions",
-                               "as in founders: 6 or founders: keys(0.5, 0.5, 0)");
+                               "'founders' takes either a number with an optional chance, or "
+                               "positions",
+                               "write founders: 6 or founders: keys(0.5, 0.5, 0), for example");
         return;
     }
     if (const ast::Call* call = call_of_keys(script, first)) {
@@ -90,8 +94,8 @@ void check_founders(Workspace& work, const ast::Script& script, const ast::State
     const auto own = std::ranges::find_if(chance->formula.nodes,
                                           [](const Node& node) { return node.is<ItemId>(); });
     if (own != chance->formula.nodes.end()) {
-        work.diagnostics.error(own->span, "a founder has no values before it has a position",
-                               "its chance may depend on the position and on earlier stages");
+        work.diagnostics.error(own->span, "the chance of a founder cannot read values of cells",
+                               "the chance may depend on the position and on earlier stages");
         return;
     }
     mark_reads(work, chance->formula, scope.system);
@@ -111,8 +115,9 @@ void check_body(Workspace& work, const ast::Script& script, const ast::Statement
     const auto own = std::ranges::find_if(body->formula.nodes, is_of_cells);
     if (own != body->formula.nodes.end()) {
         work.diagnostics.error(own->span,
-                               "a body is made before the cells, and cannot read their values",
-                               "it may read the position and earlier stages of fields");
+                               "the body is made before the cells, so it cannot read values of "
+                               "cells",
+                               "the body may read the position and earlier stages of fields");
         return;
     }
     bool reads_fields = false;
@@ -123,9 +128,9 @@ void check_body(Workspace& work, const ast::Script& script, const ast::Statement
     }
     if (!reads_fields) {
         work.diagnostics.error(span_of(script, statement.values.front()),
-                               "a body reads a stage of fields",
-                               "as in body: coral.v - 0.3; a formula alone gives domain { surface: "
-                               "implicit(…) }");
+                               "'body' must read a stage of fields",
+                               "write body: coral.v - 0.3, for example; for a formula without "
+                               "fields write domain { surface: implicit(…) }");
         return;
     }
     mark_reads(work, body->formula, scope.system);
@@ -189,8 +194,10 @@ std::string_view read_of_surface(const System& system, bool is_plane) {
 void check_solver(Workspace& work, const StageTime& time) {
     if (!changes_in_turn(time.solver) && !is_partly_implicit(time.solver)) return;
     work.diagnostics.error(time.solver_span,
-                           fmt::format("the solver {} is one of fields", name_of(time.solver)),
-                           "cells take rkl2, rkl1, euler, rk2, rk4, rk23 or rk45");
+                           fmt::format("the solver {} works only for fields, not for cells that "
+                                       "crawl",
+                                       name_of(time.solver)),
+                           "use rkl2, rkl1, euler, rk2, rk4, rk23 or rk45");
 }
 
 }  // namespace
@@ -246,7 +253,8 @@ void take_cell_size(Workspace& work, std::uint32_t index) {
     Formula& radius = stage.items[work.program.systems[stage.system].cells->radius];
     if (!radius.nodes.empty()) {
         work.diagnostics.error(radius.nodes.back().span,
-                               "cells start with a radius, r, or with a size, not with both",
+                               "cells start either with a radius 'r' or with a 'size', not with "
+                               "both",
                                "leave one of them out");
         return;
     }
@@ -304,19 +312,21 @@ void check_cell_stage(Workspace& work, std::uint32_t index) {
     }
     const DomainSettings& domain = work.program.domain;
     if (!stage.body.nodes.empty() && (domain.model || domain.grid.depth == 1)) {
-        work.diagnostics.error(stage.body.nodes.front().span, "a body needs a grid with slices",
-                               domain.model ? "on a model the cells crawl on its surface"
-                                            : "as in domain { grid: 64, 64, 64 }");
+        work.diagnostics.error(stage.body.nodes.front().span, "'body' needs a grid with slices",
+                               domain.model ? "leave 'body' out: on a model the cells crawl on "
+                                              "the model's surface"
+                                            : "for example, write domain { grid: 64, 64, 64 }");
     }
     if (!has_surface(work.program, index)) {
         const std::string_view name = read_of_surface(system, domain.grid.depth == 1);
         if (!name.empty()) {
             work.diagnostics.warning(
                 stage.span,
-                fmt::format("the cells of stage '{}' have no surface, and read '{}'", stage.name,
-                            name),
-                domain.grid.depth == 1 ? "domain { surface: sphere } has one"
-                                       : "domain { surface: sphere } or body: … gives them one");
+                fmt::format("the cells of stage '{}' read '{}', but there is no surface in this "
+                            "domain",
+                            stage.name, name),
+                domain.grid.depth == 1 ? "domain { surface: sphere } makes a surface"
+                                       : "domain { surface: sphere } or body: … makes a surface");
         }
     }
     for (const Formula& distance : system.cells->near) {
@@ -325,8 +335,11 @@ void check_cell_stage(Workspace& work, std::uint32_t index) {
             return item != nullptr && !stage.uniform[*item];
         });
         if (varies == distance.nodes.end()) continue;
-        work.diagnostics.error(varies->span, "the distance of 'near' is one number for all cells",
-                               fmt::format("it varies among the cells of stage '{}'", stage.name));
+        work.diagnostics.error(varies->span,
+                               "the distance of 'near' must be one number for all "
+                               "cells",
+                               fmt::format("this distance differs between the cells of stage '{}'",
+                                           stage.name));
     }
 }
 

@@ -36,7 +36,7 @@ std::optional<double> check_side(Workspace& work, const ast::Script& script,
 void check_grid(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
     if (statement.values.size() > 3) {
         work.diagnostics.error(span_of(script, statement.values[3]),
-                               "the grid has one, two or three sides");
+                               "a grid has at most three sides");
         return;
     }
     std::array<std::int64_t, 3> counts{1, 1, 1};
@@ -57,7 +57,9 @@ void check_grid(Workspace& work, const ast::Script& script, const ast::Statement
         return;
     }
     if (!(cells <= most_cells)) {
-        work.diagnostics.error(sides, "the grid is too large", "the largest has 2147483648 cells");
+        work.diagnostics.error(sides, "the grid is too large",
+                               "the largest grid has 2147483648 "
+                               "cells");
         return;
     }
     Grid& grid = work.draft->domain.grid;
@@ -93,7 +95,7 @@ std::optional<Boundary> check_boundary_word(Workspace& work, const ast::Script& 
                            text->value == "periodic" ? "periodic" : "noflux");
     }
     if (hint.empty()) hint = did_you_mean(work, word, words_taken_by(Setting::boundary));
-    work.diagnostics.error(value.span, "the boundary is periodic or noflux", std::move(hint));
+    work.diagnostics.error(value.span, "the boundary must be periodic or noflux", std::move(hint));
     return std::nullopt;
 }
 
@@ -102,7 +104,7 @@ void check_boundary(Workspace& work, const ast::Script& script, const ast::State
     if (statement.values.size() > 3) {
         work.diagnostics.error(
             span_of(script, statement.values[3]),
-            "the boundary has one word, or a word for each of at most three axes");
+            "the boundary takes one word, or one word for each axis (at most three)");
         return;
     }
     std::vector<Boundary> along;
@@ -139,9 +141,9 @@ void check_place_of_stencil(Workspace& work, const ast::Block& block) {
             statement.span,
             fmt::format("the stencil {} needs {}",
                         words_taken_by(Setting::stencil)[static_cast<std::size_t>(domain.stencil)],
-                        is_bent ? "square cells, and these lie on a surface"
-                                : "all cells of the grid, and the domain has a mask"),
-            "stencil: cross works there");
+                        is_bent ? "square cells, but these cells lie on a surface"
+                                : "all cells of the grid, but the domain has a mask"),
+            "write stencil: cross");
     }
 }
 
@@ -150,8 +152,8 @@ void check_fast(Workspace& work, const ast::Statement& option) {
     work.draft->domain.fast = has_multiply_add();
     if (work.program.domain.fast) return;
     work.diagnostics.warning(option.span,
-                             "this processor does not multiply and add in one operation: "
-                             "--fast changes nothing");
+                             "--fast has no effect, because this processor cannot multiply and "
+                             "add in one operation");
 }
 
 /// Divides the cells of a domain whose other settings have been checked. `detail: 2` halves the
@@ -175,8 +177,8 @@ void check_detail(Workspace& work, const ast::Script& script, const ast::Stateme
     }
     const double most = domain.model ? most_model_cells : most_cells;
     if (cells <= most) return;
-    work.diagnostics.error(option.span, fmt::format("that makes {:.0f} cells", cells),
-                           fmt::format("the most are {:.0f}", most));
+    work.diagnostics.error(option.span, fmt::format("the domain would have {:.0f} cells", cells),
+                           fmt::format("a domain has at most {:.0f} cells", most));
 }
 
 /// Joins cells of a domain whose other settings have been checked, for stages on a coarser grid.
@@ -194,8 +196,8 @@ void report_no_setting(Workspace& work, const ast::Word& name) {
                                   settings_of({SettingBlock::domain, SettingBlock::side}));
     if (hint.empty()) {
         hint =
-            "a domain has grid, extent, spacing, boundary, sides, mask, stencil, precision, seed, surface and "
-            "mesh";
+            "the settings of a domain are grid, extent, spacing, boundary, sides, mask, stencil, "
+            "precision, seed, surface and mesh";
     }
     work.diagnostics.error(name.span, fmt::format("'{}' is not a setting of the domain", name.text),
                            std::move(hint));
@@ -213,7 +215,7 @@ std::string hint_of_ranges(const ast::Script& script, const ast::Statement& stat
         const double length = number(k + 1) - number(k);
         if (length > 0) lengths += fmt::format("{}{:g}", lengths.empty() ? "" : ", ", length);
     }
-    return fmt::format("a side has one length: write 'extent: {}'",
+    return fmt::format("write one number for each side, as in 'extent: {}'",
                        lengths.empty() ? "10, 10" : lengths);
 }
 
@@ -221,7 +223,7 @@ void check_domain_statement(Workspace& work, const ast::Script& script,
                             const ast::Statement& statement) {
     if (statement.kind != ast::StatementKind::value) {
         const std::string_view name = statement.name.text;
-        work.diagnostics.error(statement.span, "a domain holds settings only (name: …)",
+        work.diagnostics.error(statement.span, "only settings (name: …) belong in the domain",
                                name == "extent" ? hint_of_ranges(script, statement)
                                : is_setting_of(SettingBlock::domain, name)
                                    ? fmt::format("write '{}: …'", name)
@@ -284,7 +286,7 @@ void check_domain(Workspace& work, const ast::Script& script) {
             break;
         }
         report_twice(work, statement.name.span, seen.at("spacing"),
-                     "a domain has an extent or a spacing, not both");
+                     "a domain can have an extent or a spacing, but not both");
     }
     for (const ast::Statement& statement : block.statements) {
         if (statement.name.text == "mask" && !statement.values.empty() &&

@@ -49,8 +49,11 @@ bool reads_time(const Formula& length) { return holds_in(length, is_moment); }
 std::optional<Growth> read_growth(Workspace& work, const std::vector<Formula>& lengths, Span span) {
     auto growth = growth_of(lengths, work.program.domain.grid);
     if (!growth) {
-        work.diagnostics.error(span, "there is no rule for the rate at which this length grows",
-                               "it may contain sums, products, powers, exp, log, sin and so on");
+        work.diagnostics.error(span,
+                               "the rate at which this length grows cannot be derived from "
+                               "its formula",
+                               "the formula may contain sums, products, powers, exp, log, sin "
+                               "and so on");
         return std::nullopt;
     }
     growth->span = span;
@@ -96,7 +99,8 @@ void check_extent(Workspace& work, const ast::Script& script, const ast::Stateme
             span,
             fmt::format("cells would be {:.6g} long along one side and {:.6g} along another",
                         grid.spacing, spacing),
-            fmt::format("cells are as long as wide{}: with this grid the side is {:.6g} long",
+            fmt::format("cells must be as long as they are wide{}: with this grid the side must "
+                        "be {:.6g} long",
                         std::ranges::any_of(*lengths, reads_time) ? " at t = 0" : "",
                         grid.spacing * static_cast<double>(sides[axis])));
     }
@@ -109,7 +113,7 @@ void check_stage_extent(Workspace& work, const ast::Script& script, const ast::S
     const DomainSettings& domain = work.program.domain;
     if (domain.model || domain.surface) {
         return work.diagnostics.error(statement.name.span,
-                                      "the extent is that of a grid with straight axes",
+                                      "'extent' works only for a grid with straight axes",
                                       domain.model ? "this domain is a model"
                                                    : "this domain is a surface");
     }

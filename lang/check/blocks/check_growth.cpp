@@ -46,14 +46,17 @@ void refuse_in(const Stage& stage, Span span, std::string_view what, std::string
 
 /// Why a function has no meaning in a domain that grows; null if it has one.
 const char* obstacle(const Growth& growth, const Nodes& nodes, const Node& node) {
-    if (node.calls(Function::convolve)) return "where kernels of convolutions would change";
+    if (node.calls(Function::convolve))
+        return "where convolve cannot be used, because its "
+               "kernel would change";
     if (growth.is_uniform) return nullptr;
     if (node.calls(Function::diffuse)) {
-        return "where diffuse needs axes that grow alike; div(tensor(…) * grad(u)) works";
+        return "where diffuse works only if all axes grow alike; write div(tensor(…) * grad(u)) "
+               "instead";
     }
     const bool is_side_of_cell =
         node.calls(Function::grown) && nodes[node.operands[1]].is(NodeKind(double{all_axes}));
-    return is_side_of_cell ? "where cells are not as long as wide, so domain.spacing has no value"
+    return is_side_of_cell ? "where domain.spacing has no value, because cells do not stay square"
                            : nullptr;
 }
 
@@ -84,20 +87,25 @@ private:
         const System& system = program_.system_of(index_);
         if (stage_.size) {
             return refuse(stage_.size->span, "so its pattern has no fixed size",
-                          "without size its wavelength is what the equations give");
+                          "leave out 'size': the wavelength then follows from the equations");
         }
         if (stage_.time.coarse > 1) {
-            return refuse(stage_.time.coarse_span, "and cannot start on a coarser grid",
-                          "grid: coarse(2) works there");
+            return refuse(stage_.time.coarse_span,
+                          "and such a stage cannot start on a coarser "
+                          "grid",
+                          "write grid: coarse(2) to run the whole stage on a coarser grid");
         }
         if (!stage_.uniform[system.speed_item()]) {
             return refuse(stage_.items[system.speed_item()].nodes.back().span,
-                          "so all cells need the same time", "a speed for all cells is one number");
+                          "so its speed cannot differ from cell to cell",
+                          "give one number as the speed of all cells");
         }
         const StencilKind stencil = program_.domain.stencil;
         if (growth_.is_uniform || stencil != StencilKind::isotropic) return false;
-        return refuse(growth_.span, "and the stencil isotropic needs cells as long as wide",
-                      "stencil: cross works there");
+        return refuse(growth_.span,
+                      "where the stencil isotropic cannot be used, because cells "
+                      "do not stay square",
+                      "write stencil: cross");
     }
 
     bool refuse_formulas() {
@@ -123,9 +131,10 @@ private:
             return kind == SideKind::slope || kind == SideKind::flux;
         };
         const auto refused = [&](const SideSettings& sides) {
-            return needs_length(sides) &&
-                   refuse(sides.back().span, "where the border needs axes that grow alike",
-                          "fixed and noflux work there");
+            return needs_length(sides) && refuse(sides.back().span,
+                                                 "where slope(…) and flux(…) at a border work only "
+                                                 "if all axes grow alike",
+                                                 "write border: fixed(…) or border: noflux");
         };
         return std::ranges::any_of(stage_.sides, refused) ||
                std::ranges::any_of(stage_.definition_sides, refused, &DefinitionSides::sides);
@@ -155,7 +164,7 @@ private:
                 diagnostics_.error(growth_.span,
                                    fmt::format("the length along {} jumps near t = {:.6g}",
                                                axis_names[axis], t),
-                                   "a domain grows without jumps");
+                                   "the length of a side must not jump");
                 return false;
             }
             const bool is_least = look > 1 && before <= last_but_one && before <= here &&
@@ -241,8 +250,8 @@ void check_growth(const Program& program, Diagnostics& diagnostics) {
     for (std::uint32_t stage = 0; stage < program.stages.size(); ++stage) {
         if (is_of_cells(program, stage) && program.domain.growth) {
             diagnostics.error(program.domain.growth->span,
-                              fmt::format("stage '{}' consists of cells that crawl, which need a "
-                                          "domain that does not grow",
+                              fmt::format("stage '{}' consists of cells that crawl, but cells "
+                                          "cannot crawl in a domain that grows",
                                           program.stages[stage].name));
         }
         if (program.stages[stage].growth) GrowthCheck(program, stage, diagnostics).run();

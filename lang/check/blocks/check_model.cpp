@@ -30,7 +30,7 @@ constexpr std::array<ShapeSizes, 4> shape_sizes{{
     {ModelShape::box, 3, "its three sides", "box(1, 1, 2)"},
     {ModelShape::knot, 1, "the radius of its tube", "knot(0.4)"},
     {ModelShape::implicit, 1,
-     "an expression of x, y and z, and optionally half the side of its box",
+     "an expression of x, y and z and, optionally, half the side of its box",
      "implicit(1 - x^2 - y^2 - z^2)"},
 }};
 
@@ -82,7 +82,7 @@ public:
             const ast::Statement* surface = model_surface_of(script_, domain_);
             if (mesh != nullptr && surface != nullptr) {
                 return report_twice(work_, surface->name.span, mesh->name.span,
-                                    "a domain has a mesh or a surface, not both");
+                                    "a domain can have a mesh or a surface, but not both");
             }
             check_named(mesh != nullptr ? *mesh : *surface);
         }
@@ -127,24 +127,33 @@ private:
             word == "grid" || word == "spacing" || word == "extent" || word == "metric";
         work_.diagnostics.error(statement.name.span, fmt::format("a model has no {}", word),
                                 is_shape
-                                    ? "its cells are spread over it: cells: 20000, or --cells 20000"
+                                    ? "write cells: 20000 or --cells 20000 to spread cells over "
+                                      "the model"
                                 : word == "front"
-                                    ? "facing: -y says along which axis it looks"
-                                    : "it ends where its surface ends, and nothing flows out");
+                                    ? "write facing: -y, for example, for the axis along which "
+                                      "the model looks"
+                                    : "leave it out: nothing flows out where the surface of a "
+                                      "model ends");
     }
 
     /// Drops the script's rules for the sides of a plane that --mesh replaces by a model.
     void leave_borders() {
         const DomainSettings& domain = work_.program.domain;
         if (domain.mask) {
-            work_.diagnostics.warning(domain.mask->span, "a model has no mask: this is ignored");
+            work_.diagnostics.warning(domain.mask->span,
+                                      "this mask is ignored, because a model "
+                                      "has no mask");
         }
         for (const auto& side : domain.sides) {
             if (!side || !takes_value(side->kind)) continue;
-            work_.diagnostics.warning(side->span, "a model has no sides: this is ignored");
+            work_.diagnostics.warning(side->span,
+                                      "this side is ignored, because a model has no "
+                                      "sides");
         }
         if (const ast::Statement* stencil = find("stencil")) {
-            work_.diagnostics.warning(stencil->span, "a model has no stencil: this is ignored");
+            work_.diagnostics.warning(stencil->span,
+                                      "this stencil is ignored, because a model "
+                                      "has no stencil");
         }
     }
 
@@ -174,7 +183,7 @@ private:
         if (std::holds_alternative<ast::Garbage>(value.node)) return;
         const auto* text = std::get_if<ast::Text>(&value.node);
         if (text == nullptr || text->value.empty()) {
-            work_.diagnostics.error(value.span, "a mesh is the name of a file in quotes",
+            work_.diagnostics.error(value.span, "'mesh' takes the name of a file in quotes",
                                     shape_of(word_of(value))
                                         ? fmt::format("write surface: {}", word_of(value))
                                         : "mesh: \"horse.ply\"");
@@ -222,7 +231,7 @@ private:
             if (!size) return;
             if (!(*size >= 1e-6 && *size <= 1e6)) {
                 work_.diagnostics.error(script_.expressions[each.root].span,
-                                        "a size is from 1e-6 to 1e6");
+                                        "a size must be from 1e-6 to 1e6");
                 return;
             }
             model.sizes.push_back(*size);
@@ -234,7 +243,7 @@ private:
             return;
         }
         if (model.shape == ModelShape::knot && !model.sizes.empty() && model.sizes[0] > 0.55) {
-            work_.diagnostics.error(value.span, "the tube of a knot has a radius of at most 0.55",
+            work_.diagnostics.error(value.span, "the radius of a knot's tube must be at most 0.55",
                                     "surface: knot(0.4)");
             return;
         }
@@ -249,7 +258,9 @@ private:
             return;
         }
         if (std::holds_alternative<ast::Name>(value_of(script_, statement).node)) {
-            work_.diagnostics.error(span_of(statement), "cells are a number, faces or vertices",
+            work_.diagnostics.error(span_of(statement),
+                                    "'cells' must be a number, faces or "
+                                    "vertices",
                                     did_you_mean(work_, word, words_taken_by(Setting::cells)));
             return;
         }
@@ -271,13 +282,15 @@ private:
         const auto axis = axis_of_name(word_of(*value));
         if (!axis) {
             work_.diagnostics.error(span_of(statement),
-                                    "the axis along which a model looks is x, -x, y, -y, z or -z");
+                                    "the axis along which a model looks must be x, -x, y, -y, z "
+                                    "or -z");
         } else if (*axis == model_->stance.up) {
             work_.diagnostics.error(
                 span_of(statement),
-                fmt::format("a model does not look along {}, which points upwards", name_of(*axis)),
-                *axis == Axis::y ? "up: z says that another axis points upwards"
-                                 : "it looks along another axis");
+                fmt::format("the model cannot look along {}, because this axis points upwards",
+                            name_of(*axis)),
+                *axis == Axis::y ? "choose another axis, or write up: z if z points upwards"
+                                 : "choose another axis");
         } else {
             model_->stance.facing = {*axis, is_backwards};
         }
@@ -293,7 +306,9 @@ private:
         }
         if (stretch == nullptr) return;
         if (directions == nullptr) {
-            work_.diagnostics.error(stretch->name.span, "cells are stretched along directions",
+            work_.diagnostics.error(stretch->name.span,
+                                    "'stretch' needs 'directions', along "
+                                    "which it stretches the cells",
                                     "directions: axis(0, 1, 0)");
             return;
         }
@@ -332,8 +347,8 @@ bool check_model(Workspace& work, const ast::Script& script, const ast::Block& d
     const auto refuse = [&](const ast::Statement& statement) {
         if (statement.values.empty() || !is_model_setting(statement.name.text)) return;
         work.diagnostics.error(
-            statement.name.span, "only a domain with a model has this setting",
-            "mesh: \"horse.ply\", surface: sphere or --mesh sphere makes it one");
+            statement.name.span, "this setting needs a domain with a model",
+            "add mesh: \"horse.ply\" or surface: sphere, or run with --mesh sphere");
     };
     std::for_each(script.options.begin(), script.options.end(), refuse);
     if (!gives_way) std::for_each(domain.statements.begin(), domain.statements.end(), refuse);

@@ -43,7 +43,9 @@ std::string option_for(const ast::Script& script, std::string_view name,
     }
     if (name == "surface") return "the option --mesh sets it, as in --mesh sphere";
     const bool is_of_domain = is_setting_of(SettingBlock::domain, name) || is_side_word(name);
-    return is_of_domain ? "extent and spacing are set so; change it in the script" : "";
+    return is_of_domain ? "change it in the script: --set can change only 'extent' and 'spacing' "
+                          "of the domain"
+                        : "";
 }
 
 bool is_of_constant(Workspace& work, const ast::Script& script, const ast::Override& change) {
@@ -107,8 +109,8 @@ void report_unknown_stage(Workspace& work, const ast::Script& script, const ast:
         return work.diagnostics.error(join(name.span, statement.name.span), message, hint);
     }
     if (name.text == "picture") {
-        return work.diagnostics.error(name.span, "the picture has options of its own",
-                                      "--show, --palette and --range change it");
+        return work.diagnostics.error(name.span, "settings of the picture cannot be changed here",
+                                      "use --show, --palette or --range");
     }
     std::vector<std::string> names;
     for (const Stage& stage : work.program.stages) names.push_back(stage.name);

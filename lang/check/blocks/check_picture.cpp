@@ -73,8 +73,8 @@ private:
     bool are_fields(const ast::Word& name) {
         if (!knows_stage() || !shows_cells()) return true;
         work_.diagnostics.error(
-            name.span, fmt::format("'{}' is for pictures of fields", name.text),
-            fmt::format("stage '{}', which the picture shows, consists of cells that crawl",
+            name.span, fmt::format("'{}' works only in pictures of fields", name.text),
+            fmt::format("the picture shows stage '{}', which consists of cells that crawl",
                         work_.program.stages[*scope_.stage].name));
         return false;
     }
@@ -85,7 +85,7 @@ private:
         if (!are_fields(statement.name)) return;
         const DomainSettings& domain = work_.program.domain;
         if (domain.grid.depth == 1 && !domain.model) {
-            work_.diagnostics.error(statement.name.span, "a body needs a grid with slices",
+            work_.diagnostics.error(statement.name.span, "'body' needs a grid with slices",
                                     "domain { grid: 64, 64, 64 }");
             return;
         }
@@ -118,8 +118,8 @@ private:
 
     void report_no_cells(const ast::Word& name) {
         work_.diagnostics.error(
-            name.span, fmt::format("'{}' is for pictures of cells that crawl", name.text),
-            fmt::format("stage '{}', which the picture shows, consists of fields",
+            name.span, fmt::format("'{}' works only in pictures of cells that crawl", name.text),
+            fmt::format("the picture shows stage '{}', which consists of fields",
                         work_.program.stages[*scope_.stage].name));
     }
 
@@ -162,8 +162,10 @@ private:
         const auto* name = std::get_if<ast::Name>(&value.node);
         if (std::holds_alternative<ast::Text>(value.node)) return;  // The name of a file.
         if (name == nullptr) {
-            work_.diagnostics.error(value.span, "a shape is a word or the name of a file",
-                                    "shape: thorn, shape: \"horn.ply\"");
+            work_.diagnostics.error(value.span,
+                                    "'shape' takes a word or the name of a file in "
+                                    "quotes",
+                                    "write shape: thorn or shape: \"horn.ply\", for example");
         } else if (!is_declared(name->name) && shape() == nullptr) {
             report_unknown_shape(work_, script_, {value.span, name->name});
         }
@@ -210,8 +212,9 @@ const ast::Block* find_block(Workspace& work, const ast::Script& script, ast::Bl
 void report_sides(Workspace& work, const ast::Block& block) {
     for (const ast::Statement& statement : block.sides) {
         work.diagnostics.error(join(statement.name.span, statement.side.span),
-                               "the sides of one species belong in its system or in a stage",
-                               "left: … in the domain is for all species");
+                               "the side of one species cannot be set in the domain, only in a "
+                               "system or a stage",
+                               "'left: …' in the domain sets the side of all species");
     }
 }
 

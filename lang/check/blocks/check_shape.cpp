@@ -80,9 +80,9 @@ void ShapeChecker::declare(const Declaration& declaration) {
     };
     const bool is_value = declaration.kind() == ast::StatementKind::value;
     if (!is_value && declaration.kind() != ast::StatementKind::definition) {
-        return refuse(fmt::format("'{}' of a shape has no rate and no bounds", name),
-                      fmt::format("write {} = … for a definition",
-                                  declaration.statement->name.text));
+        return refuse(
+            fmt::format("'{}' belongs to a shape, so it cannot have a rate or bounds", name),
+            fmt::format("write {} = … for a definition", declaration.statement->name.text));
     }
     const auto [first, is_new] = declared_.try_emplace(name, span);
     if (!is_new) {
@@ -95,11 +95,13 @@ void ShapeChecker::declare(const Declaration& declaration) {
     }
     if (is_value && name == "parts") return check_parts(declaration);
     if (is_setting_of(SettingBlock::picture, name)) {
-        return refuse(fmt::format("'{}' is a setting of pictures", name),
-                      "a picture could not give a shape's own quantity of this name");
+        return refuse(fmt::format("'{}' cannot be defined in a shape, because it is a setting of "
+                                  "pictures",
+                                  name),
+                      "choose another name");
     }
     if (is_value && meant_by(name) != nullptr) {
-        return refuse(fmt::format("'{}' of a shape is a definition", name),
+        return refuse(fmt::format("'{}' in a shape must be written with '='", name),
                       fmt::format("write {} = …", name));
     }
     if (is_value) {
@@ -125,7 +127,7 @@ void ShapeChecker::check_parts(const Declaration& declaration) {
         return;
     }
     work_.diagnostics.error(declaration.script->expressions[value.root].span,
-                            fmt::format("the number of parts is whole, from 1 to {}",
+                            fmt::format("the number of parts must be a whole number from 1 to {}",
                                         most_shape_parts));
 }
 
@@ -156,9 +158,9 @@ void ShapeChecker::check_meant() {
         work_.definitions_read[index_][id] = true;
         if (definition.formula.nodes.back().type != meant->type) {
             work_.diagnostics.error(definition.formula.nodes.back().span,
-                                    fmt::format("'{}' of a shape is {}", definition.name,
+                                    fmt::format("'{}' of a shape must be {}", definition.name,
                                                 words_of(meant->type, true).name),
-                                    meant->type == ValueType::vector ? "vector(x, y, z) makes one"
+                                    meant->type == ValueType::vector ? "write vector(x, y, z)"
                                                                      : "");
             continue;
         }
@@ -166,9 +168,9 @@ void ShapeChecker::check_meant() {
     }
     const bool is_tube = !form_.radius.nodes.empty() || !form_.middle.nodes.empty();
     if (!form_.place.nodes.empty() && is_tube) {
-        work_.diagnostics.error(form_.span,
-                                fmt::format("shape '{}' gives its positions twice", form_.name),
-                                "by place = …, or by radius = … and middle = …");
+        work_.diagnostics.error(
+            form_.span, fmt::format("shape '{}' defines its positions in two ways", form_.name),
+            "write either place = …, or radius = … and middle = …");
     } else if (form_.place.nodes.empty() && form_.radius.nodes.empty()) {
         work_.diagnostics.error(form_.span, fmt::format("shape '{}' has no radius", form_.name),
                                 "write radius = 1 - t");

@@ -82,7 +82,7 @@ private:
                                       definition.name,
                                       beyond == nullptr ? std::string_view("random numbers")
                                                         : info(beyond->function).spelling),
-                          "a side reads the cells beside it, but not their neighbours");
+                          "a side can read the cells beside it, but not their neighbours");
         }
         return true;
     }
@@ -108,25 +108,26 @@ private:
             const Node& root = whole.nodes.back();
             if (!root.is<Call>() || reads_file(root.function)) {
                 return report(setting.span,
-                              fmt::format("'{}' has no side of its own, because it is only another "
+                              fmt::format("'{}' cannot have a side, because it is only another "
                                           "name",
                                           definition.name),
                               is_species(system(), root)
-                                  ? fmt::format("give the side to {}",
+                                  ? fmt::format("write the side for {}",
                                                 system().item_name(*root.as<ItemId>()))
                                   : "");
             }
             if (!differs_by_cell(whole)) {
                 return report(setting.span,
-                              fmt::format("'{}' is the same in all cells, so no operator reads a "
-                                          "side of it",
+                              fmt::format("'{}' is the same in all cells, so its side would "
+                                          "never be read",
                                           definition.name),
                               "");
             }
             // The constraint of a solved field reads the field.
             if (!solved_constraint(root) && !is_read_beside(system(), sides.definition)) {
                 return report(setting.span,
-                              fmt::format("no operator reads '{}', so a side of it has no effect",
+                              fmt::format("the side of '{}' has no effect, because no operator "
+                                          "reads '{}'",
                                           definition.name),
                               "");
             }
@@ -140,7 +141,8 @@ private:
                 return report(setting.span,
                               fmt::format("a side of a definition cannot read '{}'",
                                           system().item_name(*read->as<ItemId>())),
-                              "it reads parameters, t and step; sides of species read species");
+                              "it can read parameters, t and step; only the side of a species "
+                              "can read species");
             }
         }
         return true;
@@ -152,8 +154,9 @@ private:
         const auto check = [&](const SideSettings& sides) {
             for (const SideSetting& setting : sides) {
                 if (!takes_value(setting.kind)) continue;
-                report(setting.span, "stencil: fourth needs sides that are periodic or noflux",
-                       "isotropic and cross take values, slopes and fluxes");
+                report(setting.span, "with stencil: fourth, sides must be periodic or noflux",
+                       "write stencil: isotropic or stencil: cross for sides with values, slopes "
+                       "or fluxes");
             }
         };
         for (const SideSettings& sides : program_.stages[stage_].sides) check(sides);
@@ -168,7 +171,7 @@ private:
             holds_in(setting.value, [&](const Node& node) { return is_species(system(), node); });
         if (!changes) return true;
         return report(draw->span, "a side that reads species cannot draw random numbers",
-                      "put them into a parameter: name: random(…)");
+                      "draw them in a parameter, as in name: random(…), and read the parameter");
     }
 
     /// Checks a rule at the border of a mask. The value of the rule is computed together with the
@@ -177,8 +180,8 @@ private:
         if (!takes_value(setting.kind)) return true;
         const auto& surface = program_.domain.surface;
         if (surface && surface->has_metric && setting.kind != SideKind::fixed) {
-            return report(setting.span, "on a surface a border is noflux or fixed(…)",
-                          "slope(…) and flux(…) need square cells");
+            return report(setting.span, "on a surface a border must be noflux or fixed(…)",
+                          "slope(…) and flux(…) work only with square cells");
         }
         const Formula whole = without_definitions(system(), setting.value);
         const auto found = std::ranges::find_if(whole.nodes, [](const Node& node) {
@@ -189,7 +192,7 @@ private:
         return report(setting.span,
                       fmt::format("the value at a border cannot contain {}",
                                   info(found->function).spelling),
-                      "it can read a parameter that does: name: …");
+                      "compute it in a parameter, name: …, and read the parameter");
     }
 
     bool check_flux(SpeciesId species, Side side, const SideSetting& setting) {
@@ -204,14 +207,15 @@ private:
         return report(setting.span,
                       fmt::format("the flux of {0} cannot be given, because {0} {1}", name(species),
                                   found.why_not),
-                      "slope(…) gives the derivative along the outward normal, for any rate");
+                      "slope(…) works with every rate: it sets the derivative along the outward "
+                      "normal");
     }
 
     bool check_coupling(SpeciesId species, Side side, const SideSetting& setting) {
         const std::size_t count = coupled_at_side(program_, stage_, species, side).size();
         if (count <= most_coupled_at_side) return true;
         return report(setting.span,
-                      fmt::format("at {} {} species depend on each other; at most {} can",
+                      fmt::format("at {} {} species depend on each other, but at most {} may",
                                   side_name(species, side), count, most_coupled_at_side),
                       "");
     }
@@ -228,11 +232,11 @@ private:
             diagnostics_.error(
                 time.solver_span,
                 fmt::format(
-                    "stage '{}': {} cannot hold {} at a side, because its waves differ from the "
-                    "waves of a species",
+                    "stage '{}': {} cannot hold the value of {} at a side, because this solver "
+                    "can hold only species",
                     program_.stages[stage_].name, name_of(time.solver),
                     system().definitions[each.definition].name),
-                "rkl2 can");
+                "write solver: rkl2");
             return;
         }
         const auto settings = side_settings(program_, stage_);
@@ -251,8 +255,9 @@ private:
                                    fmt::format("stage '{}': {} {} {}, which reads species",
                                                program_.stages[stage_].name, name_of(time.solver),
                                                what, side_name(own, static_cast<Side>(side))),
-                                   is_in_turn ? "rk4 steps all species together"
-                                              : "rkl2 takes long steps, too");
+                                   is_in_turn ? "write solver: rk4, which steps all species "
+                                                "together"
+                                              : "write solver: rkl2, which takes long steps, too");
                 return;
             }
         }

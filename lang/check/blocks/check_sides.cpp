@@ -51,7 +51,7 @@ bool are_pairs(Workspace& work, const SideSettings& sides) {
             fmt::format("{} is {}, but {} is periodic", side_names[other],
                         side_kind_words[static_cast<std::size_t>(sides[other].kind)],
                         side_names[periodic]),
-            fmt::format("give {} a rule too, or write boundary: noflux in the domain",
+            fmt::format("write a rule for {}, too, or boundary: noflux in the domain",
                         side_names[span == sides[other].span ? periodic : other]));
         return false;
     }
@@ -68,9 +68,10 @@ bool are_periodic_as_boundary(Workspace& work, const SideSettings& sides, std::s
         const bool is_periodic = sides[side].kind == SideKind::periodic;
         if (is_periodic == (boundary.at[side].kind == SideKind::periodic)) continue;
         work.diagnostics.error(sides[side].span,
-                               fmt::format("{} {} is periodic for all species or for none", where,
-                                           side_names[side]),
-                               "the domain's boundary says which: boundary: periodic, noflux");
+                               fmt::format("{}, '{}' must be periodic for all species or for none",
+                                           where, side_names[side]),
+                               "set it for all species by the domain's boundary, as in boundary: "
+                               "periodic, noflux");
         return false;
     }
     return true;
@@ -115,7 +116,9 @@ void resolve(Workspace& work, Stage& stage, const std::vector<SubjectSide>& own)
         const auto ignore = [&](const SideSettings& sides) {
             for (const SideSetting& side : sides) {
                 if (!takes_value(side.kind)) continue;
-                work.diagnostics.warning(side.span, "a model has no sides: this is ignored");
+                work.diagnostics.warning(side.span,
+                                         "this side is ignored, because a model has "
+                                         "no sides");
             }
         };
         for (const SideSettings& sides : stage.sides) ignore(sides);

@@ -107,7 +107,7 @@ std::vector<Declaration> StageChecker::collect(
         const ast::Statement* value = value_statement(statement);
         if (value == nullptr) {
             if (statement.kind == ast::StatementKind::value) continue;
-            work_.diagnostics.error(statement.span, "a stage holds values only (name: …)",
+            work_.diagnostics.error(statement.span, "only values (name: …) belong in a stage",
                                     statement.kind == ast::StatementKind::definition
                                         ? fmt::format("write {}: …", statement.name.text)
                                         : "rates, definitions and bounds belong in a system");
@@ -115,8 +115,8 @@ std::vector<Declaration> StageChecker::collect(
         }
         if (statement.range) {
             work_.diagnostics.error(statement.range->span,
-                                    "the range of a parameter belongs in "
-                                    "its system");
+                                    "the range of a parameter must be written in its system, not "
+                                    "in a stage");
         }
         for (Declaration& declaration : declarations_of(*value)) add(std::move(declaration), false);
     }
@@ -176,8 +176,8 @@ bool StageChecker::set_of_cells(const Declaration& declaration) {
         return true;
     }
     if (name == "p") {
-        work_.diagnostics.error(declaration.span(), "the positions of cells cannot be set here",
-                                "founders say where they start: founders: keys(x, y, z)");
+        work_.diagnostics.error(declaration.span(), "the positions of cells cannot be set by 'p'",
+                                "write founders: keys(x, y, z) for the positions at the start");
         return true;
     }
     if (name != "ey" && name != "ez") return false;
@@ -198,8 +198,9 @@ void StageChecker::set_of_fields(const ast::Statement& statement) {
     if (statement.values.empty()) return;
     if (statement.name.text == "extent")
         return check_stage_extent(work_, script_, statement, stage());
-    const auto coarse = check_coarse(work_, script_, statement.values[0], "grid",
-                                     "the 'grid' of a stage takes coarse(N), for wider cells");
+    const auto coarse =
+        check_coarse(work_, script_, statement.values[0], "grid",
+                     "'grid' of a stage takes coarse(N), for cells N times as wide");
     if (!coarse || !has_one_value(work_, script_, statement)) return;
     stage().coarse = coarse->times;
     stage().coarse_span = coarse->span;
@@ -224,8 +225,9 @@ void StageChecker::set(const Declaration& declaration) {
     note_use(work_, statement.name.span, stage().system, meaning->id);
     if (meaning->is_definition()) {
         work_.diagnostics.error(statement.name.span,
-                                fmt::format("'{}' is a definition of {} and cannot be set", name,
-                                            system().name));
+                                fmt::format("'{}' cannot be set in a stage, because it is a "
+                                            "definition of {}",
+                                            name, system().name));
         return;
     }
     if (!has_one_value(work_, declaration)) return;
@@ -261,9 +263,10 @@ void StageChecker::report_unknown(const Declaration& declaration) {
             with_number(hint_about(work_, declaration.name, WordContext::stage, names),
                         script_.expressions[declaration.value().root]);
         if (is_side_word(declaration.name)) {
-            diagnostic.hint =
-                fmt::format("a side of one species is SPECIES.{0}: …, of all {0}: … in the domain",
-                            declaration.name);
+            diagnostic.hint = fmt::format(
+                "write SPECIES.{0}: … for one species, or {0}: … in the domain for "
+                "all species",
+                declaration.name);
         }
     }
     work_.diagnostics.add(std::move(diagnostic));
@@ -279,7 +282,7 @@ void StageChecker::take_default(ItemId item, const Formula* formula, double othe
     }
     copied_ += formula->nodes.size();
     if (copied_ > most_copied_nodes) {
-        work_.diagnostics.error(stage().span, "the stages of this script are too large together");
+        work_.diagnostics.error(stage().span, "the stages of this script are too large in total");
         target = {{Node{otherwise, stage().span}}};
         return;
     }

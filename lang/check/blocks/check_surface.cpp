@@ -27,9 +27,9 @@ void check_position(Workspace& work, const ast::Script& script, const ast::State
         const std::vector<std::string> shapes = words_taken_by(Setting::surface);
         const bool is_name = is_file && std::ranges::find(shapes, text->value) != shapes.end();
         work.diagnostics.error(statement.span,
-                               "a surface is three expressions: x, y and z in space",
+                               "'surface' takes three expressions, for x, y and z in space",
                                is_name   ? fmt::format("write surface: {}", text->value)
-                               : is_file ? "a model in a file is mesh: \"model.obj\""
+                               : is_file ? "write mesh: \"model.obj\" for a model in a file"
                                          : "surface: sx, sy, 0.1 * sin(2 * pi * sx)");
         return;
     }
@@ -62,8 +62,7 @@ void check_surface(Workspace& work, const ast::Script& script, const ast::Block&
     if (surface == nullptr) {
         for (const ast::Statement* lonely : {metric, unit}) {
             if (lonely == nullptr) continue;
-            work.diagnostics.error(lonely->name.span,
-                                   "only a domain with a surface has this setting",
+            work.diagnostics.error(lonely->name.span, "this setting needs a domain with a surface",
                                    "surface: x, y, z");
         }
         return;
@@ -72,12 +71,14 @@ void check_surface(Workspace& work, const ast::Script& script, const ast::Block&
     if (!work.program.domain.surface) return;
     const Grid& grid = work.program.domain.grid;
     if (grid.width < 2 || grid.height < 2 || grid.depth > 1) {
-        work.diagnostics.error(surface->name.span, "a surface needs a grid of two axes",
+        work.diagnostics.error(surface->name.span, "a surface needs a grid with two sides",
                                "grid: 128, 128");
     }
     if (grid.spacing != 1) {
-        work.diagnostics.error(surface->name.span, "a domain has a surface or a spacing, not both",
-                               "unit: … is the length of one unit on a surface");
+        work.diagnostics.error(surface->name.span,
+                               "a domain can have a surface or a spacing, "
+                               "but not both",
+                               "write unit: … for the length of one unit on the surface");
     }
     SurfaceSettings& settings = *work.draft->domain.surface;
     if (metric != nullptr) put(settings.has_metric, read_number(work, script, *metric));

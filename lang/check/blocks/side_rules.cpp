@@ -30,7 +30,7 @@ std::optional<SideKind> kind_of_word(std::string_view word) {
 std::optional<WrittenSide> read_side(Workspace& work, const ast::Script& script,
                                      const ast::Statement& statement) {
     if (statement.kind != ast::StatementKind::value) {
-        work.diagnostics.error(statement.span, "a side is given with ':'",
+        work.diagnostics.error(statement.span, "the rule of a side is written with ':'",
                                fmt::format("write {}: …", statement.name.text));
         return std::nullopt;
     }
@@ -51,14 +51,14 @@ std::optional<WrittenSide> read_side(Workspace& work, const ast::Script& script,
             hint = fmt::format("write 'fixed({})'", number->value);
         }
         work.diagnostics.error(value.span,
-                               "a side is periodic, noflux, fixed(…), slope(…) or flux(…)",
+                               "a side must be periodic, noflux, fixed(…), slope(…) or flux(…)",
                                std::move(hint));
         return std::nullopt;
     }
     const bool is_border = statement.side.text == "border" || statement.name.text == "border";
     if (*kind == SideKind::periodic && is_border) {
-        work.diagnostics.error(value.span, "a border has no opposite side",
-                               "it is noflux, fixed(…), slope(…) or flux(…)");
+        work.diagnostics.error(value.span, "the border of a mask cannot be periodic",
+                               "write noflux, fixed(…), slope(…) or flux(…)");
         return std::nullopt;
     }
     if (takes_value(*kind) && (!call || call->argument_count != 1)) {
@@ -79,7 +79,9 @@ std::optional<WrittenSide> read_side(Workspace& work, const ast::Script& script,
 
 void leave_border(Workspace& work, SideSetting& border) {
     if (takes_value(border.kind)) {
-        work.diagnostics.warning(border.span, "without a mask there is no border: this is ignored");
+        work.diagnostics.warning(border.span,
+                                 "this border is ignored, because the domain has no "
+                                 "mask");
     }
     border = {};
 }
@@ -118,8 +120,9 @@ bool is_known_along_side(Workspace& work, const System& system, const Formula& v
     if (node == nullptr) return true;
     const std::string_view function = info(node->function).spelling;
     work.diagnostics.error(
-        node->span, fmt::format("at a side {} cannot depend on species, t or step", function),
-        "it is computed once, when the stage starts: put them outside of it");
+        node->span,
+        fmt::format("in the rule of a side, {} cannot depend on species, t or step", function),
+        "it is computed once, when the stage starts; move species, t and step out of its brackets");
     return false;
 }
 
@@ -180,10 +183,11 @@ private:
             written.kind == SideKind::periodic || written.kind == SideKind::flux;
         if (std::holds_alternative<ItemId>(subject) || !is_of_species) return true;
         work_.diagnostics.error(
-            head_of(statement), "a side of a definition is noflux, fixed(…) or slope(…)",
+            head_of(statement), "the side of a definition must be noflux, fixed(…) or slope(…)",
             written.kind == SideKind::periodic
-                ? "it is periodic where the species in it are"
-                : "what diffusion carries is the slope times the factor before lap or grad");
+                ? "leave it out: the side is periodic if the sides of the species in the "
+                  "definition are"
+                : "write slope(…): the flux is this slope times the factor before lap or grad");
         return false;
     }
 
@@ -230,7 +234,7 @@ std::vector<SubjectSide> read_side_rules(Workspace& work, const ast::Script& scr
     if (is_of_cells(work, scope)) {
         for (const ast::Statement& statement : statements) {
             work.diagnostics.error(head_of(statement), "cells that crawl have no sides",
-                                   "their rates limit where they move: p' += …");
+                                   "keep cells away from a place by their rates, p' += …");
         }
         return {};
     }

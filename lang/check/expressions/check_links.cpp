@@ -57,7 +57,7 @@ bool ExpressionChecker::has_places(NodeId root) {
         if (!read.by_cell && !read.by_link && !read.as_distance) continue;
         const Node& node = formula_.nodes[id];
         if (read.as_distance && may_differ_by_cell(node, system)) {
-            refuse(id, "the distance of 'near' is the same for all cells",
+            refuse(id, "the distance of 'near' must be one number for all cells",
                    "only a number or a parameter can be used here");
         } else if (const auto* value = node.as<CellValue>();
                    value != nullptr && is_of_link(*value) && read.by_cell) {

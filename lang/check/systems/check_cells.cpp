@@ -126,8 +126,9 @@ bool SystemChecker::declare_of_cells(const Declaration& declaration) {
 bool SystemChecker::can_declare_in_cells(const Declaration& declaration) {
     const std::string_view name = declaration.statement->name.text;
     if (name == "p") {
-        work_.diagnostics.error(declaration.span(), "the positions of cells cannot be set here",
-                                "a stage says where they start: founders: keys(x, y, z)");
+        work_.diagnostics.error(declaration.span(), "the positions of cells cannot be set by 'p'",
+                                "write founders: keys(x, y, z) in a stage for the positions at "
+                                "the start");
         return false;
     }
     const bool is_own = name == "r" || name == "age";

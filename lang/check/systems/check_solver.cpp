@@ -97,14 +97,14 @@ std::optional<Refusal> refusal_of_domain(const Program& program, const Stage& st
                        "rkl1 takes long steps on models"};
     }
     if (domain.surface && domain.surface->has_metric) {
-        return Refusal{fmt::format("stage '{}': {} needs square cells, and these lie on "
-                                   "a surface",
+        return Refusal{fmt::format("stage '{}': {} needs square cells, but these cells lie on a "
+                                   "surface",
                                    stage.name, solver),
                        "rkl1 takes long steps there"};
     }
     if (domain.mask) {
-        return Refusal{fmt::format("stage '{}': {} needs all cells of the grid, and the domain has "
-                                   "a mask",
+        return Refusal{fmt::format("stage '{}': {} needs all cells of the grid, but the domain "
+                                   "has a mask",
                                    stage.name, solver),
                        "rkl1 takes long steps there"};
     }
@@ -135,7 +135,7 @@ std::optional<Refusal> refusal_of_system(const Program& program, std::uint32_t n
             fmt::format("stage '{}': {} cannot hold {} at a side, because its rate applies "
                         "lap to lap of it",
                         stage.name, solver, system.item_name(system.species()[*held])),
-            "rkl1 can"};
+            "write solver: rkl1"};
     }
     if (has_diffusion(diffusion)) return std::nullopt;
     return Refusal{

@@ -61,7 +61,8 @@ TEST(CheckLinks, NearTakesOneDistance) {
               "'near' takes one distance | such as sum(e over near(0.1))");
     EXPECT_EQ(
         fault_of("sum(q over near(2 * q))"),
-        "the distance of 'near' is the same for all cells | only a number or a parameter can be used "
+        "the distance of 'near' must be one number for all cells | only a number or a parameter "
+        "can be used "
         "here");
     EXPECT_EQ(fault_of("product(q over touching)"),
               "product cannot be taken over neighbours | mean, sum, min and max can");

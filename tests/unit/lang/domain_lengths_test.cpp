@@ -80,10 +80,10 @@ TEST(DomainLengths, SaysWhatIsNone) {
 TEST(DomainLengths, ExtentsFitTheGrid) {
     EXPECT_THAT(faults("0", "grid: 100, 50; extent: 10, 6"),
                 ElementsAre(HasSubstr("cells would be 0.1 long along one side and 0.12 along "
-                                      "another | cells are as long as wide: with this grid the "
-                                      "side is 5 long")));
+                                      "another | cells must be as long as they are wide: with "
+                                      "this grid the side must be 5 long")));
     EXPECT_THAT(faults("0", "extent: 10; spacing: 0.1"),
-                ElementsAre(HasSubstr("a domain has an extent or a spacing, not both")));
+                ElementsAre(HasSubstr("a domain can have an extent or a spacing, but not both")));
     EXPECT_THAT(faults("0", "extent: -1"),
                 ElementsAre(HasSubstr("the length of a side must be above 0")));
     EXPECT_THAT(faults("0", "extent: 1e30"),

@@ -123,7 +123,7 @@ TEST(Settings, TakeTheirWords) {
                                    "system s {{ u: 1; u' = 0 }}\nstage a: s {{ }}\n",
                                    word));
         for (const std::string& fault : checked->faults()) {
-            EXPECT_EQ(fault.find("a surface is three expressions"), std::string::npos) << fault;
+            EXPECT_EQ(fault.find("'surface' takes three expressions"), std::string::npos) << fault;
         }
     }
 }

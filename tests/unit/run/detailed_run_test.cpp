@@ -141,7 +141,7 @@ TEST_F(DetailedRunTest, WhatHasNoFinerCellsIsRefused) {
         "domain { grid: 8, 8; mask: random(0, 1) > 0 }\nstage one: turing_spots { iterations: 1 }",
         detailed("a.png"), "the mask draws a random number in each cell");
     expect("domain { grid: 16384, 16384 }\nstage one: turing_spots { iterations: 1 }",
-           detailed("a.png", 8), "that makes 17179869184 cells");
+           detailed("a.png", 8), "the domain would have 17179869184 cells");
     RunRequest film = detailed("film.gif");
     expect(two_sizes_of_spots, film, "only the end is carried to finer cells");
     RunRequest frames = detailed("a.png");

@@ -58,10 +58,10 @@ TEST(ModelInput, MasksAndStencilsAreLeftAsideWhereAModelIsAskedFor) {
     overrides.model = "sphere";
     overrides.cells = "100";
     EXPECT_NE(messages_of("grid: 20, 20; mask: x > 5", "lap(u)", "", overrides)
-                  .find("warning: a model has no mask: this is ignored"),
+                  .find("warning: this mask is ignored, because a model has no mask"),
               std::string::npos);
     EXPECT_NE(messages_of("grid: 20, 20; stencil: fourth", "lap(u)", "", overrides)
-                  .find("warning: a model has no stencil: this is ignored"),
+                  .find("warning: this stencil is ignored, because a model has no stencil"),
               std::string::npos);
     overrides.grid = GridSize{20, 20};
     EXPECT_NE(messages_of("grid: 20, 20", "lap(u)", "", overrides)

@@ -35,7 +35,8 @@ TEST(OptionStatements, AreShownAsTheyWereTyped) {
     overrides.cells = "many";
     EXPECT_THAT(messages(lone_stage, overrides),
                 HasSubstr(
-                    "<--cells>:1:1: error: cells are a number, faces or vertices\n    1 | many\n"));
+                    "<--cells>:1:1: error: 'cells' must be a number, faces or vertices\n    1 | "
+                    "many\n"));
     overrides = {};
     overrides.solver = "rk5";
     EXPECT_THAT(messages(lone_stage, overrides),
@@ -43,7 +44,7 @@ TEST(OptionStatements, AreShownAsTheyWereTyped) {
     overrides = {};
     overrides.cells = "100";
     EXPECT_THAT(messages(lone_stage, overrides),
-                HasSubstr("<--cells>:1:1: error: only a domain with a model has this setting"));
+                HasSubstr("<--cells>:1:1: error: this setting needs a domain with a model"));
 }
 
 TEST(OptionStatements, HaveTheLastWord) {
@@ -101,8 +102,10 @@ TEST(OptionStatements, LeaveTheBordersOfThePlaneAside) {
         "domain { grid: 9, 9; boundary: noflux; left: fixed(1) }\n"
         "stage one: turing_spots { a.right: slope(1); a.top: noflux }\n",
         overrides);
-    EXPECT_THAT(said, HasSubstr("test:1:40: warning: a model has no sides: this is ignored"));
-    EXPECT_THAT(said, HasSubstr("test:2:27: warning: a model has no sides: this is ignored"));
+    EXPECT_THAT(said, HasSubstr("test:1:40: warning: this side is ignored, because a model has "
+                                "no sides"));
+    EXPECT_THAT(said, HasSubstr("test:2:27: warning: this side is ignored, because a model has "
+                                "no sides"));
     EXPECT_THAT(said, ::testing::Not(HasSubstr("error")));
 }
 
@@ -118,7 +121,7 @@ TEST(OptionStatements, OfAModelGiveWayWithIt) {
     EXPECT_EQ(script.program->domain.seed, 4u);
     overrides.up = Axis::x;
     EXPECT_THAT(messages(ball, overrides),
-                HasSubstr("<--up>:1:1: error: only a domain with a model has this setting"));
+                HasSubstr("<--up>:1:1: error: this setting needs a domain with a model"));
 }
 
 }  // namespace

@@ -78,8 +78,8 @@ TEST_F(SilentResults, ASeedOfNothingRandom) {
     };
     const std::string system = "system s { k: 0.1; u: disc(0.5, 0.5, 0.2); u' = k*lap(u) }\n";
     EXPECT_THAT(messages(system + "stage a: s { }\n"),
-                HasSubstr("<--seed>:1:1: warning: nothing in this script is random, so no seed "
-                          "changes its result"));
+                HasSubstr("<--seed>:1:1: warning: the seed has no effect, because nothing in "
+                          "this script is random"));
     for (const char* random :
          {"stage a: s { k: random(0.1, 0.01) }\n",
           "stage a: s { }\ndomain { mask: noise(0.1) > 0 }\n",

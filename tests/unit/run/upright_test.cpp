@@ -153,7 +153,7 @@ TEST_F(Upright, ItIsRefusedOnPlanesAndTravelsInPictures) {
     overrides.up = Axis::z;
     EXPECT_THAT(
         load("domain { grid: 9, 9 }\nstage one: turing_spots { }\n", overrides).messages(false),
-        ::testing::HasSubstr("<--up>:1:1: error: only a domain with a model has this setting"));
+        ::testing::HasSubstr("<--up>:1:1: error: this setting needs a domain with a model"));
     const auto back = overrides_from_json(overrides_to_json(overrides));
     ASSERT_TRUE(back);
     EXPECT_EQ(back->up, Axis::z);
