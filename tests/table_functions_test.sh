@@ -75,8 +75,8 @@ bad '' 1:1 'this table is empty'
 bad 't,bad\n' 1:1 'this table has 0 rows of numbers'
 bad 't,bad\n1,2\n' 2:1 'this table has 1 row of numbers'
 bad '1\n2\n' 1:1 'this table has one column'
-bad '1;2\n2;3\n' 1:1 'the cells of a table have commas between them'
-bad '1,2,3\n2,3,4\n' 1:1 'this table has several columns of values and no names'
+bad '1;2\n2;3\n' 1:1 'the cells of a table must be separated by commas'
+bad '1,2,3\n2,3,4\n' 1:1 'this table has several columns of values, but its first row does not name them'
 bad 't,1st\n1,2\n2,3\n' 1:3 "'1st' cannot be the name of a function"
 bad 't,bad\n1,2\n2,three\n' 3:3 "'three' is not a number"
 bad 't,bad\n1,2\n2,nan\n' 3:3 "'nan' is not a number"
@@ -84,8 +84,8 @@ bad 't,bad\n1,2\n2,1e999\n' 3:3 "'1e999' is not a number"
 bad 't,bad\n1,2\n2,\n' 3:3 'there is no number in this cell'
 bad 't,bad\n1,2\n3,2\n  2,4\n' 4:3 '2 comes after 3, but the first column must rise'
 bad 't,bad\n1,2\n1,4\n' 3:1 '1 comes after 1, but the first column must rise'
-bad 't,bad\n1,2\n2,3,4\n' 3:5 'this row has 3 cells, and the first row has 2'
-bad 't,bad\n1,2\n2\n' 3:1 'this row has 1 cell, and the first row has 2'
+bad 't,bad\n1,2\n2,3,4\n' 3:5 'this row has 3 cells, but the first row has 2'
+bad 't,bad\n1,2\n2\n' 3:1 'this row has 1 cell, but the first row has 2'
 bad 't,bad\n1,2\n2,"3\n' 3:3 'this quoted cell has no end'
 bad 'zeit,bad,bad\n1,2,3\n2,3,4\n' 1:10 "there are two functions 'bad'"
 bad 't,bad,sin\n1,2,3\n2,3,4\n' 1:7 "'sin' is a function of the language"

@@ -22,16 +22,19 @@ constexpr std::int64_t cells_of_row = 512;
 std::string_view reason_against(Function function) {
     if (includes(info(function).domains, Domains::model)) return "";
     if (carries(function)) {
-        return "it needs columns and rows; dot(v, grad(e)) is advection by central differences";
+        return "use dot(v, grad(e)): this operator needs columns and rows, which a model does "
+               "not have";
     }
     switch (function) {
         case Function::symmetric:
-            return "tensor(a1, a2, theta) works there, with theta along(grad(v)) or "
+            return "use tensor(a1, a2, theta) with an angle such as along(grad(v)) or "
                    "along(axis(0, 1, 0))";
-        case Function::convolve: return "it works on grids; lap(e) reaches the cells beside one";
+        case Function::convolve:
+            return "use lap(e), which reads the neighbours of each cell: a "
+                   "convolution needs a grid";
         case Function::shifted:
         case Function::curl: return "it needs columns and rows, which a model does not have";
-        default: return "a model has no named second derivatives; lap(e) works there";
+        default: return "use lap(e): a model has no second derivatives along axes";
     }
 }
 
@@ -44,9 +47,10 @@ bool arrays_have_places(const Program& program, const Formula& formula, Diagnost
         if (!program.literals->reading(node.as<Call>()->detail).place.empty()) continue;
         have_places = false;
         diagnostics.error(node.span,
-                          "on a model, which has no rows and columns, field needs a position",
-                          "field(\"a.npy\", sx, sy, sz) says where in the file; attr(\"name\") "
-                          "reads a number of the model's points");
+                          "field needs a position in the file, because a model has no rows and "
+                          "columns",
+                          "use field(\"a.npy\", sx, sy, sz), or attr(\"name\") for numbers "
+                          "stored at the model's points");
     }
     return have_places;
 }
@@ -101,20 +105,21 @@ bool has_meaning_on_model(const Program& program, const LooseVectors& loose, con
         if (is_stretched && node.calls(Function::div) && is_loose[node.operands[0]]) {
             refuse(formula.nodes[node.operands[0]].span,
                    "div of this vector cannot be used on stretched cells",
-                   "the domain has 'directions'; a flux there is made of gradients: "
-                   "div(a * grad(e))");
+                   "use div(a * grad(e)): with 'directions' in the domain, a flux must be made "
+                   "of gradients");
         }
         const bool is_directed = node.calls(Function::diffuse) || node.calls(Function::tensor);
         if (is_stretched && is_directed) {
             refuse(node.span,
                    fmt::format("{} cannot be used on stretched cells",
                                info(node.function).spelling),
-                   "the domain has 'directions', in which all species spread");
+                   "the 'directions' of the domain already set the directions in which all "
+                   "species spread");
         }
         if (node.type == ValueType::tensor &&
             info(node.function).kind == FunctionKind::arithmetic) {
             refuse(node.span, "sums and products of tensors cannot be used on a model",
-                   "its rates may be formulas: tensor(a1, a2, theta)");
+                   "use one tensor(a1, a2, theta), whose arguments may be formulas");
         }
         const std::string_view reason = reason_against(node.function);
         if (reason.empty()) continue;
@@ -133,11 +138,13 @@ bool has_meaning_on_plane(const Program& program, const Formula& formula,
         has_meaning = false;
         const bool is_angle = *function == Function::along;
         diagnostics.error(node.span,
-                          fmt::format("{} can be used on models only",
+                          fmt::format("{} can be used only on models",
                                       is_angle ? "this direction" : info(*function).spelling),
                           is_angle
-                              ? "along(vector(1, 1)) and along(grad(e)) are angles of a plane, too"
-                              : "domain { mesh: \"horse.ply\" } or { surface: creature } is one");
+                              ? "use along(vector(1, 1)) or along(grad(e)), which also work on a "
+                                "plane"
+                              : "domain { mesh: \"horse.ply\" } and domain { surface: creature } "
+                                "are models");
     }
     return has_meaning;
 }

@@ -49,23 +49,26 @@ public:
         };
         if (!holds_in_rates(system, has_length)) {
             return obstacle(size,
-                            fmt::format("{} has no lengths: no rate compares a cell with its "
-                                        "neighbours",
+                            fmt::format("'size' cannot be used, because no rate of {} reads "
+                                        "neighbouring cells",
                                         system.name),
-                            "a size is the wavelength of a pattern that neighbours make");
+                            "'size' sets the wavelength of a pattern, which only forms between "
+                            "neighbouring cells");
         }
         if (holds_in_rates(system, is_of_place) || holds_in_rates(system, is_of_domain_alone)) {
             return obstacle(
                 size,
-                fmt::format("the equations of {} depend on the position, so its pattern "
-                            "has no size of its own",
+                fmt::format("'size' cannot be used, because the equations of {} depend on the "
+                            "position",
                             system.name),
-                "with size, equations are the same everywhere");
+                "with 'size', equations must be the same everywhere");
         }
         if (has_kernel_of_file()) {
-            return obstacle(
-                size, fmt::format("a convolution of {} has a kernel from a file", system.name),
-                "with size, kernels are formulas");
+            return obstacle(size,
+                            fmt::format("'size' cannot be used, because a convolution of {} has a "
+                                        "kernel from a file",
+                                        system.name),
+                            "with 'size', kernels must be formulas");
         }
         trial_.stages.resize(number_ + 1);
         trial_.stages[number_].time.every = 0;
@@ -167,19 +170,19 @@ private:
                 return obstacle(
                     stage.size->span,
                     fmt::format(
-                        "size needs a start of '{}' that can be computed on a separate plane",
+                        "'size' cannot be used, because the starting value of '{}' cannot be "
+                        "computed in a trial run on another plane",
                         name),
                     fmt::format(
-                        "the start of '{}' in {} could be used if it read neither files nor "
-                        "operators",
+                        "the starting value of '{}' in {} must read neither files nor operators",
                         name, system.name));
             } else if (const Node* why = hindrance(formula)) {
                 return obstacle(why->span.source == stage.size->span.source ? why->span
                                                                             : stage.size->span,
-                                fmt::format("'{}' varies over the domain, and with it the size of "
-                                            "the pattern",
+                                fmt::format("'size' cannot be used, because '{}' varies over the "
+                                            "domain and changes the wavelength",
                                             name),
-                                "with size, parameters are the same in all cells or random");
+                                "with 'size', parameters must be random or the same in all cells");
             }
         }
         return {};
@@ -219,13 +222,14 @@ std::optional<SizeObstacle> unfit_size(const StageSize& size, double cell, doubl
     const double cells = size.wanted / cell;
     if (cells < fewest_cells_of_size) {
         return SizeObstacle{size.span,
-                            fmt::format("a wave of {:.3g} cells is too short for the cells", cells),
+                            fmt::format("a wavelength of {:.3g} cells is too short to be computed",
+                                        cells),
                             fmt::format("size must be at least {} here",
                                         cells_in_words(fewest_cells_of_size, cell))};
     }
     if (cells <= most_cells) return std::nullopt;
     return SizeObstacle{
-        size.span, fmt::format("a wave of {:.4g} cells is longer than the domain", cells),
+        size.span, fmt::format("a wavelength of {:.4g} cells is longer than the domain", cells),
         fmt::format("size must be at most {} here", cells_in_words(most_cells, cell))};
 }
 

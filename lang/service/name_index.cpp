@@ -272,7 +272,7 @@ Result<std::string> NameIndex::renamed(std::uint32_t byte, std::string_view name
         if (use.source != text_) {
             return failure(fmt::format("'{}' is also a name in {}", before,
                                        sources_[use.source].name()),
-                           "it can be changed only in a text that contains all of its uses");
+                           "rename it by hand in every file that uses it");
         }
         changed.append(text.substr(done, use.begin - done)).append(name);
         done = use.end;
@@ -290,7 +290,7 @@ Result<std::string> NameIndex::renamed(std::uint32_t byte, std::string_view name
     const NameIndex after(tree, diagnostics, sources, source);
     if (after.errors_ > errors_ || after.meanings() != meanings()) {
         return failure(fmt::format("'{}' cannot be called '{}' here", before, name),
-                       "that name has another meaning");
+                       "this name already has another meaning");
     }
     return changed;
 }

@@ -166,7 +166,7 @@ ExpressionParser::Progress ExpressionParser::read_bracketed() {
         if (is_list)
             hint = "a list is the value of a setting, without brackets, as in grid: 64, 64";
         if (is_range) hint = "a range is written 0 .. 1";
-        cursor_.error(whole, "'[ ]' encloses one name of this stage", std::move(hint));
+        cursor_.error(whole, "'[ ]' can contain only one name of this stage", std::move(hint));
     }
     push_operand(whole, ast::Garbage{});
     return Progress::going_on;

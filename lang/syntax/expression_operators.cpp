@@ -121,7 +121,7 @@ ExpressionParser::Progress ExpressionParser::read_component() {
         cursor_.at(TokenKind::name) ? component_named(cursor_.text(cursor_.peek())) : std::nullopt;
     if (!axis) {
         const Span span = cursor_.at(TokenKind::name) ? cursor_.peek().span : dot.span;
-        return fail(span, "a vector has the components x, y and z", "write grad(u).x");
+        return fail(span, "a vector has only the components x, y and z", "write grad(u).x");
     }
     push_component(*axis, cursor_.word(cursor_.take()));
     return Progress::going_on;
@@ -184,13 +184,13 @@ ExpressionParser::Progress ExpressionParser::read_over() {
         return fail(over.span, "'over' belongs inside the brackets of a function", form_of_over);
     }
     if (open.argument_count > 0) {
-        return fail(over.span, "'over' follows a single expression", form_of_over);
+        return fail(over.span, "'over' must follow a single expression", form_of_over);
     }
     cursor_.take();
     cursor_.skip_newlines_in_brackets();
     if (!cursor_.at(TokenKind::name)) {
         if (cursor_.at(TokenKind::garbage)) return fail_silently();
-        return fail(over.span, "'over' names an index or the domain", form_of_over);
+        return fail(over.span, "'over' must be followed by an index or by 'domain'", form_of_over);
     }
     const ast::Word index = cursor_.word(cursor_.take());
     if (index.text == "near" && cursor_.at(TokenKind::open_round)) {
@@ -290,7 +290,7 @@ ExpressionParser::Progress ExpressionParser::read_comma() {
         return fail(cursor_.peek().span, "'near' takes one distance", form_of_near);
     }
     if (open.kind == PendingKind::group) {
-        return fail(cursor_.peek().span, "',' separates the arguments of a function",
+        return fail(cursor_.peek().span, "',' can separate only the arguments of a function",
                     "lists have no brackets; a vector is vector(1, 0)");
     }
     cursor_.take();
@@ -311,7 +311,7 @@ ExpressionParser::Progress ExpressionParser::unexpected_operator(bool on_new_lin
             return fail(token.span, "'.' joins the name of a stage and one of its names",
                         cursor_.behind(2).kind == TokenKind::dot &&
                                 cursor_.kind(2) == TokenKind::open_round
-                            ? "functions belong to no object or module"
+                            ? "a function cannot be called on an object or a module"
                             : "write stage.p");
         case TokenKind::colon:
         case TokenKind::dots:
@@ -320,7 +320,8 @@ ExpressionParser::Progress ExpressionParser::unexpected_operator(bool on_new_lin
             const bool is_axis = token.kind == TokenKind::colon && open_brackets_ == 0 &&
                                  component_named(cursor_.text(cursor_.previous()));
             return fail(token.span, cursor_.describe(token) + " has no place inside an expression",
-                        is_axis ? "values of axes come in order, as in boundary: periodic, noflux"
+                        is_axis ? "write the values in the order of the axes, as in boundary: "
+                                  "periodic, noflux"
                                 : hint_of_braces(cursor_));
         }
         default: return missing_operator(on_new_line);

@@ -104,7 +104,7 @@ void ExpressionParser::report_chain(const Pending& comparison, const Operand& le
                            cursor_.text(comparison.detail.span), cursor_.text(comparison.token),
                            cursor_.text(right.outer));
     }
-    cursor_.error(whole, "comparisons do not chain", hint);
+    cursor_.error(whole, "two comparisons cannot be chained", hint);
 }
 
 ast::Expression ExpressionParser::finish() {
@@ -181,7 +181,7 @@ ExpressionParser::ForeignForm ExpressionParser::foreign_form() const {
         return {join(three.span, next.span), missing,
                 fmt::format("write '{}({})'", function, object)};
     }
-    return {join(three.span, two.span), "functions belong to no object or module",
+    return {join(three.span, two.span), "a function cannot be called on an object or a module",
             fmt::format("leave '{}.' out", object)};
 }
 

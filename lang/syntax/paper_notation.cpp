@@ -250,7 +250,7 @@ private:
         const bool is_negative = digits[0] == '-';
         if (at_ == 0 || !ends_operand(at_ - 1) || !is_adjacent(at_) || is_after_power() ||
             digits == "-") {
-            diagnostics_.error(power.span, "a raised exponent directly follows its base",
+            diagnostics_.error(power.span, "a raised exponent must directly follow its base",
                                fmt::format("write u{}", digits == "-" ? "⁻¹" : source(power.span)));
             ++at_;
             return;
@@ -260,7 +260,7 @@ private:
         if (base.kind == TokenKind::name && function_named(base.text) &&
             kind(at_ + 1) == TokenKind::open_round) {
             diagnostics_.error(join(base.span, power.span),
-                               "the power of a function follows its brackets",
+                               "the power of a function must follow its brackets",
                                fmt::format("write {}(…){}", base.text, source(power.span)));
         }
         put(TokenKind::caret, before(power), "^");

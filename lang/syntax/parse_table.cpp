@@ -155,27 +155,32 @@ bool TableParser::read() {
 /// Finds the names of the functions, and the first row of numbers.
 bool TableParser::take_names() {
     const Span whole{source_, 0, 0};
-    if (rows_.empty()) return refuse(whole, "this table is empty", "its rows are time,value");
+    if (rows_.empty())
+        return refuse(whole, "this table is empty",
+                      "write rows of a time and a "
+                      "value, such as 0,1.5");
     const auto& head = rows_.front();
     const Span first = span_of(head.front());
     if (head.size() == 1) {
         const bool has_semicolons = head.front().text.find_first_of(";\t") != std::string::npos;
         return refuse(first,
-                      has_semicolons ? "the cells of a table have commas between them"
+                      has_semicolons ? "the cells of a table must be separated by commas"
                                      : "this table has one column",
                       has_semicolons ? "write 0,1.5 in place of 0;1.5"
                                      : "the first column has times, and the others have values");
     }
     if (number_in(head.front().text)) {
         if (head.size() > 2) {
-            return refuse(first, "this table has several columns of values and no names",
-                          "the first row names them, as in time,lamp,shade");
+            return refuse(first,
+                          "this table has several columns of values, but its first row "
+                          "does not name them",
+                          "write a first row with names, such as time,lamp,shade");
         }
         if (function_name(stem_) != stem_) {
             return refuse(first,
                           fmt::format("'{}' cannot be the name of a function",
                                       printable(std::string(stem_))),
-                          "a first row gives the function another name, as in time,lamp");
+                          "write a first row with another name, such as time,lamp");
         }
         names_ = {{}, {first, stem_}};
         return true;
@@ -208,7 +213,7 @@ bool TableParser::take_numbers() {
         return refuse(span_of(rows_.back().front()),
                       fmt::format("this table has {} of numbers",
                                   counted(static_cast<std::int64_t>(count), "row")),
-                      "a function is drawn between two rows or more");
+                      "a table needs at least two rows of numbers");
     }
     if (count > most_table_rows) {
         return refuse(span_of(rows_[first_row_ + most_table_rows].front()),
@@ -228,7 +233,7 @@ bool TableParser::take_row(const std::vector<CsvCell>& row) {
     if (row.size() != names_.size()) {
         const CsvCell& there = row.size() < names_.size() ? row.back() : row[names_.size()];
         return refuse(span_of(there),
-                      fmt::format("this row has {}, and the first row has {}",
+                      fmt::format("this row has {}, but the first row has {}",
                                   counted(static_cast<std::int64_t>(row.size()), "cell"),
                                   names_.size()));
     }

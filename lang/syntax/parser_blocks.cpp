@@ -125,8 +125,10 @@ void ScriptParser::parse_bases(ast::Block& block) {
         const Token sign = cursor_.take();
         if (sign.kind == TokenKind::comma && !block.is_cells) {
             const bool is_shape = block.kind == ast::BlockKind::shape;
-            cursor_.error(sign.span, is_shape ? "a shape has one base" : "a system has one base",
-                          "only 'cells' join several");
+            cursor_.error(sign.span,
+                          is_shape ? "a shape can have only one base"
+                                   : "a system can have only one base",
+                          "only blocks of cells can have several bases");
         }
         if (!cursor_.at(TokenKind::name)) {
             if (cursor_.at(TokenKind::garbage) || cursor_.at(TokenKind::newline)) return;

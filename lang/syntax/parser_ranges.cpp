@@ -73,13 +73,13 @@ void ScriptParser::parse_after(ast::Statement& statement) {
     const Token word = cursor_.take();
     const std::string form = fmt::format("write {}: 0 after divide", statement.name.text);
     if (statement.kind != ast::StatementKind::value || statement.values.size() != 1) {
-        cursor_.error(word.span, "only a starting value comes back after a division", form);
+        cursor_.error(word.span, "'after divide' can follow only a starting value", form);
         cursor_.skip_statement();
         return;
     }
     if (!cursor_.at_name("divide")) {
         if (!cursor_.at(TokenKind::garbage)) {
-            cursor_.error(word.span, "'after' is followed by 'divide'", form);
+            cursor_.error(word.span, "'after' must be followed by 'divide'", form);
         }
         cursor_.skip_statement();
         return;

@@ -127,20 +127,21 @@ bool ScriptParser::parse_relation(ast::Statement& statement) {
         case TokenKind::prime: cursor_.take(); return parse_rate_relation(statement);
         case TokenKind::plus_assign:
             statement.kind = Kind::rate_term;
-            cursor_.error(token.span, "terms can be added to rates only",
+            cursor_.error(token.span, "a term can be added only to a rate",
                           fmt::format("write {}' +=", name));
             break;
         case TokenKind::equal:
             statement.kind = Kind::definition;
-            cursor_.error(token.span, "'==' compares and defines nothing", "write '='");
+            cursor_.error(token.span, "'==' compares two values but does not define a name",
+                          "write '='");
             break;
         case TokenKind::greater:
             statement.kind = Kind::at_least;
-            cursor_.error(token.span, "an invariant is written with '>='", "write '>='");
+            cursor_.error(token.span, "a bound is written with '>='", "write '>='");
             break;
         case TokenKind::less:
             statement.kind = Kind::at_most;
-            cursor_.error(token.span, "an invariant is written with '<='", "write '<='");
+            cursor_.error(token.span, "a bound is written with '<='", "write '<='");
             break;
         case TokenKind::dot:
             report_dot(statement);
@@ -212,7 +213,8 @@ void ScriptParser::parse_values(ast::Statement& statement) {
             statement.kind = ast::StatementKind::value;
         }
         if (statement.kind != ast::StatementKind::value) {
-            cursor_.error(comma.span, "only a value may be a list", "write one expression");
+            cursor_.error(comma.span, "only a value (name: …) may be a list",
+                          "write one expression");
             cursor_.skip_statement();
             break;
         }

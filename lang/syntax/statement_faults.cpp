@@ -92,7 +92,7 @@ bool ScriptParser::report_third_rate(const ast::Statement& statement) {
     while (cursor_.at(TokenKind::prime)) cursor_.take();
     const std::string name = shortened(cursor_.text(statement.name.span));
     cursor_.error(join(statement.name.span, cursor_.previous().span),
-                  "rates are first and second derivatives by time",
+                  "a rate must be a first or second derivative with respect to time",
                   fmt::format("make the rate a species: write v: 0; {}' = v; v'' = …", name));
     cursor_.skip_statement();
     return false;

@@ -91,8 +91,8 @@ std::string TokenCursor::take_docs(std::uint32_t begin, std::uint32_t end) {
 void TokenCursor::report_lost_docs() {
     for (std::size_t k = 0; k < docs_.size(); ++k) {
         if (docs_taken_[k]) continue;
-        diagnostics_.warning(docs_[k], "this doc comment belongs to nothing",
-                             "an ordinary comment begins with one '#'");
+        diagnostics_.warning(docs_[k], "this '##' comment describes nothing",
+                             "write one '#' for an ordinary comment");
     }
 }
 

@@ -29,7 +29,7 @@ constexpr WordElsewhere rows[] = {
      "it belongs in the domain: write 'domain { boundary: noflux }'"},
     {Context::stage, "seed random_seed", "it belongs in the domain: write 'domain { seed: 1 }'"},
     {Context::stage, "output out filename file save export image png",
-     "the command line names files: cascade run SCRIPT -o out.png"},
+     "name the file on the command line: cascade run SCRIPT -o out.png"},
     {Context::stage, "precision dtype",
      "it belongs in the domain: write 'domain { precision: double }'"},
     {Context::stage, "palette color colour colors colormap cmap",
@@ -54,9 +54,9 @@ constexpr WordElsewhere rows[] = {
 
     {Context::picture, "palette colors colour colormap cmap",
      "write 'color: palette(u, 0, 1, \"leopard\")'"},
-    {Context::picture, "size resolution dpi pixels", "the command line sets it: --size 512x512"},
+    {Context::picture, "size resolution dpi pixels", "use the option --size 512x512"},
     {Context::picture, "file filename out output save format",
-     "the command line names files: cascade run SCRIPT -o out.png"},
+     "name the file on the command line: cascade run SCRIPT -o out.png"},
     {Context::picture, "title axes axis colorbar legend label",
      "-o NAME.svg draws a figure with axes and a colour scale"},
     {Context::picture, "range vmin vmax clim limits min max",
@@ -78,7 +78,7 @@ constexpr WordElsewhere rows[] = {
      "sides have slopes, boundaries have none: write 'sides: slope(1)'"},
 
     {Context::side, "neumann", "write 'slope(0)'"},
-    {Context::side, "robin", "du/dn = c - a u is slope(c - a * u), in a system or a stage"},
+    {Context::side, "robin", "use slope(c - a * u) in a system or a stage for du/dn = c - a u"},
     {Context::side, "zero_flux zeroflux reflecting reflective insulating closed wall mirror",
      "write 'noflux'"},
     {Context::side, "dirichlet absorbing zero constant value", "write 'fixed(0)'"},
@@ -136,12 +136,13 @@ constexpr WordElsewhere rows[] = {
      "another script is read by use \"other.cascade\""},
     {Context::statement, "function def func define", "a function is fn name(a, b) = expression"},
     {Context::statement, "const constant var param parameter parameters double float int real",
-     "a parameter is 'name: value' in a system; 'let name = value' is one of the script"},
+     "a parameter of a system is 'name: value'; a number of the whole script is "
+     "'let name = value'"},
     {Context::statement, "output save plot print show",
-     "the command line names files: cascade run SCRIPT -o out.png"},
+     "name the file on the command line: cascade run SCRIPT -o out.png"},
     {Context::statement, "at when event events",
-     "an event begins a stage: one ends with 'duration: 50', and 'stage next: mine { u: u + 1 }' "
-     "goes on from it"},
+     "use two stages for an event: the first ends with 'duration: 50', and 'stage next: mine { "
+     "u: u + 1 }' continues from it"},
     {Context::statement, "for while loop repeat",
      "there are no loops; i: 1..3 makes u[i] a family of species"},
     {Context::statement, "diff dif derivative d", "a rate is written u' = …"},

@@ -44,8 +44,7 @@ void check_moments(Script& script, const RunRequest& request) {
         const System& system = script.program->system_of(k);
         if (system.cells || stage.uniform[system.speed_item()]) continue;
         return refuse(
-            fmt::format("the steps of stage '{}' differ from cell to cell, so that it has "
-                        "no time",
+            fmt::format("stage '{}' has no time, because its speed differs from cell to cell",
                         stage.name),
             hint);
     }

@@ -73,7 +73,7 @@ private:
                 return wrong(name, "there is no name", "the first line has a name for each column");
             }
             if (name.text.find_first_of(";\t") != std::string::npos) {
-                return wrong(name, "the cells of a table have commas between them",
+                return wrong(name, "the cells of a table must be separated by commas",
                              "write F,k in place of F;k");
             }
             if (name.text.find_first_of("=,()\n") != std::string::npos || read_number(name.text)) {

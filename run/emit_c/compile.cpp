@@ -139,7 +139,7 @@ Result<Scheme> fixed_scheme(const Program& program, std::uint32_t k,
         return failure(fmt::format("steps of stage '{}' end at multiples of 'every', but compiled "
                                    "steps are of one length",
                                    stage.name),
-                       "'interval' counts steps instead");
+                       "write 'interval', which counts steps");
     }
     if (is_stabilised(stage.time.solver) && !stages) {
         return failure(fmt::format("stage '{}' is solved by {}, which chooses the number of its "

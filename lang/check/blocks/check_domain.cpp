@@ -152,8 +152,8 @@ void check_fast(Workspace& work, const ast::Statement& option) {
     work.draft->domain.fast = has_multiply_add();
     if (work.program.domain.fast) return;
     work.diagnostics.warning(option.span,
-                             "--fast has no effect, because this processor cannot multiply and "
-                             "add in one operation");
+                             "--fast has no effect, because this processor cannot "
+                             "multiply and add in one operation");
 }
 
 /// Divides the cells of a domain whose other settings have been checked. `detail: 2` halves the

@@ -75,9 +75,9 @@ void ExpressionChecker::take_surface_value(Function function, const ast::Call& c
         }
         if (!parts_[part].constant) {
             return error(formula_.nodes[part].span,
-                         fmt::format("{} takes numbers that are known before the run",
+                         fmt::format("{} takes only numbers that are known before the run",
                                      info(function).spelling),
-                         "the points stay where they are");
+                         "the points cannot move during the run");
         }
         value.numbers.push_back(parts_[part].value);
     }
@@ -99,8 +99,8 @@ void ExpressionChecker::visit(const ast::Over& over) {
         return error(over.function.span,
                      fmt::format("{} cannot be taken over {}", over.function.text,
                                  is_domain ? "the domain" : "neighbours"),
-                     is_domain ? "mean, sum, integral, min and max can"
-                               : "mean, sum, min and max can");
+                     is_domain ? "use mean, sum, integral, min or max"
+                               : "use mean, sum, min or max");
     }
     if (!belongs_here(*function, over.function.span)) return;
     if (over.index.text == "near" && !over.distance) {
@@ -120,7 +120,7 @@ void ExpressionChecker::wrong_count(Function function, std::size_t count) {
     const FunctionInfo& row = info(function);
     std::string hint(row.meaning);
     if (count == 1 && (function == Function::min || function == Function::max)) {
-        hint = fmt::format("over all cells it is {}(e over domain)", row.spelling);
+        hint = fmt::format("write {}(e over domain) for all cells", row.spelling);
     }
     error(formula_.nodes.back().span,
           fmt::format("{} takes {}, not {}", row.spelling, number_of_values(row.arity), count),
@@ -143,7 +143,7 @@ std::string ExpressionChecker::hint_of_number(const ast::Call& call) const {
                            call.function.text);
     }
     if (call.argument_count > 1) {
-        return fmt::format("shifted({}, 1, 0) is the value in the next cell along x",
+        return fmt::format("write shifted({}, 1, 0) for the value in the next cell along x",
                            call.function.text);
     }
     return fmt::format("write '{0} * (…)' to multiply", call.function.text);
@@ -191,7 +191,7 @@ void report_unknown_function(Workspace& work, const ast::Word& name,
         // A single letter resembles too many names.
         if (name.text.size() > 1) hint = did_you_mean(work, name.text, names);
         if (hint.empty()) {
-            hint = fmt::format("a script defines functions: fn {}(a, b) = …", name.text);
+            hint = fmt::format("define the function, as in fn {}(a, b) = …", name.text);
         }
     }
     work.diagnostics.error(name.span, fmt::format("there is no function '{}'", name.text),
@@ -262,7 +262,7 @@ void ExpressionChecker::check_choice(Node& node, NodeId a, NodeId b) {
         type == ValueType::number || type == ValueType::colour || type == ValueType::vector;
     if ((type != formula_.nodes[b].type || !is_chosen) && !parts_.back().has_error) {
         return error(formula_.nodes[b].span,
-                     fmt::format("{} chooses between two numbers, two vectors or two colours",
+                     fmt::format("{} needs two numbers, two vectors or two colours to choose from",
                                  info(node.function).spelling));
     }
     node.type = type;
@@ -279,7 +279,7 @@ void ExpressionChecker::check_rgb(const Node& node) {
     const auto [least, most] = std::minmax_element(parts.begin(), parts.end());
     if (!(*least >= 0 && *most > 2 && *most <= 255)) return;
     const auto share = [&](std::size_t k) { return fmt::format("{:.3g}", parts[k] / 255); };
-    warn(node.span, "red, green and blue are from 0 to 1",
+    warn(node.span, "red, green and blue must be from 0 to 1",
          fmt::format("write rgb({}, {}, {})", share(0), share(1), share(2)));
 }
 
@@ -294,9 +294,11 @@ void ExpressionChecker::check_palette(const Node& node) {
         for (const Palette& palette : palettes()) names.emplace_back(palette.name);
         std::string hint = did_you_mean(work_, name, names);
         if (name.starts_with('#')) {
-            hint = "2 to 64 colours such as \"#1b2a49 #f08a5d #fff\" are a palette";
+            hint =
+                "write the name of a palette, or 2 to 64 colours such as \"#1b2a49 #f08a5d "
+                "#fff\"";
         }
-        if (hint.empty()) hint = "palettes are " + list_names(names);
+        if (hint.empty()) hint = "the palettes are " + list_names(names);
         return error(text.span, fmt::format("there is no palette '{}'", name), std::move(hint));
     }
     const Part &low = parts_[node.operands[1]], &high = parts_[node.operands[2]];
@@ -304,7 +306,7 @@ void ExpressionChecker::check_palette(const Node& node) {
         warn(node.span,
              fmt::format("both ends of the palette are {:.4g}: it has no colours between them",
                          low.value),
-             "palette(value, low, high, \"name\")");
+             "write palette(value, low, high, \"name\") with low below high");
     }
     formula_.nodes.back().type = ValueType::colour;
 }
@@ -349,8 +351,9 @@ void ExpressionChecker::check_lattice(Node& node) {
                           octaves.value >= 1 && octaves.value <= most_octaves;
     if (!is_count) {
         return error(formula_.nodes[node.operands[1]].span,
-                     fmt::format("octaves are a whole number from 1 to {}", most_octaves),
-                     "it must be known before the run");
+                     fmt::format("the number of octaves must be a whole number from 1 to {}",
+                                 most_octaves),
+                     "the number must be known before the run");
     }
     node.kind = Call{static_cast<std::uint8_t>(octaves.value)};
 }
@@ -380,9 +383,9 @@ void ExpressionChecker::fold_constants(const Node& node) {
     const bool leaves_range = was_in_range && std::abs(*value) > double{FLT_MAX};
     if (was_finite && (!std::isfinite(*value) || leaves_range)) {
         const std::string hint =
-            std::isnan(*value) ? "it is not defined for these numbers"
+            std::isnan(*value) ? "the result is not defined for these numbers"
             : std::isinf(*value)
-                ? "it is infinite for these numbers"
+                ? "the result is infinite for these numbers"
                 : fmt::format("{:.3g} is infinite in single precision, which ends at 3.4e38",
                               *value);
         warn(node.span, fmt::format("{} has no finite value here", info(node.function).spelling),

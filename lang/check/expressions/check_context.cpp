@@ -18,13 +18,15 @@ const char* where_it_belongs(Contexts contexts, Context context) {
         case Contexts::cells: return nullptr;
         case Contexts::steps:
             return unless(at_step || in_picture,
-                          "cells have no neighbours before the stage starts");
-        case Contexts::rates:
-            return unless(at_step, "it belongs in rates and definitions of a system");
-        case Contexts::values: return unless(at_start, "it belongs in values (name: …)");
+                          "use it in rates, definitions or pictures: cells have no neighbours "
+                          "before the stage starts");
+        case Contexts::rates: return unless(at_step, "use it in rates and definitions of a system");
+        case Contexts::values: return unless(at_start, "use it in values (name: …)");
         case Contexts::noisy:
-            return unless(at_start || at_step, "pictures have no randomness of their own");
-        case Contexts::picture: return unless(in_picture, "colours belong in pictures");
+            return unless(at_start || at_step,
+                          "use it in values, rates or definitions: a "
+                          "picture cannot draw random numbers");
+        case Contexts::picture: return unless(in_picture, "use it in the picture block");
     }
     return nullptr;
 }
@@ -41,27 +43,27 @@ bool ExpressionChecker::belongs_here(Function function, Span span) {
     const bool varies = row.is_aggregate || varies_by_cell(function);
     if (scope_.reads_volumes && function == Function::field) return true;
     if (context == Context::position && !is_elementary(function)) {
-        return refuse("a surface can contain numbers, sx, sy and functions of numbers only");
+        return refuse("a surface can contain only numbers, sx, sy and functions of numbers");
     }
     if (context == Context::shape) {
         const bool is_of_space =
             (row.kind == FunctionKind::geometry && !varies) || function == Function::vector;
         return is_elementary(function) || is_of_space ||
-               refuse("a shape can contain functions of numbers and vectors only");
+               refuse("a shape can contain only functions of numbers and vectors");
     }
     const bool reads_others = row.is_aggregate || differentiates(function) || is_nonlocal(function);
     if (context == Context::mask && reads_others) {
-        return refuse("a mask is computed before the cells have values");
+        return refuse("leave it out: a mask is computed before the cells have values");
     }
     if (context == Context::mask && needs_model(function)) {
-        return refuse("it reads a model, but a mask cuts a plane or a volume");
+        return refuse("leave it out: it reads a model, but a mask belongs to a plane or a volume");
     }
     const bool is_derivative = row.kind == FunctionKind::derivative;
     if (work_.on_surface && is_derivative && !includes(row.domains, Domains::surface)) {
-        return refuse("named second derivatives cannot be used on a surface; lap and div can");
+        return refuse("use lap or div: there are no named second derivatives on a surface");
     }
     if (work_.on_surface && function == Function::shifted) {
-        return refuse("the rows of a surface are not straight; lap, dx and dy work there");
+        return refuse("use lap, dx or dy: the rows of cells on a surface are not straight");
     }
     if (context == Context::constant && varies) {
         error(span, fmt::format("{} must be one number, but {} {}", scope_.subject, row.spelling,
@@ -69,13 +71,13 @@ bool ExpressionChecker::belongs_here(Function function, Span span) {
         return false;
     }
     if (context == Context::bound && varies) {
-        return refuse("a bound can contain numbers and parameters only");
+        return refuse("a bound can contain only numbers and parameters");
     }
     if (row.domains == Domains::crawling && !in_cells()) {
-        return refuse("it belongs in a system of cells that crawl");
+        return refuse("use it in a block of cells that crawl");
     }
     if (in_cells() && !includes(row.domains, Domains::crawling) && !needs_model(function)) {
-        return refuse("cells that crawl have no grid; lap(e) and sums over neighbours work");
+        return refuse("use lap(e) or sums over neighbours: cells that crawl have no grid");
     }
     const char* const where = where_it_belongs(row.places, context);
     // A cell that crawls reads the domain at its own position. The kernel of a convolution is

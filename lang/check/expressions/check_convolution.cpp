@@ -19,7 +19,7 @@ namespace cascade::checking {
 namespace {
 
 constexpr const char* what_kernels_read =
-    "a kernel can contain numbers, parameters, distance, direction and files only";
+    "a kernel can contain only numbers, parameters, distance, direction and files";
 
 /// Calls visit(operand) for the operands of a node of the syntax tree.
 template <typename Visit>
@@ -86,9 +86,9 @@ bool ExpressionChecker::take_lag(std::string_view name) {
         scope_.system != unknown_system && find(work_.names[scope_.system], name) != nullptr;
     if (is_known) {
         error(node.span,
-              fmt::format("'{}' is a name of the system, but means something else in a kernel",
+              fmt::format("'{}' is a name of the system, but it has another meaning in a kernel",
                           name),
-              "rename the value of the system");
+              "choose another name in the system");
         return true;
     }
     node.kind = *value;
@@ -106,7 +106,7 @@ bool ExpressionChecker::is_kernel(NodeId root, bool reads_lags) {
         error(node.span,
               reads_lags ? "this cannot be used in the kernel of a convolution"
                          : "this cannot be used in the reach of a convolution",
-              reads_lags ? what_kernels_read : "the reach can contain numbers and parameters only");
+              reads_lags ? what_kernels_read : "the reach can contain only numbers and parameters");
         return false;
     }
     return true;
@@ -128,7 +128,7 @@ void ExpressionChecker::take_convolution(const ast::Call& call) {
         const Part& reach = parts_[parts[2]];
         if (reach.constant && !(reach.value >= 0 && std::isfinite(reach.value))) {
             return error(formula_.nodes[parts[2]].span,
-                         "the reach must be a distance of 0 or more");
+                         "the reach of a convolution must be at least 0");
         }
         kernel.reach = formula_of(formula_.nodes, parts[2]);
     }
@@ -154,8 +154,7 @@ void check_kernels_of_stage(Workspace& work, std::uint32_t index) {
                 is_late[*item]
                     ? fmt::format("'{}' is not known when the kernel is computed", name)
                     : fmt::format("'{}' differs from cell to cell in stage '{}'", name, stage.name),
-                "the kernel of a convolution is the same in all cells, and computed before the "
-                "stage");
+                "a kernel must be the same in all cells and known before the stage starts");
         }
     };
     for_each_kernel_of_stage(work.program, index, [&](const ConvolutionKernel& kernel) {

@@ -108,7 +108,7 @@ std::optional<DirectionSettings> direction_of(Workspace& work, std::string_view 
         }
     }
     if (!has_lengths(read.numbers, stride)) {
-        return refuse(span, "a vector of length 0 has no direction", true);
+        return refuse(span, "this vector has no direction, because its length is 0", true);
     }
     return read;
 }
@@ -124,7 +124,9 @@ std::optional<DirectionSettings> check_directions(Workspace& work, const ast::Sc
         std::vector<std::string> words;
         for (const DirectionName& each : direction_names) words.emplace_back(each.word);
         work.diagnostics.error(
-            value.span, "directions are axis, gradient, curvature_high, curvature_low or keys",
+            value.span,
+            "'directions' must be axis, gradient, curvature_high, curvature_low or "
+            "keys",
             did_you_mean(work, word, words));
         return std::nullopt;
     }
@@ -156,8 +158,8 @@ void ExpressionChecker::take_direction(std::string_view word,
         if (parts_.back().has_error) return;
         if (!parts_[part].constant) {
             return error(formula_.nodes[part].span,
-                         fmt::format("{} takes numbers that are known before the run", word),
-                         "along(vector(ex, ey, ez)) follows what changes");
+                         fmt::format("{} takes only numbers that are known before the run", word),
+                         "write along(vector(ex, ey, ez)) for a direction that changes");
         }
         numbers.push_back({parts_[part].value, formula_.nodes[part].span});
     }

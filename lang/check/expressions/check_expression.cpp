@@ -119,7 +119,8 @@ void ExpressionChecker::visit(const ast::Text& text) {
         if (hint.empty()) hint = advice_about_hex_colour(text.value);
         if (text.value.ends_with(".png")) hint = fmt::format("write image(\"{}\")", text.value);
         if (hint.empty()) hint = "palette(v, low, high, \"grey\"), field(\"a.npy\")";
-        return error(node.span, "a text can only name a palette or a file", std::move(hint));
+        return error(node.span, "a text in quotes can only name a palette or a file",
+                     std::move(hint));
     }
     node.kind = work_.program.literals->id_of(text.value);
 }
@@ -140,7 +141,7 @@ void ExpressionChecker::visit(const ast::Name& name) {
     // In the body of a function, the name does not refer to a parameter of the system in which the
     // function is called.
     if (work_.call && is_of_each_cell(name.name) && !in_cells()) {
-        return error(span, fmt::format("'{}' can be used by cells that crawl only", name.name));
+        return error(span, fmt::format("'{}' can be used only by cells that crawl", name.name));
     }
     take(resolve_bare(work_, scope_, name.name, span), span);
 }

@@ -34,10 +34,10 @@ bool ExpressionChecker::is_place_in_file(NodeId root) {
         const bool is_elementary_call = node.is<Call>() && is_elementary(node.function);
         if (node.is<double>() || is_elementary_call) continue;
         if (in_kernel ? is_of_lag(node) : is_of_place(node)) continue;
-        error(node.span, "this cannot be used in a position in a file",
+        error(node.span, "this value cannot be used to give a position in a file",
               in_kernel
-                  ? "in a kernel a position can contain numbers, distance and direction only"
-                  : "a position can contain numbers, x, y, z, sx, sy, sz, nx, ny and nz only");
+                  ? "in a kernel, a position can contain only numbers, distance and direction"
+                  : "a position can contain only numbers, x, y, z, sx, sy, sz, nx, ny and nz");
         return false;
     }
     return true;
@@ -77,7 +77,7 @@ void ExpressionChecker::take_file_value(Function function, const ast::Call& call
     Node& node = formula_.nodes.back();
     if (stands_in_kernel() && reading.place.empty()) {
         return error(node.span, "in a kernel, field and image need a position in the file",
-                     "as in field(\"k.npy\", distance / 10, 0.5)");
+                     "write field(\"k.npy\", distance / 10, 0.5), for example");
     }
     has_loose_nodes_ = has_loose_nodes_ || parts.size() > 1;
     node.kind = Call{work_.program.literals->add(std::move(reading))};
@@ -93,7 +93,7 @@ void ExpressionChecker::take_painted_direction(NodeId image) {
     FileReading reading = work_.program.literals->reading(painted.as<Call>()->detail);
     if (reading.channel != PictureChannel::lightness) {
         return error(painted.span, "a direction needs two channels of a picture, not one",
-                     "along(image(\"f.png\")) reads red and green");
+                     "write along(image(\"f.png\")), which reads the channels red and green");
     }
     reading.is_direction = true;
     Node& node = formula_.nodes.back();

@@ -62,13 +62,17 @@ bool ExpressionChecker::has_places(NodeId root) {
         } else if (const auto* value = node.as<CellValue>();
                    value != nullptr && is_of_link(*value) && read.by_cell) {
             const std::string_view name = cell_value_names[static_cast<std::size_t>(*value)];
-            refuse(id, fmt::format("'{}' relates two cells and is known inside sums only", name),
+            refuse(id,
+                   fmt::format("'{}' belongs to a pair of cells, so it can be used only in "
+                               "sums over neighbours",
+                               name),
                    fmt::format("sum({} over touching)", name));
         }
         const bool is_own = node.calls(Function::own);
         if (is_own && read.by_cell) {
-            refuse(id, "own(e) can be used inside sums over neighbours only",
-                   "names outside are the cell's own");
+            refuse(id, "own(e) can be used only in sums over neighbours",
+                   "leave own(…) out: outside of such sums, names already belong to the cell "
+                   "itself");
         }
         for (std::size_t k = 0; k < node.operand_count; ++k) {
             ReadBy& operand = readers[node.operands[k]];

@@ -21,10 +21,13 @@ TypeWords words_of(ValueType type, bool in_cells) {
         case ValueType::text: return {"a text", ""};
         case ValueType::vector:
             return {"a vector", in_cells
-                                    ? "dot(a, b) and length(v) turn it into a number"
-                                    : "div(v), dot(v, w), length(v) and v.x turn it into a number"};
+                                    ? "dot(a, b) and length(v) turn a vector into a number"
+                                    : "div(v), dot(v, w), length(v) and v.x turn a vector into a "
+                                      "number"};
         case ValueType::tensor:
-            return {"a tensor", "it multiplies a vector: div(tensor(a1, a2, theta) * grad(e))"};
+            return {"a tensor",
+                    "multiply it by a vector, as in div(tensor(a1, a2, theta) * "
+                    "grad(e))"};
     }
     return {"", ""};
 }
@@ -61,8 +64,8 @@ bool ExpressionChecker::check_vectors(const Node& node) {
     const bool by_tensor = left == ValueType::tensor && right == ValueType::vector;
     const bool is_turned = parts_[first].turned || parts_[last].turned;
     if (has_meaning && by_tensor && is_turned && work_.on_surface) {
-        error(node.span, "on a surface a tensor cannot multiply the product of another tensor",
-              "make one tensor of the two");
+        error(node.span, "on a surface, only one tensor can multiply a vector",
+              "combine the two tensors into one");
     } else if (has_meaning) {
         formula_.nodes.back().type = type_of_result(node.function, std::array{left, right});
         parts_.back().turned = by_tensor || is_turned;
@@ -78,13 +81,13 @@ void ExpressionChecker::refuse_product(Function function, Span span, ValueType l
                            b = words_of(right, in_cells()).name;
     switch (function) {
         case Function::multiply: {
-            const char* hint = "a number or a tensor can multiply a vector";
+            const char* hint = "only a number or a tensor can multiply a vector";
             if (left == ValueType::vector && right == ValueType::tensor) {
-                hint = "the tensor comes before the vector";
+                hint = "write the tensor before the vector";
             } else if (left == ValueType::vector && right == ValueType::vector) {
-                hint = "dot(a, b) and cross(a, b) are products of two vectors";
+                hint = "write dot(a, b) or cross(a, b) for a product of two vectors";
             } else if (in_cells()) {
-                hint = "dot(a, b) and cross(a, b) are products of two vectors";
+                hint = "write dot(a, b) or cross(a, b) for a product of two vectors";
             }
             return error(span, fmt::format("{} cannot be multiplied by {}", a, b), hint);
         }
@@ -151,7 +154,7 @@ bool ExpressionChecker::is_same_everywhere(NodeId part) {
     const Node& node = formula_.nodes.back();
     error(formula_.nodes[part].span,
           fmt::format("{} of a number is 0 everywhere", info(node.function).spelling),
-          "it takes something that can differ from cell to cell");
+          "write a name that differs from cell to cell, such as a species");
     return true;
 }
 
@@ -178,8 +181,8 @@ void ExpressionChecker::check_curl(const Node& node) {
     need(of, ValueType::number);
     if (parts_.back().has_error || is_same_everywhere(of)) return;
     if (in_space) {
-        return error(formula_.nodes[of].span, "in space curl takes a vector",
-                     "curl(vector(0, 0, e)) is (dy(e), -dx(e), 0)");
+        return error(formula_.nodes[of].span, "in three dimensions, curl takes a vector",
+                     "write curl(vector(0, 0, e)) for the vector (dy(e), -dx(e), 0)");
     }
     result.type = ValueType::vector;
 }
@@ -195,10 +198,10 @@ void ExpressionChecker::check_shift(const Node& node) {
             formula_.nodes[node.operands[k]] = {cells.value, formula_.nodes[node.operands[k]].span};
             continue;
         }
-        return error(
-            formula_.nodes[node.operands[k]].span,
-            fmt::format("shifted takes whole numbers of cells from -{0} to {0}", farthest_shift),
-            "they must be known before the run; the first counts columns, the second rows");
+        return error(formula_.nodes[node.operands[k]].span,
+                     fmt::format("shifted takes whole numbers of cells from -{0} to {0}",
+                                 farthest_shift),
+                     "write columns first, then rows; both must be known before the run");
     }
 }
 
@@ -214,7 +217,7 @@ void ExpressionChecker::check_operator(const Node& node) {
     for (const NodeId operand : node.reads()) need(operand, ValueType::number);
     if (parts_.back().has_error) return;
     if (node.function == Function::symmetric && work_.on_surface && node.operand_count == 6) {
-        return error(node.span, "on a surface a tensor has three entries",
+        return error(node.span, "on a surface, a tensor has three entries",
                      "symmetric(axx, axy, ayy)");
     }
     if (node.function == Function::shifted) return check_shift(node);

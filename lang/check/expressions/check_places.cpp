@@ -130,9 +130,10 @@ void ExpressionChecker::warn_of_place(Span span, std::string_view place) {
     const DomainSettings& domain = work_.program.domain;
     const bool has_lengths = !domain.model && !domain.surface && place.size() == 1;
     warn(span,
-         fmt::format("this is the same in every cell, because {} runs from 0 to 1{}", place,
-                     place.size() == 1 ? " along the longest side" : ""),
-         has_lengths ? fmt::format("write domain.{} for a length", place) : "");
+         fmt::format("this value is the same in every cell, because {} runs only from 0 to 1{}",
+                     place, place.size() == 1 ? " along the longest side" : ""),
+         has_lengths ? fmt::format("write domain.{} for a position in units of length", place)
+                     : "");
 }
 
 /// Warns of shapes, noise and lattices if their places or lengths are far outside the domain.
@@ -165,7 +166,10 @@ void ExpressionChecker::check_shape_in_domain(const Node& node) {
             break;
         }
     }
-    warn(node.span, "places and lengths here run from 0 to 1 along the longest side", hint);
+    warn(node.span,
+         "this position or length is far outside of the domain: the longest side runs "
+         "from 0 to 1",
+         hint);
 }
 
 }  // namespace cascade::checking

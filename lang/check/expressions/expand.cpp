@@ -29,8 +29,7 @@ Expanded Expander::run(ast::ExprId root) {
             if (work_.parts_written == most_parts + 1) {
                 work_.diagnostics.error(
                     span,
-                    "this expression is too large when its functions and families are "
-                    "written out",
+                    "this expression is too large after its functions and families are written out",
                     fmt::format("a script may grow to {} parts", most_parts));
             }
             frames_.resize(1);
@@ -212,9 +211,10 @@ void Expander::apply(ast::ExprId part) {
             if (!is_small) {
                 take();
                 return error(expr(binary.right).span,
-                             fmt::format("the power of an operator is a number from 1 to {}",
+                             fmt::format("the power of an operator must be a whole number from 1 "
+                                         "to {}",
                                          most_operator_power),
-                             "as in (1 + lap)^2 u");
+                             "write (1 + lap)^2 u, for example");
             }
             for (int k = 0; k < static_cast<int>(power->value); ++k) {
                 push(TaskKind::apply, binary.left);

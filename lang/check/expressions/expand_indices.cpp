@@ -40,14 +40,14 @@ void Expander::visit_over(ast::ExprId part, const ast::Over& over) {
                                                                "volume", "cells", "plane"};
         const bool is_all = std::ranges::find(all_cells, over.index.text) != all_cells.end();
         return error(over.index.span, fmt::format("there is no index '{}'", over.index.text),
-                     is_neighbours ? "cells that crawl have neighbours; fields have none"
+                     is_neighbours ? "only cells that crawl have neighbours"
                      : is_all      ? "write 'domain' for all cells"
-                                   : "an index is declared in a system: i: 1..3");
+                                   : "declare the index in the system, as in i: 1..3");
     }
     if (!is_reduction(over.function.text)) {
         return error(over.function.span,
                      fmt::format("{} cannot be taken over an index", over.function.text),
-                     "sum, product, mean, min and max can");
+                     "use sum, product, mean, min or max");
     }
     push(TaskKind::repeat, part, index->low);
 }
@@ -139,7 +139,7 @@ std::optional<std::int64_t> Expander::index_value(ast::ExprId first, ast::ExprId
     if (value == std::floor(value) && std::abs(value) < 1e9) {
         return static_cast<std::int64_t>(value);
     }
-    work_.diagnostics.error(span, fmt::format("an index is a whole number, not {}", value));
+    work_.diagnostics.error(span, fmt::format("an index must be a whole number, not {}", value));
     return std::nullopt;
 }
 

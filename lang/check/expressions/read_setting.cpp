@@ -37,7 +37,7 @@ std::string hint_of_decimal_comma(const ast::Script& script, const ast::Statemen
         };
         return fmt::format("write '{}'", 1000 * number(0) + number(1));
     }
-    return "the decimal separator is a point: write '.' for ','";
+    return "write '.' for ',': the decimal separator is a point";
 }
 
 }  // namespace

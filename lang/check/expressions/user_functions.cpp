@@ -19,8 +19,10 @@ namespace cascade::checking {
 namespace {
 
 constexpr const char* what_functions_read =
-    "a function reads its parameters, constants and built-in values only";
-constexpr const char* what_constants_read = "a constant reads built-in values and constants only";
+    "a function can read only its parameters, constants and built-in values";
+constexpr const char* what_constants_read =
+    "a constant can read only built-in values and other "
+    "constants";
 
 const char* what_it_reads(const UserFunction& function) {
     return function.definition->is_constant ? what_constants_read : what_functions_read;
@@ -95,7 +97,7 @@ void FunctionTableMaker::declare(const ast::FunctionDefinition& definition) {
     }
     if (definition.is_constant && (reserved(name.text) != Reserved::no ||
                                    cell_value_named(name.text) || is_of_each_cell(name.text))) {
-        work_.diagnostics.error(name.span, fmt::format("'{}' belongs to the language", name.text),
+        work_.diagnostics.error(name.span, fmt::format("'{}' is a word of the language", name.text),
                                 "choose another name");
         return;
     }
@@ -155,13 +157,13 @@ void FunctionTableMaker::check_body(std::uint32_t index) {
                 error(function, over->index.span,
                       fmt::format("a {} has no index '{}'", kind, over->index.text),
                       is_constant ? what_constants_read
-                                  : "give it the members or their sum as arguments");
+                                  : "pass the members or their sum as arguments");
             }
         } else if (std::holds_alternative<ast::Garbage>(part.node)) {
             function.has_error = true;
         } else if (std::holds_alternative<ast::Indexed>(part.node)) {
             error(function, part.span, fmt::format("a {} cannot read a member of a family", kind),
-                  is_constant ? what_constants_read : "give it the member as an argument");
+                  is_constant ? what_constants_read : "pass the member as an argument");
         } else if (std::holds_alternative<ast::Bracketed>(part.node) ||
                    std::holds_alternative<ast::Qualified>(part.node) ||
                    std::holds_alternative<ast::RateOf>(part.node)) {
@@ -271,7 +273,7 @@ bool has_right_count(Workspace& work, const UserFunction& function, const ast::C
     work.diagnostics.error(span,
                            fmt::format("{} takes {}, not {}", function.definition->name.text,
                                        counted(count, "value"), call.argument_count),
-                           "it is defined as " + form + ")");
+                           "the definition is " + form + ")");
     return false;
 }
 

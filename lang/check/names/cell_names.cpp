@@ -21,11 +21,11 @@ std::optional<Node> resolve_cell_value(Workspace& work, const Scope& scope, Cell
                                        Span span) {
     Diagnostic diagnostic;
     if (scope.context == Context::bound) {
-        diagnostic.message = "a bound can contain numbers and parameters only";
+        diagnostic.message = "a bound can contain only numbers and parameters";
     } else if (scope.context == Context::value && is_of_frame(value)) {
         diagnostic.message = fmt::format("'{}' has no value when a stage starts",
                                          cell_value_names[static_cast<std::size_t>(value)]);
-        diagnostic.hint = "it can be read in rates, definitions and pictures";
+        diagnostic.hint = "read it in rates, definitions and pictures";
     } else {
         return Node{value, span, is_vector(value) ? ValueType::vector : ValueType::number};
     }
@@ -40,30 +40,30 @@ bool knows_cells(Workspace& work, const Scope& scope, StageItem item, Span span)
     const Stage& source = program.stages[item.stage];
     if (!source.uniform.empty() && source.uniform[item.item]) return true;
     if (!is_of_cells(work, scope)) {
-        report(work, span, "a stage of fields cannot read cells that crawl",
-               fmt::format("stage '{}' is one of cells", source.name));
+        report(work, span, "a stage of fields cannot read values of cells that crawl",
+               fmt::format("stage '{}' consists of cells that crawl", source.name));
         return false;
     }
     if (scope.context == Context::picture) {
         report(work, span,
                fmt::format("stage '{}' does not continue the cells of '{}'", source.name,
                            program.stages[*scope.stage].name),
-               "a value that the next stage continues, as in c: c, can be shown");
+               "continue the value in the next stage, as in c: c, to show it");
         return false;
     }
     const auto before = stage_of_cells_before(program, *scope.stage);
     if (program.stages[*scope.stage].founders) {
         report(work, span,
-               fmt::format("stage '{}' starts with other cells than those of '{}'",
+               fmt::format("stage '{}' has cells of its founders, not the cells of '{}'",
                            program.stages[*scope.stage].name, source.name),
-               "without 'founders' a stage continues with the cells of the stage before it");
+               "leave 'founders' out to continue with the cells of the stage before");
         return false;
     }
     if (before == item.stage) return true;
     report(work, span,
            fmt::format("the cells of '{}' now belong to stage '{}'", source.name,
                        program.stages[*before].name),
-           "continue the value in each stage between, as in c: c");
+           "continue the value in every stage between the two, as in c: c");
     return false;
 }
 
@@ -78,8 +78,8 @@ std::optional<std::uint32_t> find_sensed_stage(Workspace& work, const ast::Quali
         return std::nullopt;
     }
     if (!work.cell_stages[found->second]) return found->second;
-    report(work, qualified.stage.span, "cells sense stages of fields only",
-           fmt::format("stage '{}' is one of cells", name));
+    report(work, qualified.stage.span, "cells can read only stages of fields",
+           fmt::format("stage '{}' consists of cells that crawl", name));
     return std::nullopt;
 }
 

@@ -40,7 +40,7 @@ std::optional<Node> resolve_builtin(Workspace& work, const Scope& scope, std::st
         return std::nullopt;
     }
     if (scope.context == Context::bound) {
-        report(work, span, "a bound can contain numbers and parameters only", "");
+        report(work, span, "a bound can contain only numbers and parameters", "");
         return std::nullopt;
     }
     if ((scope.context == Context::position || scope.context == Context::mask) &&
@@ -60,7 +60,7 @@ std::optional<Node> resolve_builtin(Workspace& work, const Scope& scope, std::st
     }
     if (scope.context == Context::value && !varies_by_cell(name) && !scope.is_side) {
         report(work, span, fmt::format("'{}' has no value when a stage starts", name),
-               "it can be read in rates, definitions and pictures");
+               "read it in rates, definitions and pictures");
         return std::nullopt;
     }
     return Node{*builtin_named(name), span};
@@ -104,13 +104,13 @@ std::optional<Node> resolve_own(Workspace& work, const Scope& scope, std::string
             return Node{std::get<DefinitionId>(meaning->id), span, meaning->type};
         }
         report(work, span, fmt::format("'{}' is a definition and cannot be read here", name),
-               is_of_cells(work, scope) ? "it has no value when a stage starts"
+               is_of_cells(work, scope) ? "a definition has no value when a stage starts"
                                         : "definitions can be read in rates and other definitions");
         return std::nullopt;
     }
     if (scope.context == Context::bound &&
         system_at(work, scope.system).is_species(meaning->item())) {
-        report(work, span, "a bound can contain numbers and parameters only",
+        report(work, span, "a bound can contain only numbers and parameters",
                fmt::format("'{}' is a species", name));
         return std::nullopt;
     }
@@ -213,7 +213,7 @@ std::optional<std::uint32_t> find_stage(Workspace& work, const Scope& scope,
                fmt::format("write [{}]", qualified.name.text));
     } else {
         report(work, qualified.stage.span, fmt::format("stage '{}' runs after this one", name),
-               "a stage can read earlier stages only");
+               "a stage can read only earlier stages");
     }
     return std::nullopt;
 }
@@ -273,17 +273,17 @@ std::optional<Node> resolve_qualified(Workspace& work, const Scope& scope,
     if (!scope.stage && !is_of_cells(work, scope)) {
         const Meaning* own = find(work.names[scope.system], qualified.stage.text);
         if (own != nullptr && own->type == ValueType::vector) {
-            report(work, qualified.name.span, "a vector has the components x, y and z",
+            report(work, qualified.name.span, "a vector has only the components x, y and z",
                    fmt::format("write {}.x", qualified.stage.text));
             return std::nullopt;
         }
         if (is_own_name(work, scope, qualified)) {
-            report(work, span, "a system reads its own names without a prefix",
+            report(work, span, "a system must read its own names without a prefix",
                    fmt::format("write '{}'", qualified.name.text));
             return std::nullopt;
         }
         report(work, span, "a system cannot read a stage",
-               "a system cannot depend on the stages before it");
+               "read the stage in a value (name: …) of a later stage");
         return std::nullopt;
     }
     const auto stage =

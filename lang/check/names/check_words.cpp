@@ -148,7 +148,7 @@ Explanation index_without_value(std::string_view index) {
 }
 
 void add_call(const Workspace& work, Diagnostic& diagnostic) {
-    if (work.call) diagnostic.notes.push_back({*work.call, "in the expansion of this call"});
+    if (work.call) diagnostic.notes.push_back({*work.call, "the function is called here"});
 }
 
 void report(Workspace& work, Span span, std::string message, std::string hint, std::string note) {

@@ -47,22 +47,22 @@ std::optional<DomainLength> domain_length(Workspace& work, const Scope& scope,
                                   [&](const Row& each) { return each.name == name.text; });
     if (row == rows.end()) {
         return refuse(fmt::format("'{}' is not a length of the domain", name.text),
-                      "they are domain.x, .y, .z, .width, .height, .depth and .spacing");
+                      "write domain.x, .y, .z, .width, .height, .depth or .spacing");
     }
     if (scope.context == Context::constant || scope.context == Context::position ||
         scope.context == Context::shape) {
         return refuse("lengths of the domain cannot be read here",
-                      "values, rates, definitions, masks and pictures read them");
+                      "read them in values, rates, definitions, masks or pictures");
     }
     const DomainSettings& domain = work.program.domain;
     if (domain.model || domain.surface) {
-        return refuse("lengths of the domain are those of a grid with straight axes",
+        return refuse("lengths of the domain exist only for a grid with straight axes",
                       domain.model ? "x, y and z are from 0 to 1 along the model's longest side"
                                    : "sx and sy are from 0 to 1 along the sides of the surface");
     }
     if (is_of_cells(work, scope)) {
         return refuse("cells that crawl do not lie on the grid",
-                      "p.x, p.y and p.z are their position");
+                      "write p.x, p.y and p.z for the position of a cell");
     }
     return DomainLength{row->builtin, row->factor(domain.grid), row->axis};
 }

@@ -98,12 +98,12 @@ void report_constant(Workspace& work, const Scope& scope, std::string_view name,
     }
     if (scope.context == Context::shape) {
         report(work, span, fmt::format("a shape cannot read '{}'", name),
-               "it can read t, s, part and its own numbers only");
+               "a shape can read only t, s, part and its own numbers");
         return;
     }
     if (scope.is_length) {
         report(work, span, fmt::format("{} cannot read '{}'", scope.subject, name),
-               "it is a formula of numbers and t: extent: 10 * exp(0.01 * t)");
+               "write a formula of numbers and t, as in extent: 10 * exp(0.01 * t)");
         return;
     }
     if (reserved(name) == Reserved::builtin && varies_by_cell(name)) {
@@ -113,7 +113,7 @@ void report_constant(Workspace& work, const Scope& scope, std::string_view name,
         return;
     }
     report(work, span, fmt::format("{} must be one number", scope.subject),
-           "only numbers, operators and functions of numbers can be used here");
+           "use only numbers, operators and functions of numbers");
 }
 
 std::string not_a_parameter(std::string_view name, const System& system) {
@@ -137,10 +137,10 @@ void report_unknown_own(Workspace& work, const Scope& scope, std::string_view na
     if (function_named(name)) hint = fmt::format("'{0}' is a function: {0}(…)", name);
     if (name == "steady") hint = "write steady(0.1)";
     if (cell_value_named(name))
-        hint = fmt::format("'{}' can be used by cells that crawl only", name);
+        hint = fmt::format("'{}' can be used only by cells that crawl", name);
     std::string note = fmt::format("{} has {}", system.name, names);
     if (scope.context == Context::value && scope.stage) {
-        note = fmt::format("[name] reads this stage ({}: {})", system.name, names);
+        note = fmt::format("[name] reads a value of this stage ({}: {})", system.name, names);
         if (reserved(name) == Reserved::builtin) {
             hint = fmt::format("'{}' is built in and needs no brackets", name);
         }
@@ -155,7 +155,7 @@ void report_first_stage(Workspace& work, const Scope& scope, std::string_view na
     } else if (scope.system != unknown_system && !is_hopeless(work)) {
         const System& system = work.program.systems[scope.system];
         if (find(work.names[scope.system], name) != nullptr) {
-            hint = fmt::format("[{0}] is the '{0}' of this stage", name);
+            hint = fmt::format("write [{0}] for the '{0}' of this stage", name);
         } else {
             hint = did_you_mean(work, name, readable_names(system, scope));
         }
@@ -176,15 +176,15 @@ void report_unknown_previous(Workspace& work, const Scope& scope, std::string_vi
     if (is_incomplete(work, previous.system)) return;
     std::string hint;
     if (scope.system != unknown_system && find(work.names[scope.system], name) != nullptr) {
-        hint = fmt::format("[{0}] is the '{0}' of this stage", name);
+        hint = fmt::format("write [{0}] for the '{0}' of this stage", name);
     } else {
         hint = advice_about(name, WordContext::value);
         if (hint.empty()) hint = hint_of_stage(work, name);
         if (hint.empty()) hint = did_you_mean(work, name, readable_names(system, scope));
     }
     report(work, span, not_a_parameter(name, system), std::move(hint),
-           fmt::format("bare names read the previous stage '{}' ({}: {})", previous.name,
-                       system.name, list_names(quantity_names(system))));
+           fmt::format("a name without brackets reads the previous stage '{}' ({}: {})",
+                       previous.name, system.name, list_names(quantity_names(system))));
 }
 
 void report_unknown_system(Workspace& work, const ast::Word& name) {
@@ -199,7 +199,8 @@ void report_unknown_system(Workspace& work, const ast::Word& name) {
     diagnostic.span = name.span;
     diagnostic.message = fmt::format("there is no system '{}'", name.text);
     diagnostic.hint = did_you_mean(work, name.text, names);
-    diagnostic.notes.push_back({std::nullopt, "'cascade systems' lists those of the library"});
+    diagnostic.notes.push_back(
+        {std::nullopt, "'cascade systems' lists the systems of the library"});
     work.diagnostics.add(std::move(diagnostic));
 }
 

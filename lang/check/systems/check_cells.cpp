@@ -88,7 +88,7 @@ bool SystemChecker::declare_of_cells(const Declaration& declaration) {
     if (is_plain && (is_setting_of(SettingBlock::cells, name) || is_axis(name))) {
         if (declaration.is_restart()) {
             work_.diagnostics.error(declaration.statement->after.span,
-                                    fmt::format("'{}' has no value to set after a division", name));
+                                    fmt::format("'{}' cannot be set after a division", name));
         }
         const auto [first, is_new] = rules_.try_emplace(name, &declaration);
         if (!is_new) {
@@ -106,7 +106,7 @@ bool SystemChecker::declare_of_cells(const Declaration& declaration) {
             declared_.try_emplace(name + " after divide", declaration.span());
         if (!is_new) {
             report_twice(work_, declaration.span(), first->second,
-                         fmt::format("'{}' is given a value after a division twice", name));
+                         fmt::format("'{}' is set twice after a division", name));
             return true;
         }
         restarts_.push_back(&declaration);
@@ -137,7 +137,9 @@ bool SystemChecker::can_declare_in_cells(const Declaration& declaration) {
     if (!is_own && name != "turn" && !cell_value_named(name)) return true;
     work_.diagnostics.error(declaration.span(),
                             fmt::format("'{}' is built in and cannot be declared", name),
-                            name == "ex" ? "ey and ez say how the axes of a cell start" : "");
+                            name == "ex" ? "set ey and ez, the directions of a cell's axes at "
+                                           "the start"
+                                         : "");
     return false;
 }
 
@@ -150,13 +152,16 @@ bool SystemChecker::collect_rate_of_cells(const Declaration& declaration) {
         return true;
     }
     if (name == "age") {
-        work_.diagnostics.error(declaration.span(), "the age of a cell has a rate already: 1",
-                                "give a quantity of another name this rate");
+        work_.diagnostics.error(declaration.span(),
+                                "'age' cannot have another rate, because it "
+                                "grows at the rate 1",
+                                "choose another name for the quantity with this rate");
         return true;
     }
     if (!cell_value_named(name)) return false;
     work_.diagnostics.error(declaration.span(), fmt::format("'{}' has no rate", name),
-                            name.starts_with("e") ? "turn' += … turns the axes of a cell" : "");
+                            name.starts_with("e") ? "write turn' += … to turn the axes of a cell"
+                                                  : "");
     return true;
 }
 
@@ -196,10 +201,11 @@ void SystemChecker::check_rule(std::string_view name, Formula& rule, Context con
     rule = std::move(checked->formula);
     const auto draw = std::ranges::find_if(rule.nodes, is_draw);
     if (may_draw || draw == rule.nodes.end()) return;
-    work_.diagnostics.error(draw->span, fmt::format("'{}' draws no random numbers", name),
+    work_.diagnostics.error(draw->span, fmt::format("'{}' cannot contain random numbers", name),
                             name == "along"
-                                ? "without it the direction is random"
-                                : "a threshold can be random: limit: random(1, 0.1) after divide");
+                                ? "leave 'along' out: the direction of divisions is then random"
+                                : "draw the number in a parameter, as in limit: random(1, 0.1) "
+                                  "after divide");
 }
 
 /// Checks division, death, and values that restart after a division. To be called last, because

@@ -17,9 +17,9 @@ constexpr std::int64_t fewest_cells = 4;  // Along an axis of the coarsest grid.
 /// Why a domain has no coarser grid, as a text that follows "a coarser grid, "; null if the domain
 /// can have a coarser grid.
 const char* obstacle_in(const DomainSettings& domain) {
-    return domain.model     ? "which a model does not have"
-           : domain.surface ? "which a surface does not have"
-           : domain.mask    ? "on which a masked domain has another shape"
+    return domain.model     ? "but a model has no coarser grid"
+           : domain.surface ? "but a surface has no coarser grid"
+           : domain.mask    ? "but a mask has another shape there"
                             : nullptr;
 }
 
@@ -29,10 +29,12 @@ void check_sides(const Grid& grid, std::int64_t times, Span span, Diagnostics& d
     for (const std::int64_t cells : {grid.width, grid.height, grid.depth}) {
         if (cells == 1 || (cells % times == 0 && cells / times >= fewest_cells)) continue;
         diagnostics.error(span,
-                          fmt::format("a side of {} cells cannot have cells {} times as wide",
+                          fmt::format("a side of {} cells cannot be divided into cells {} times "
+                                      "as wide",
                                       cells, times),
-                          fmt::format("sides must be multiples of {}, and {} at least", times,
-                                      fewest_cells * times));
+                          fmt::format("the number of cells must be a multiple of {} and at least "
+                                      "{}",
+                                      times, fewest_cells * times));
         return;
     }
 }
@@ -48,12 +50,14 @@ std::optional<Coarse> check_coarse(Workspace& work, const ast::Script& script,
         work.diagnostics.error(span, std::move(message), std::move(hint));
         return std::nullopt;
     };
-    const std::string example = fmt::format("as in {}: coarse(4)", setting);
+    const std::string example = fmt::format("write {}: coarse(4), for example", setting);
     if (!std::holds_alternative<ast::Call>(written.node) || word_of(written) != "coarse")
         return refuse(written.span, std::string(meaning), example);
     const auto arguments = arguments_of(script, value);
     if (arguments.size() != 1) {
-        return refuse(written.span, "coarse takes one number: how many times wider the cells are",
+        return refuse(written.span,
+                      "coarse takes one number, which says how many times wider "
+                      "the cells are",
                       example);
     }
     const auto times = check_constant(work, script, arguments[0], "coarse");
@@ -62,10 +66,11 @@ std::optional<Coarse> check_coarse(Workspace& work, const ast::Script& script,
         if (static_cast<double>(power) == *times) return Coarse{power, written.span};
     }
     return refuse(script.expressions[arguments[0].root].span,
-                  fmt::format("coarse takes 2, 4, 8, … {}", most_coarse),
+                  fmt::format("the number in coarse(…) must be 2, 4, 8, … {}", most_coarse),
                   setting == "start"
-                      ? "the cells of each grid are half as wide as those of the previous one"
-                      : "powers of two let stages share whole cells");
+                      ? "use a power of two, because each grid has cells half as wide as the "
+                        "grid before"
+                      : "use a power of two, so that each wide cell covers whole cells");
 }
 
 void check_coarse_grids(const Program& program, Diagnostics& diagnostics) {

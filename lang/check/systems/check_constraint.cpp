@@ -138,7 +138,7 @@ void SystemChecker::find_unknowns() {
     if (is_cells()) {
         return work_.diagnostics.error(constraints[0]->span(),
                                        "cells that crawl have no constraints",
-                                       "fields have: system NAME { … }");
+                                       "constraints work only for fields: system NAME { … }");
     }
     // First the constraints that name their field, then the constraints that read their field only
     // through definitions.
@@ -210,7 +210,7 @@ bool SystemChecker::find_unknown(Declaration& constraint, bool in_definitions) {
             if (other == definitions_.end()) continue;
             if ((*other)->level == constraint.level) {
                 report_twice(work_, constraint.span(), (*other)->span(),
-                             fmt::format("'{}' is determined twice", (*other)->name));
+                             fmt::format("two constraints determine '{}'", (*other)->name));
                 return true;
             }
             constraint.name = (*other)->name;
@@ -223,18 +223,18 @@ bool SystemChecker::find_unknown(Declaration& constraint, bool in_definitions) {
     if (unknown.empty()) {
         work_.diagnostics.error(
             constraint.span(),
-            "this determines nothing, because all names on the right have values",
-            "it determines a name without a value, as phi in 0 = lap(phi) + "
-            "rho");
+            "this constraint determines nothing, because all names on the right already have "
+            "values",
+            "leave one name without a value, such as phi in 0 = lap(phi) + rho");
         return true;
     }
     std::vector<std::string> names;
     for (const ast::Word& name : unknown) names.emplace_back(name.text);
     work_.diagnostics.error(
         constraint.span(),
-        fmt::format("a constraint determines one field, but several have no value: {}",
+        fmt::format("a constraint can determine only one name, but several names have no value: {}",
                     list_names(names)),
-        "give all but one of them a value");
+        "give values to all but one of these names");
     work_.incomplete[index_] = true;
     return true;
 }
@@ -247,16 +247,17 @@ void solve_constraint(Workspace& work, SystemId system, DefinitionId id, Formula
     };
     const Span span = residual.nodes.back().span;
     if (residual.nodes.back().type != ValueType::number) {
-        return fail(span, "the right side of a constraint is a number",
+        return fail(span, "the right side of a constraint must be a number",
                     "div(v), dot(v, w) and v.x turn a vector into a number");
     }
     const std::uint32_t number = work.program.literals->add(Constraint{definition.name, span});
     Formula formula = Inliner(work.program.systems[system], id, number).run(residual);
     if (const Node* part = nonlinear_part(formula)) {
         return fail(
-            part->span, fmt::format("this is not linear in '{}'", definition.name),
-            "a constraint is a sum of terms, each an operator of its field times factors that do not depend "
-            "on it");
+            part->span,
+            fmt::format("this part of the constraint is not linear in '{}'", definition.name),
+            "each term may apply one operator to the unknown name and multiply it by factors "
+            "without this name");
     }
     Node solved;
     solved.kind = Call{number};

@@ -33,10 +33,11 @@ void check_range(Workspace& work, const Declaration& declaration, Quantity& quan
         if (!range.step) return;
     }
     if (!(*low < *high)) {
-        work.diagnostics.error(written.span, "a range goes from a lower to a higher number");
+        work.diagnostics.error(written.span, "the first end of a range must be below the second");
     } else if (range.step && !(*range.step > 0 && *range.step <= *high - *low)) {
         work.diagnostics.error(written.span,
-                               "the step of a range is above 0 and no longer than the range");
+                               "the step of a range must be above 0 and at most the length of "
+                               "the range");
     } else {
         quantity.range = range;
         const ast::Expression default_value = declaration.value();

@@ -63,8 +63,8 @@ std::vector<ItemId> read_undiluted(Workspace& work, const ast::Script& script,
             species.push_back(*item);
             continue;
         }
-        work.diagnostics.error(span_of(script, value), "undiluted takes names of species",
-                               "as in undiluted: u, v");
+        work.diagnostics.error(span_of(script, value), "'undiluted' takes only names of species",
+                               "write undiluted: u, v, for example");
     }
     return species;
 }
@@ -88,7 +88,7 @@ std::optional<Formula> read_speed(Workspace& work, const ast::Script& script,
                                   const ast::Statement& statement, const Scope& scope) {
     const Span span = span_of(script, statement.values[0]);
     if (asks_for_automatic(work, script, statement, scope)) {
-        work.diagnostics.error(span, "speed is the length of a step, or auto",
+        work.diagnostics.error(span, "'speed' must be auto or the length of a step",
                                "write 'speed: auto'");
         return std::nullopt;
     }
@@ -115,12 +115,16 @@ void check_setting(Workspace& work, const ast::Script& script, const ast::Statem
     const bool is_speed = setting == Setting::speed && !is_automatic(script, statement);
     const bool has_cells = is_of_cells(work, scope);
     if (has_cells && is_speed) {
-        work.diagnostics.error(statement.name.span, "cells choose the length of their steps",
-                               "leave out speed; largest_step limits the length of steps");
+        work.diagnostics.error(statement.name.span,
+                               "'speed' cannot be set for cells that crawl, "
+                               "because their solver chooses the length of "
+                               "steps",
+                               "leave 'speed' out; 'largest_step' limits the length of steps");
         return;
     }
     if (has_cells && setting == Setting::start) {
-        work.diagnostics.error(statement.name.span, "cells that crawl have no coarser grid");
+        work.diagnostics.error(statement.name.span,
+                               "cells that crawl cannot run on a coarser grid");
         return;
     }
     if (setting == Setting::iterations) {
@@ -145,12 +149,12 @@ void check_setting(Workspace& work, const ast::Script& script, const ast::Statem
     if (observes && settings.interval && settings.time.every) {
         work.diagnostics.error(
             statement.name.span,
-            "a stage is observed by steps, with interval, or by time, with every, not by both",
+            "'interval' and 'every' cannot be used together: one counts steps, the other time",
             "leave one of them out");
     }
     if (!has_cells && is_end_setting(name) && settings.time.duration && settings.iterations) {
         work.diagnostics.error(statement.name.span,
-                               "a stage ends by its iterations or by its duration, not by both",
+                               "'iterations' and 'duration' cannot be used together",
                                "leave one of them out");
     }
 }

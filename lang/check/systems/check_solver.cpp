@@ -59,24 +59,24 @@ void check_local_solver(const Program& program, std::uint32_t stage, Span span,
     const std::size_t species = program.system_of(stage).species_count();
     if (species > most_species_in_equations) {
         diagnostics.error(span,
-                          fmt::format("{} solves equations of all species in each cell, and {} are "
-                                      "too many: at most {}",
+                          fmt::format("{} solves equations of all species in each cell, but {} "
+                                      "species are too many: at most {} can be solved",
                                       subject, species, most_species_in_equations),
-                          "rkl2 takes any number of species");
+                          "write solver: rkl2, which takes any number of species");
         return;
     }
     const auto jacobian = local_jacobian(program, stage);
     if (!jacobian) {
         diagnostics.error(span,
                           subject +
-                              " needs the derivatives of the rates by the species, and there "
-                              "is no rule for one of them",
-                          "thresholds of smoothstep and tensors that turn "
-                          "with a species have no derivative; rkl2 takes any rate");
+                              " needs the derivatives of the rates with respect to the species, "
+                              "but one of them cannot be computed",
+                          "write solver: rkl2, which takes any rate; thresholds of smoothstep "
+                          "and tensors that turn with a species have no derivative");
     } else if (!has_reaction(*jacobian)) {
         diagnostics.error(span, subject + " finds no reaction to treat implicitly",
-                          "it looks for species in the rates outside of operators; rkl2 takes "
-                          "long steps of diffusion");
+                          "write solver: rkl2 for rates that contain only diffusion; a reaction "
+                          "reads species outside of operators");
     }
 }
 
@@ -91,27 +91,26 @@ std::optional<Refusal> refusal_of_domain(const Program& program, const Stage& st
     const DomainSettings& domain = program.domain;
     const std::string_view solver = name_of(stage.time.solver);
     if (domain.model) {
-        return Refusal{fmt::format("stage '{}': the solver {} needs the waves of a grid, which a "
-                                   "model does not have",
+        return Refusal{fmt::format("stage '{}': the solver {} works only on a grid, not on a model",
                                    stage.name, solver),
-                       "rkl1 takes long steps on models"};
+                       "write solver: rkl1, which takes long steps on models"};
     }
     if (domain.surface && domain.surface->has_metric) {
         return Refusal{fmt::format("stage '{}': {} needs square cells, but these cells lie on a "
                                    "surface",
                                    stage.name, solver),
-                       "rkl1 takes long steps there"};
+                       "write solver: rkl1, which takes long steps there"};
     }
     if (domain.mask) {
         return Refusal{fmt::format("stage '{}': {} needs all cells of the grid, but the domain "
                                    "has a mask",
                                    stage.name, solver),
-                       "rkl1 takes long steps there"};
+                       "write solver: rkl1, which takes long steps there"};
     }
     if (domain.stencil != StencilKind::cross) {
-        return Refusal{fmt::format("stage '{}': {} works with stencil: cross only", stage.name,
+        return Refusal{fmt::format("stage '{}': {} works only with stencil: cross", stage.name,
                                    solver),
-                       "rkl2 takes long steps with any stencil"};
+                       "write solver: rkl2, which takes long steps with any stencil"};
     }
     return std::nullopt;
 }
@@ -124,23 +123,24 @@ std::optional<Refusal> refusal_of_system(const Program& program, std::uint32_t n
     const std::string_view solver = name_of(stage.time.solver);
     if (!stage.uniform[system.frozen_item()]) {
         return Refusal{
-            fmt::format("stage '{}' freezes cells, but {} cannot hold cells: its waves run "
-                        "through all of them",
+            fmt::format("stage '{}' freezes cells, but the solver {} cannot keep cells frozen, "
+                        "because it changes all cells together",
                         stage.name, solver),
-            "rkl1 takes long steps around frozen cells"};
+            "write solver: rkl1, which takes long steps around frozen cells"};
     }
     const auto diffusion = diffusion_of(program, number);
     if (const auto held = held_and_nested(stage, diffusion)) {
         return Refusal{
-            fmt::format("stage '{}': {} cannot hold {} at a side, because its rate applies "
-                        "lap to lap of it",
+            fmt::format("stage '{}': {} cannot hold the value of {} at a side, because the rate "
+                        "of this species contains lap(lap(…))",
                         stage.name, solver, system.item_name(system.species()[*held])),
             "write solver: rkl1"};
     }
     if (has_diffusion(diffusion)) return std::nullopt;
     return Refusal{
         fmt::format("stage '{}': {} finds no diffusion to treat implicitly", stage.name, solver),
-        "it looks for lap, dxx, diffuse or div(k * grad(u)) in the rate of u; rk45 takes any rate"};
+        "write solver: rk45, which takes any rate; diffusion is lap, dxx, diffuse or div(k * "
+        "grad(u)) in the rate of u"};
 }
 
 }  // namespace

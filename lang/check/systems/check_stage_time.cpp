@@ -99,8 +99,9 @@ void check_condition(Workspace& work, std::uint32_t stage) {
     const Node* varying = varying_part(work.program, stage, *work.program.stages[stage].time.until);
     if (varying == nullptr) return;
     work.diagnostics.error(varying->span,
-                           "a stage ends for all cells at once, but this condition varies by cell",
-                           "use one number for all cells, as in mean(u over domain) > 0.5");
+                           "this condition differs from cell to cell, but a stage ends for all "
+                           "cells at once",
+                           "write one number for all cells, as in mean(u over domain) > 0.5");
 }
 
 }  // namespace
@@ -133,30 +134,30 @@ void check_time(Workspace& work, std::uint32_t index) {
         work.diagnostics.error(speed_span,
                                fmt::format("with {} all cells must have the same speed",
                                            name_of(time.solver)),
-                               "euler and symplectic take a speed that varies");
+                               "write solver: euler or solver: symplectic for a speed that varies");
     }
     if (time.automatic_speed && !time.has_duration() && !time.open_end && !system.cells) {
-        work.diagnostics.error(speed_span, "with 'speed: auto' a stage ends by its duration",
-                               "write duration: … in place of iterations");
+        work.diagnostics.error(speed_span, "'iterations' cannot be used with 'speed: auto'",
+                               "write duration: … instead");
     }
     if (time.largest_step && !time.chooses_steps()) {
         work.diagnostics.error(time.largest_step_span,
-                               "'largest_step' limits the length of chosen steps, but "
-                               "'speed' sets the length of these",
-                               "write speed: auto, or take the solver rk23 or rk45");
+                               "'largest_step' has no effect, because 'speed' sets the length of "
+                               "all steps",
+                               "write speed: auto, solver: rk23 or solver: rk45");
     }
     if (time.every > 0 && !stage.uniform[system.speed_item()]) {
         work.diagnostics.error(time.every_span,
-                               fmt::format("the steps of stage '{}' differ from cell to cell, so "
-                                           "that it has no time",
+                               fmt::format("stage '{}' has no time, because its speed differs "
+                                           "from cell to cell",
                                            stage.name),
-                               "'interval' counts steps instead");
+                               "write 'interval', which counts steps");
     }
     if (time.chooses_steps()) {
         if (const Node* reader = reader_of_speed(work.program, stage)) {
             work.diagnostics.error(
-                reader->span, fmt::format("stage '{}' chooses its steps during the run: its speed "
-                                          "cannot be read",
+                reader->span, fmt::format("the speed of stage '{}' cannot be read, because the "
+                                          "stage chooses the length of its steps during the run",
                                           stage.name));
         }
     }

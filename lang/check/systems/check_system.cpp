@@ -94,7 +94,8 @@ bool SystemChecker::is_misspelt_text(const Declaration& declaration) {
     std::string hint = did_you_mean(work_, declaration.name, settings_of({SettingBlock::system}));
     if (hint.empty()) return false;
     work_.diagnostics.error(declaration.span(),
-                            fmt::format("'{}' cannot be a text", declaration.name),
+                            fmt::format("'{}' cannot have a text in quotes as its value",
+                                        declaration.name),
                             std::move(hint));
     return true;
 }
@@ -144,7 +145,7 @@ void SystemChecker::report_families() {
         Diagnostic diagnostic;
         diagnostic.span = statement.name.span;
         diagnostic.message =
-            fmt::format("'{}' cannot be a family and one quantity", statement.name.text);
+            fmt::format("'{}' cannot be both a family and a single quantity", statement.name.text);
         diagnostic.notes.push_back({plain->second, "the other is here"});
         work_.diagnostics.add(std::move(diagnostic));
     }

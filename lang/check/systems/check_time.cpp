@@ -44,7 +44,7 @@ void check_solver(Workspace& work, const ast::Script& script, ast::Expression va
     if (word.empty()) {
         if (std::holds_alternative<ast::Garbage>(root_of(script, value).node)) return;
         const auto* const text = std::get_if<ast::Text>(&root_of(script, value).node);
-        work.diagnostics.error(span, "a solver is one word",
+        work.diagnostics.error(span, "'solver' takes one word",
                                text != nullptr && solver_of(text->value)
                                    ? fmt::format("write {} without quotes", text->value)
                                    : fmt::format("solvers are {}", list_names(solver_names())));
@@ -67,8 +67,8 @@ void check_until(Workspace& work, const ast::Script& script, ast::Expression val
         if (call->argument_count != 1) {
             work.diagnostics.error(
                 root_of(script, value).span,
-                "steady takes one number: the largest change that still counts as steady",
-                "as in steady(0.01)");
+                "steady takes one number, the largest change that still counts as steady",
+                "write steady(0.01), for example");
             return;
         }
         const ast::Expression change = argument_of(script, value, *call);
@@ -89,7 +89,8 @@ void check_until(Workspace& work, const ast::Script& script, ast::Expression val
     if (!checked) return;
     if (std::ranges::all_of(checked->formula.nodes, &Node::is<double>)) {
         work.diagnostics.error(root_of(script, value).span,
-                               "until takes a condition, and this is the same at all times",
+                               "'until' needs a condition that changes during the run, but this "
+                               "value is always the same",
                                "write 'until: t > 100', or 'duration: 100'");
         return;
     }
@@ -130,7 +131,8 @@ void check_time_setting(Workspace& work, const ast::Script& script, const ast::S
         check_until(work, script, value, scope, time);
     } else {
         const auto coarse = check_coarse(work, script, value, "start",
-                                         "'start' takes coarse(N), to begin on coarser grids");
+                                         "'start' takes coarse(N), to begin in cells N times as "
+                                         "wide");
         if (!coarse) return;
         time.coarse = coarse->times;
         time.coarse_span = coarse->span;

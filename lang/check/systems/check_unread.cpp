@@ -61,8 +61,8 @@ void report_change_of_nothing(Workspace& work, const System& system, const Unrea
     std::vector<std::string> names = quantity_names(base);
     for (const Definition& definition : base.definitions) names.push_back(definition.name);
     work.diagnostics.error(unread.span,
-                           fmt::format("{} has no '{}' to change, and nothing reads it", base.name,
-                                       family),
+                           fmt::format("{} has no '{}' to change, and no formula reads this name",
+                                       base.name, family),
                            did_you_mean(work, *unread.name, names));
 }
 

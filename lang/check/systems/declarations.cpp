@@ -33,7 +33,7 @@ std::optional<std::int64_t> check_end(Workspace& work, const SystemStatement& fr
         return static_cast<std::int64_t>(*value);
     }
     work.diagnostics.error(from.script->expressions[expression.root].span,
-                           "an index runs over whole numbers from 0 on");
+                           "the ends of an index must be whole numbers of at least 0");
     return std::nullopt;
 }
 
@@ -46,7 +46,7 @@ std::optional<Index> check_index(Workspace& work, const SystemStatement& from) {
     if (*low > *high) {
         work.diagnostics.error(statement.span,
                                fmt::format("the index '{}' has no values", index.name),
-                               "the lower end comes first");
+                               "write the lower end first");
         return std::nullopt;
     }
     if (*high - *low >= most_members) {
@@ -60,7 +60,8 @@ std::optional<Index> check_index(Workspace& work, const SystemStatement& from) {
 bool can_be_index(Workspace& work, const ast::Word& name) {
     if (reserved(name.text) == Reserved::no && name.text != "domain") return true;
     work.diagnostics.error(
-        name.span, fmt::format("'{}' belongs to the language and cannot be an index", name.text));
+        name.span,
+        fmt::format("'{}' cannot be an index, because it is a word of the language", name.text));
     return false;
 }
 
@@ -108,7 +109,7 @@ std::optional<std::int64_t> member_number(Workspace& work, const ast::Word& word
     const auto end = word.text.data() + word.text.size();
     const auto result = std::from_chars(word.text.data(), end, value);
     if (result.ec == std::errc() && result.ptr == end && value <= 1'000'000'000) return value;
-    work.diagnostics.error(word.span, "the number of a member must be whole");
+    work.diagnostics.error(word.span, "the number of a member must be a whole number");
     return std::nullopt;
 }
 
@@ -122,7 +123,7 @@ void report_unknown_index(Workspace& work, const System& system, const ast::Word
     std::string hint;
     if (!is_hopeless(work)) hint = did_you_mean(work, word.text, names);
     if (hint.empty() && names.empty()) {
-        hint = fmt::format("an index is declared in the system: {}: 1..3", word.text);
+        hint = fmt::format("declare it in the system, as in {}: 1..3", word.text);
     } else if (hint.empty()) {
         hint = "it has " + list_names(names);
     }
@@ -148,7 +149,9 @@ std::vector<Index> indices_of(Workspace& work, const System& system, const ast::
             return {};
         }
         if (!indices.empty() && indices.front().name == word.text) {
-            work.diagnostics.error(word.span, "the two indices of a family have different names",
+            work.diagnostics.error(word.span,
+                                   "the two indices of a family must have different "
+                                   "names",
                                    fmt::format("declare another one for the second: {}2: {}..{}",
                                                word.text, index->low, index->high));
             return {};
@@ -175,7 +178,7 @@ void check_list(Workspace& work, const ast::Script& script, const ast::Statement
 
 void report_too_many(Workspace& work, const System& system, const ast::Statement& statement) {
     work.diagnostics.error(statement.name.span,
-                           fmt::format("the families of {} are too large together", system.name),
+                           fmt::format("the families of {} are too large in total", system.name),
                            fmt::format("a system has at most {} statements", most_declarations));
 }
 

@@ -162,10 +162,16 @@ std::optional<std::uint32_t> Derivation::find_base(std::uint32_t index, const as
     } else if (!found) {
         if (!lacks_names(*blocks_[index].script)) report_unknown_system(work_, base);
     } else if (has_cells) {
-        work_.diagnostics.error(base.span, fmt::format("'{}' is a system of fields", base.text),
-                                "cells are derived from cells");
+        work_.diagnostics.error(base.span,
+                                fmt::format("cells cannot be derived from '{}', "
+                                            "because it is a system of fields",
+                                            base.text),
+                                "name a block of cells");
     } else {
-        work_.diagnostics.error(base.span, fmt::format("'{}' is a block of cells", base.text),
+        work_.diagnostics.error(base.span,
+                                fmt::format("a system cannot be derived from '{}', "
+                                            "because it is a block of cells",
+                                            base.text),
                                 "write 'cells' in place of 'system'");
     }
     return std::nullopt;
@@ -194,7 +200,7 @@ void Derivation::take_base(DerivedSystem& system, std::size_t place,
     system.is_known = system.is_known && base.is_known;
     if (copied_ <= most_statements && copied_ + base.statements.size() > most_statements) {
         work_.diagnostics.error(system.from.block->base.span,
-                                "the systems of this script are too large together");
+                                "the systems of this script are too large in total");
     }
     copied_ += base.statements.size();
     if (copied_ > most_statements) {

@@ -24,33 +24,35 @@ TEST(CheckLinks, VectorsAreNoNumbers) {
               "a number and a vector cannot be added | "
               "div(v), dot(v, w), length(v) and v.x are numbers");
     EXPECT_EQ(fault_of("tanh(v)"),
-              "a vector is not a number | dot(a, b) and length(v) turn it into a number");
+              "a vector is not a number | dot(a, b) and length(v) turn a vector into a number");
     EXPECT_EQ(fault_of("dot(k, v)"),
               "a vector is needed here | such as p, normal or vector(1, 0, 0)");
-    EXPECT_EQ(
-        fault_of("length(v * p)"),
-        "a vector cannot be multiplied by a vector | dot(a, b) and cross(a, b) are products of "
-        "two vectors");
+    EXPECT_EQ(fault_of("length(v * p)"),
+              "a vector cannot be multiplied by a vector | write dot(a, b) or cross(a, b) for a "
+              "product of two vectors");
     EXPECT_EQ(fault_of("length(if(k, v, q))"),
-              "if chooses between two numbers, two vectors or two colours");
+              "if needs two numbers, two vectors or two colours to choose from");
     EXPECT_EQ(fault_of("max(v over touching)"),
-              "a vector is not a number | dot(a, b) and length(v) turn it into a number");
+              "a vector is not a number | dot(a, b) and length(v) turn a vector into a number");
     EXPECT_EQ(fault_of("length(if(k, v, unit(mix(v, ez, 0.5))))"), "");
 }
 
 TEST(CheckLinks, ValuesOfTwoCellsAreKnownInside) {
     EXPECT_EQ(
         fault_of("contact"),
-        "'contact' relates two cells and is known inside sums only | sum(contact over touching)");
+        "'contact' belongs to a pair of cells, so it can be used only in sums over neighbours | "
+        "sum(contact over touching)");
     EXPECT_EQ(
         fault_of("sum(own(contact) over touching)"),
-        "'contact' relates two cells and is known inside sums only | sum(contact over touching)");
+        "'contact' belongs to a pair of cells, so it can be used only in sums over neighbours | "
+        "sum(contact over touching)");
     EXPECT_EQ(fault_of("own(q)"),
-              "own(e) can be used inside sums over neighbours only | names outside are the "
-              "cell's own");
+              "own(e) can be used only in sums over neighbours | leave own(…) out: outside of "
+              "such sums, names already belong to the cell itself");
     EXPECT_EQ(
         fault_of("both(overlap)", "fn both(a) = a + sum(a over touching)\n"),
-        "'overlap' relates two cells and is known inside sums only | sum(overlap over touching)");
+        "'overlap' belongs to a pair of cells, so it can be used only in sums over neighbours | "
+        "sum(overlap over touching)");
     EXPECT_EQ(fault_of("both(q)", "fn both(a) = a + sum(a * gap over touching)\n"), "");
     EXPECT_EQ(fault_of("sum(sum(distance over touching) over near(k))"), "");
 }
@@ -65,11 +67,11 @@ TEST(CheckLinks, NearTakesOneDistance) {
         "can be used "
         "here");
     EXPECT_EQ(fault_of("product(q over touching)"),
-              "product cannot be taken over neighbours | mean, sum, min and max can");
+              "product cannot be taken over neighbours | use mean, sum, min or max");
 }
 
 TEST(CheckLinks, CellsReadTheModelWhereTheyAre) {
-    EXPECT_EQ(fault_of("attr(\"fur\")").find("attr can be used on models only"), 0u);
+    EXPECT_EQ(fault_of("attr(\"fur\")").find("attr can be used only on models"), 0u);
 }
 
 TEST(CheckLinks, FieldsHaveNoNeighboursAndCellsNoGrid) {
@@ -78,15 +80,14 @@ TEST(CheckLinks, FieldsHaveNoNeighboursAndCellsNoGrid) {
     };
     EXPECT_THAT(fault("sum(u over touching)"),
                 ::testing::EndsWith(
-                    "there is no index 'touching' | cells that crawl have neighbours; "
-                    "fields have none"));
-    EXPECT_THAT(fault("own(u)"), ::testing::EndsWith("it belongs in a system of cells that crawl"));
+                    "there is no index 'touching' | only cells that crawl have neighbours"));
+    EXPECT_THAT(fault("own(u)"), ::testing::EndsWith("use it in a block of cells that crawl"));
     EXPECT_THAT(fault("contact"),
-                ::testing::EndsWith("'contact' can be used by cells that crawl only"));
+                ::testing::EndsWith("'contact' can be used only by cells that crawl"));
     EXPECT_EQ(
         fault_of("dx(q)"),
-        "dx cannot be used here | cells that crawl have no grid; lap(e) and sums over neighbours "
-        "work");
+        "dx cannot be used here | use lap(e) or sums over neighbours: cells that crawl have no "
+        "grid");
 }
 
 }  // namespace

@@ -63,18 +63,19 @@ TEST(DomainLengths, IntegralsCountCellsWithTheirSize) {
 
 TEST(DomainLengths, SaysWhatIsNone) {
     EXPECT_THAT(faults("domain.area", "grid: 8, 8"),
-                ElementsAre("1:39: 'area' is not a length of the domain | they are domain.x, .y, "
-                            ".z, .width, .height, .depth and .spacing"));
+                ElementsAre("1:39: 'area' is not a length of the domain | write domain.x, .y, "
+                            ".z, .width, .height, .depth or .spacing"));
     EXPECT_THAT(faults("domain.x", "surface: sphere; cells: 100"),
-                ElementsAre("1:39: lengths of the domain are those of a grid with straight axes | "
+                ElementsAre("1:39: lengths of the domain exist only for a grid with straight "
+                            "axes | "
                             "x, y and z are from 0 to 1 along the model's longest side"));
     EXPECT_THAT(faults("integral(u)", "grid: 8, 8"),
                 ElementsAre("1:32: integral needs 'over' | write integral(e over domain)"));
     EXPECT_THAT(check_text(
                     "system s { u: 1; u' = lap(u) }\nstage a: s { iterations: domain.width }\n")
                     ->faults(),
-                ElementsAre("2:33: lengths of the domain cannot be read here | values, rates, "
-                            "definitions, masks and pictures read them"));
+                ElementsAre("2:33: lengths of the domain cannot be read here | read them in "
+                            "values, rates, definitions, masks or pictures"));
 }
 
 TEST(DomainLengths, ExtentsFitTheGrid) {

@@ -8,6 +8,7 @@
 // only explain are not tested here.
 #include "check_helpers.h"
 #include "hint_cases.h"
+#include "hint_cases_of_checks.h"
 #include "lang/service/advice.h"
 #include "lang/vocabulary/words_elsewhere.h"
 
@@ -20,6 +21,7 @@
 #include <regex>
 #include <sstream>
 #include <set>
+#include <vector>
 
 namespace cascade::test {
 namespace {
@@ -68,8 +70,14 @@ void expect_sound(const std::string& script, std::unique_ptr<Checked> checked,
     }
 }
 
+std::vector<HintCase> all_cases() {
+    std::vector<HintCase> cases(std::begin(hint_cases), std::end(hint_cases));
+    cases.insert(cases.end(), std::begin(hint_cases_of_checks), std::end(hint_cases_of_checks));
+    return cases;
+}
+
 TEST(Hints, MendWhatTheyStandAt) {
-    for (const HintCase& each : hint_cases) {
+    for (const HintCase& each : all_cases()) {
         const bool is_option = each.frame == "set";  // The text of --set.
         const std::string before(is_option ? std::string(each.before)
                                            : framed(each.frame, each.before));
@@ -221,11 +229,12 @@ std::set<std::string> hints_in_sources() {
 
 TEST(Hints, AreAllTried) {
     const std::set<std::string> texts = hints_in_sources();
+    const std::vector<HintCase> cases = all_cases();
     EXPECT_GT(texts.size(), 60u);
     for (const std::string& text : texts) {
-        const bool is_tried =
-            std::any_of(std::begin(hint_cases), std::end(hint_cases),
-                        [&](const HintCase& each) { return begins(text, each.hint); });
+        const bool is_tried = std::any_of(cases.begin(), cases.end(), [&](const HintCase& each) {
+            return begins(text, each.hint);
+        });
         EXPECT_TRUE(is_tried) << "no case of hint_cases.h has this hint: " << text;
     }
 }

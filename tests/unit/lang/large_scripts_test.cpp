@@ -34,8 +34,8 @@ TEST(LargeScripts, AreBoundedWhenWrittenOut) {
         doubling += fmt::format("fn f{}(x) = f{}(x) + f{}(x)\n", i, i - 1, i - 1);
     }
     const std::string large =
-        "this expression is too large when its functions and families are "
-        "written out | a script may grow to 1000000 parts";
+        "this expression is too large after its functions and families are written out | a "
+        "script may grow to 1000000 parts";
     EXPECT_THAT(faults(doubling + "system s { u: f59(1); u' = f59(2) }"),
                 ElementsAre("61:15: " + large));
     EXPECT_THAT(faults("system s { i: 1..1000; u: 1\n"
@@ -44,7 +44,7 @@ TEST(LargeScripts, AreBoundedWhenWrittenOut) {
     std::string families = "system s { i: 1..1000; u: 1; u' = 1\n";
     for (int k = 0; k < 200; ++k) families += fmt::format("p{}[i]: 1\n", k);
     EXPECT_THAT(faults(families + "}").at(0),
-                "101:1: the families of s are too large together | "
+                "101:1: the families of s are too large in total | "
                 "a system has at most 100000 statements");
     // A chain of functions with a million parts overflows no stack.
     std::string chain = "fn f0(x) = x\n";
@@ -58,7 +58,7 @@ TEST(LargeScripts, AreBoundedWhenWrittenOut) {
     for (int i = 1; i < 3000; ++i)
         long_chain += fmt::format("system b{}: b{} {{ u' += 1 }}\n", i, i - 1);
     EXPECT_THAT(faults(long_chain),
-                ElementsAre("1414:15: the systems of this script are too large together"));
+                ElementsAre("1414:15: the systems of this script are too large in total"));
 }
 
 TEST(LargeScripts, HaveShortDumps) {

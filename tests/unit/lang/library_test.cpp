@@ -62,7 +62,7 @@ TEST(Library, SaysWhichSystemsDoNotFitADomain) {
     EXPECT_FALSE(checked->program);
     EXPECT_THAT(checked->faults(),
                 Contains(HasSubstr("2:14: 'vortices' does not work in this domain")));
-    EXPECT_THAT(checked->faults(), Contains(HasSubstr("in space curl takes a vector")));
+    EXPECT_THAT(checked->faults(), Contains(HasSubstr("in three dimensions, curl takes a vector")));
 }
 
 TEST(Library, IsReadByNeed) {

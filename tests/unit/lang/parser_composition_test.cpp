@@ -96,13 +96,13 @@ TEST(DocComments, BelongToWhatStandsThere) {
 
 TEST(DocComments, ThatBelongToNothingAreTold) {
     EXPECT_THAT(parse_text("system s {\n a: 1\n ## lost\n}\n## lost too").faults,
-                ElementsAre("3:2 this doc comment belongs to nothing | "
-                            "an ordinary comment begins with one '#'",
-                            "5:1 this doc comment belongs to nothing | "
-                            "an ordinary comment begins with one '#'"));
+                ElementsAre("3:2 this '##' comment describes nothing | "
+                            "write one '#' for an ordinary comment",
+                            "5:1 this '##' comment describes nothing | "
+                            "write one '#' for an ordinary comment"));
     EXPECT_THAT(parse_text("system s { a: 1 } ## behind\nsystem t { a: 1 }").faults,
-                ElementsAre("1:19 this doc comment belongs to nothing | "
-                            "an ordinary comment begins with one '#'"));
+                ElementsAre("1:19 this '##' comment describes nothing | "
+                            "write one '#' for an ordinary comment"));
 }
 
 TEST(CompositionFaults, Expressions) {
@@ -123,8 +123,8 @@ TEST(CompositionFaults, Expressions) {
         {"(u)[i]", "2:7 an operator is missing before '['"},
         {"a over domain", "2:6 'over' belongs inside the brackets of a function" + form},
         {"(a over domain)", "2:7 'over' belongs inside the brackets of a function" + form},
-        {"sum(a, b over i)", "2:13 'over' follows a single expression" + form},
-        {"sum(a over 3)", "2:10 'over' names an index or the domain" + form},
+        {"sum(a, b over i)", "2:13 'over' must follow a single expression" + form},
+        {"sum(a over 3)", "2:10 'over' must be followed by an index or by 'domain'" + form},
         {"sum(a over i, 1)", "2:15 a ')' is missing after 'over i'" + form},
         {"sum(a over i", "2:15 a ')' is missing after 'over i'" + form},
         {"(1..2)", "2:6 '..' has no place inside an expression"},

@@ -237,7 +237,8 @@ TEST(LargeScripts, DepthAndLengthAreNoProblem) {
                             "a ')' is missing before the statement ends",
                             last));
     EXPECT_THAT(faults_of_large(repeat("[", deep) + "p" + repeat("]", deep)),
-                ElementsAre("2:4 '[ ]' encloses one name of this stage | ( ) groups an expression",
+                ElementsAre("2:4 '[ ]' can contain only one name of this stage | ( ) groups an "
+                            "expression",
                             last));
 }
 

@@ -213,8 +213,8 @@ TEST(PlanFaults, AreExplained) {
         return check_text("system s {\nu: x\nu' = " + rate + "\n}").get()->faults();
     };
     const std::string numbers_of_vectors =
-        "div(v), dot(v, w), length(v) and v.x turn it into a number";
-    const std::string takes = " | it takes something that can differ from cell to cell";
+        "div(v), dot(v, w), length(v) and v.x turn a vector into a number";
+    const std::string takes = " | write a name that differs from cell to cell, such as a species";
     EXPECT_THAT(faults("lap(3)"), ElementsAre("3:10: lap of a number is 0 everywhere" + takes));
     EXPECT_THAT(faults("div(u * grad(2 + 1))"),
                 ElementsAre("3:19: grad of a number is 0 everywhere" + takes));
@@ -231,25 +231,26 @@ TEST(PlanFaults, AreExplained) {
                                               "such as grad(e), d * grad(e) or vector(ex, ey)"));
     EXPECT_THAT(faults("div(grad(u) * grad(u))"),
                 ElementsAre("3:10: a vector cannot be multiplied by a vector | "
-                            "dot(a, b) and cross(a, b) are products of two vectors"));
+                            "write dot(a, b) or cross(a, b) for a product of two vectors"));
     EXPECT_THAT(faults("div(grad(u) * tensor(1, 1, 0))"),
                 ElementsAre("3:10: a vector cannot be multiplied by a tensor | "
-                            "the tensor comes before the vector"));
+                            "write the tensor before the vector"));
     EXPECT_THAT(faults("div(u / grad(u))"),
                 ElementsAre("3:10: a number cannot be divided by a vector"));
     EXPECT_THAT(faults("tensor(1, 1, 0)"),
                 ElementsAre("3:6: a tensor is not a number | "
-                            "it multiplies a vector: div(tensor(a1, a2, theta) * grad(e))"));
+                            "multiply it by a vector, as in div(tensor(a1, a2, theta) * grad(e))"));
     EXPECT_THAT(faults("sin(grad(u))"),
                 ElementsAre("3:10: a vector is not a number | " + numbers_of_vectors));
     EXPECT_THAT(faults("div(if(u, grad(u), u))"),
-                ElementsAre("3:25: if chooses between two numbers, two vectors or two colours"));
+                ElementsAre(
+                    "3:25: if needs two numbers, two vectors or two colours to choose from"));
     EXPECT_THAT(faults("advect(1, u)"), ElementsAre("3:13: a vector is needed here | "
                                                     "such as grad(e) or vector(ex, ey)"));
     EXPECT_THAT(faults("advect(u)"), ElementsAre(HasSubstr("advect takes 2 to 4 values, not 1")));
     EXPECT_THAT(faults("u\nu >= lap(u)"),
                 Contains("4:6: lap cannot be used here | "
-                         "a bound can contain numbers and parameters only"));
+                         "a bound can contain only numbers and parameters"));
     std::string deep = "u";
     for (int k = 0; k < 40; ++k) deep = "lap(" + deep + ")";
     EXPECT_THAT(faults(deep), ElementsAre(HasSubstr("operators are nested too deeply | "

@@ -47,7 +47,8 @@ TEST(ModelInput, SettingsOfPlanesAreRefused) {
                   std::string::npos)
             << word;
     }
-    EXPECT_NE(messages_of(small_sphere, "lap(u)", "solver: imex").find("needs the waves of a grid"),
+    EXPECT_NE(messages_of(small_sphere, "lap(u)", "solver: imex")
+                  .find("works only on a grid, not on a model"),
               std::string::npos);
     EXPECT_NE(messages_of(small_sphere, "lap(u)", "start: coarse(2)").find("coarser grid"),
               std::string::npos);

@@ -283,7 +283,7 @@ TEST_F(MomentsTest, AreRefusedWhereNothingHasATime) {
     const std::string grown = "stage s: gray_scott { iterations: 2 }";
     EXPECT_THAT(refusal(grown, false), HasSubstr("nothing is observed over time"));
     EXPECT_THAT(refusal("stage s: gray_scott { iterations: 2; speed: x + 0.1 }"),
-                HasSubstr("differ from cell to cell, so that it has no time"));
+                HasSubstr("has no time, because its speed differs from cell to cell"));
 }
 
 TEST_F(MomentsTest, OfALogMayHaveNamesAndFeatures) {

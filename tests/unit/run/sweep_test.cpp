@@ -391,7 +391,7 @@ TEST_F(SetsTest, SayWhereTheyAreWrong) {
     EXPECT_EQ(fault_of("a,a\n"), ":1:3: 'a' has a column already");
     EXPECT_EQ(fault_of("a,,b\n"), ":1:3: there is no name");
     EXPECT_EQ(fault_of("0.1,0.2\n"), ":1:1: '0.1' is not a name");
-    EXPECT_EQ(fault_of("a;b\n1;2\n"), ":1:1: the cells of a table have commas between them");
+    EXPECT_EQ(fault_of("a;b\n1;2\n"), ":1:1: the cells of a table must be separated by commas");
     EXPECT_EQ(fault_of("seed\n-1\n"), ":2:1: '-1' is not a seed");
     EXPECT_EQ(fault_of("a,\"b\n"), ":1:3: this quoted cell has no end");
     EXPECT_EQ(fault_of("a,b\n"), " has names and no row of values");
