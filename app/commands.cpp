@@ -244,7 +244,7 @@ int compile_command(const Options& options, Console& console) {
     std::filesystem::path header = options.header;
     if (header.empty()) header = std::filesystem::path(object).replace_extension(".h");
     if (object.lexically_normal() == header.lexically_normal()) {
-        console.fail({fmt::format("the object file and the header are both to be written to {}",
+        console.fail({fmt::format("the object file and the header would both be written to {}",
                                   object.string()),
                       "give them different names with -o and --header"});
         return exit_status::wrong_use;

@@ -49,9 +49,9 @@ bool Pattern::Implementation::write_volume_file(const std::filesystem::path& pat
     const bool is_volume = run->script().program->domain.grid.depth > 1;
     const bool has_grid = !model() && run->simulation().state(stage()).tissue() == nullptr;
     if (!has_grid || (!is_volume && !can_hold(path, FormatTrait::planes))) {
-        note(
-            {fmt::format("a {} file holds a volume, and this pattern has none", lower_ending(path)),
-             "a model is written as .vtp, and crawling cells as .cells.vtp"});
+        note({fmt::format("a {} file can hold only a volume, but this pattern is not a volume",
+                          lower_ending(path)),
+              "a model is written as .vtp, and crawling cells as .cells.vtp"});
         return false;
     }
     const auto written =

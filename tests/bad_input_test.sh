@@ -78,7 +78,7 @@ refused 3 'but a time step must be above 0' run slow.cascade -q
 # Options with nonsense.
 refused 2 "<--set>:1:5: error: one value ends before ';'" run good.cascade --set 'ka=1;a=2'
 refused 2 "<--show>:1:1: error: the expression is missing" run good.cascade --show '}'
-refused 2 "<--stop-at>:1:3: error: stage 's' has 20 steps" run good.cascade --stop-at s:21
+refused 2 "<--stop-at>:1:3: error: stage 's' has only 20 steps" run good.cascade --stop-at s:21
 refused 2 "<--until-stage>:1:1: error: no stage is called 't'" run good.cascade --until-stage t
 for nonsense in '--range 1' '--range 1,1' '--scale 0' '--detail 0' '--detail 9' '--depth 9' '--palette nope' '--seed -1' '--size 0x9' '--size 9x' '--copies 0' '--copies 17' '--copies 2x2x2' '--quality best' '--light moon' '--fov 0' '--ground maybe' '--background white' \
     '--steps 1.5' '--threads 0' '--lanes 5' '--backend gpu' '--stop-at s' \
@@ -90,13 +90,13 @@ refused 64 "the number '50'" run good.cascade -o film.gif --frames 50
 refused 64 'write maps/u, or maps/u.png/ for a folder' sweep good.cascade --vary seed=1,2 -o maps/u.png
 refused 64 'write a, or a.glb/ for a folder' run good.cascade --save a.glb
 refused 64 '--save FOLDER writes each species' run good.cascade -o numbers.npy
-refused 3 'are both to be written to' run good.cascade -o a.png --sheet ./a.png
-refused 64 'are both to be written to' compile good.cascade -o a.h
+refused 3 'would both be written to' run good.cascade -o a.png --sheet ./a.png
+refused 64 'would both be written to' compile good.cascade -o a.h
 refused 64 'a script is missing' compile
 refused 64 'is not an odd number' compile good.cascade --stages 4
 refused 64 'euler has no stages to choose' compile good.cascade --stages 5
 refused 64 '--stages N says how many' compile good.cascade --set solver=rkl1
-refused 64 'solver=rkl1 keeps its speed' compile good.cascade --solver rkl1
+refused 64 'solver=rkl1, which keeps the speed' compile good.cascade --solver rkl1
 
 # Outputs that cannot be written are refused before the first step.
 touch file

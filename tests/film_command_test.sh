@@ -71,11 +71,11 @@ if [ "$(id -u)" != 0 ]; then
 fi
 
 "$CASCADE" sweep spots.cascade --vary ka=1/80,1/40 --fps 5 >/dev/null 2>err && fail "a sweep takes --fps"
-grep -q -- "--film NAME.gif writes one" err || fail "sweep: $(cat err)"
+grep -q -- "add --film NAME.gif" err || fail "sweep: $(cat err)"
 refused "a plane has no slices" -o bad.gif --slices 4
-refused "no frames of a run are drawn" -o bad.png --label step
+refused "--label needs frames or a film, but none is written" -o bad.png --label step
 refused "no room for a label" -o bad.gif --label step
-refused "this differs from cell to cell" -o bad.gif --label b
+refused "this value differs from cell to cell" -o bad.gif --label b
 
 # Surfaces without a background have transparent films, if the format has transparency.
 echo 'domain { surface: sphere; cells: 200 }' >ball.cascade

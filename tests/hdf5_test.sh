@@ -27,7 +27,7 @@ grep -q "HDF5 could not be loaded" err || fail "without the module: $(cat err)"
 run 2 run two.cascade "${series[@]}" --field u/v
 grep -q "'u/v' cannot be the name of a dataset" err || fail "a name with a slash: $(cat err)"
 run 2 run two.cascade "${series[@]}" --field time=u
-grep -q -- "--field 'value=u' gives it another name" err || fail "the name of an axis: $(cat err)"
+grep -q -- "--field 'value=u' gives the field another name" err || fail "the name of an axis: $(cat err)"
 run 2 run two.cascade "${series[@]}" --field 'w=u' --field 'w=v'
 grep -q "two fields are called 'w'" err || fail "a name twice: $(cat err)"
 

@@ -67,10 +67,10 @@ hint "did you mean 'k'?" check s.cascade --set kk=1 -- check s.cascade --set k=1
 # Models.
 for option in --retile "--bake 64" "--bump 0.1"; do
     # shellcheck disable=SC2086
-    hint '--mesh FILE, or mesh: "FILE" in the domain, makes it one' \
+    hint 'write mesh: "FILE" in the domain, or run with --mesh FILE' \
         run s.cascade -o a.ply $option -- run ball.cascade -q -o a.ply
 done
-hint "--bake N writes a rectangle with maps of N texels" run s.cascade -o a.glb -- \
+hint "add --bake N for a rectangle with maps of N x N texels" run s.cascade -o a.glb -- \
     run s.cascade -q -o a.glb --bake 16
 hint "-o NAME.glb writes a rectangle with them" run s.cascade --bake 16 -- \
     run s.cascade -q -o a.glb --bake 16
@@ -78,7 +78,7 @@ hint "-o NAME.glb writes a rectangle with them" run s.cascade --bake 16 -- \
 sed 's/surface: sphere/mesh: "ball.obj"/' ball.cascade >file.cascade
 hint 'mesh: "FILE" in the domain' run s.cascade -o a.ply -- run file.cascade -q -o a.ply
 hint '--mesh FILE' run s.cascade -o a.ply -- run s.cascade --mesh ball.obj --cells 100 -q -o a.ply
-hint "surface: x, y, z in the domain makes one" run s.cascade --flat -- \
+hint "write surface: x, y, z in the domain for a surface" run s.cascade --flat -- \
     check ball.cascade
 
 # Finer cells.
@@ -86,8 +86,8 @@ sed 's/cells: 100/cells: faces/' ball.cascade >faces.cascade
 hint "--cells 20000 spreads cells" run faces.cascade -q --detail 2 -- run faces.cascade -q --cells 100 --detail 2
 sed 's/grid: 8, 8/grid: 8, 8; mask: random(1, 2) > 0/' s.cascade >drawn.cascade
 sed 's/grid: 8, 8/grid: 8, 8; mask: noise(0.3) > -1/' s.cascade >noise.cascade
-hint "noise(…) has the same outlines" run drawn.cascade -q --detail 2 -- run noise.cascade -q --detail 2
-hint "a script with a finer grid" run s.cascade -q --detail 2 -o fine.gif -- run s.cascade -q --grid 16x16 -o fine.gif
+hint "use noise(…), whose outlines stay the same" run drawn.cascade -q --detail 2 -- run noise.cascade -q --detail 2
+hint "use a finer grid in the script" run s.cascade -q --detail 2 -o fine.gif -- run s.cascade -q --grid 16x16 -o fine.gif
 
 # Forms of values.
 hint "as in --grid 256x128" check s.cascade --grid 8y8 -- check s.cascade --grid 8x8
@@ -110,7 +110,7 @@ hint "the option --grid 32x32 sets it" check s.cascade --set grid=32 -- check s.
 hint "the option --grid 32x32 sets it" check s.cascade --set domain.grid=32 -- check s.cascade --set domain.extent=32
 hint "write first.k" check s.cascade --set stage.k=2 -- check s.cascade --set first.k=2
 hint "once for each name" check s.cascade --set k=2,u=1 -- check s.cascade --set k=2 --set u=1
-hint "two dots separate the ends of a range" sweep s.cascade --vary k=0.02-0.06:3 -- \
+hint "'..' must separate the ends of a range" sweep s.cascade --vary k=0.02-0.06:3 -- \
     sweep s.cascade -q --vary k=0.02..0.06:3 -o w4
 hint "write --set duration=2" run s.cascade --time 2 -- run s.cascade -q --set duration=2
 hint "write --set extent=4" run s.cascade --extent 4 -- run s.cascade -q --set extent=4

@@ -129,13 +129,13 @@ says err "the opacity is not from 0 to 1 in 100 % of the cells, and is clamped t
 # Refused commands write no file.
 run 64 run waves.cascade -o refused.glb --bake 9000
 run 2 run waves.cascade -o refused.glb
-says err "only models are written to such files, and the domain is not a model"
-says err "--bake N writes a rectangle with maps of N texels"
+says err "only models can be written to such files, but the domain is not a model"
+says err "add --bake N for a rectangle with maps of N x N texels"
 run 2 run waves.cascade -o refused.ply --bake 64
-says err "only models are written to such files"
+says err "only models can be written to such files"
 run 2 run waves.cascade --bake 64
-says err "no model is written with its maps"
+says err "this option writes maps of a model, but no such model is written"
 says err "-o NAME.glb writes a rectangle with them"
 run 3 run waves.cascade -o waves.glb -o waves_color.png --bake 64
-says err "are both to be written to waves_color.png"
+says err "would both be written to waves_color.png"
 for name in refused*; do [ ! -e "$name" ] || fail "$name was written"; done

@@ -103,7 +103,7 @@ run 0 run -q spots.cascade --mesh square.obj --cells 300 --unwrap -o square.ply
 run 0 mesh square.ply
 says out "1 chart, 9"
 run 2 $model --unwrap -o none.vtp
-says err "no model is written that has texture coordinates"
+says err "--unwrap needs a model file with texture coordinates, but none is written"
 run 2 $model --unwrap --retile -o none.ply
 says err "the triangles of --retile have no texture coordinates"
 run 2 run spots.cascade --unwrap -o none.glb --bake 64
@@ -168,7 +168,7 @@ for name in lengths.glb lengths_color.exr lengths_height.exr lengths_normal.exr;
 done
 [ ! -e lengths_color.png ] || fail "maps in two formats"
 run 2 $model --exr -o lengths.glb
-says err "no maps are written"
+says err "--exr needs maps, but no maps are written"
 # An animated model has a moment for each interval and one for the start.
 run 0 run -q spots.cascade --mesh creature --cells 600 --animate -o grows.glb --fps 5
 grep -qa '"animations"' grows.glb || fail "nothing moves"
@@ -176,7 +176,7 @@ run 0 mesh grows.glb
 run 2 $model --animate -o grows.ply
 says err "no model is written that could move"
 run 2 $model --animate -o grows.glb --bake 64
-says err "maps do not move"
+says err "a model with maps cannot be animated"
 run 2 run -q spots.cascade --animate -o grows.glb
 says err "the domain is not a model"
 # Levels with --retile: each has a quarter of the points of the previous level, and a few points of the model that could
@@ -193,7 +193,7 @@ done
 run 0 run spots.cascade --mesh square.obj --cells 300 --texels-per-cell 2 -o fitting.glb
 says err "maps of 64 texels: a cell is 3.7 texels wide"
 run 2 $model --texels-per-cell 2 -o fitting.png
-says err "no model is written with its maps"
+says err "this option writes maps of a model, but no such model is written"
 # The surface moves by its heights with --displace, and only then.
 run 0 $model -o level.ply
 run 0 $model --bump 0.1 -o level_too.ply
@@ -213,7 +213,7 @@ says err "no model is written"
 run 2 run -q spots.cascade --lods 3 -o lods.glb --bake 64
 says err "the domain is not a model"
 run 3 $model --lods 2 -o lods.glb -o lods_lod1.glb
-says err "the model and the model are both to be written to"
+says err "the model and the model would both be written to"
 run 64 $model --lods 1 -o lods.glb
 says err "whole number from 2 to 8"
 
@@ -286,18 +286,18 @@ refused() {
     ls refused.* >/dev/null 2>&1 && fail "something was written by $*"
 }
 for name in refused.ply refused.obj refused.glb refused.vtp refused.npz refused.cells.vtp; do
-    refused "only models are written to such files" run -q spots.cascade -o $name
+    refused "only models can be written to such files" run -q spots.cascade -o $name
 done
 refused "this setting needs a domain with a model" run -q spots.cascade -o refused.png --up z
 for option in "--retile" "--bump 0.1" "--cache kept2"; do
     refused "the domain is not a model" run -q spots.cascade -o refused.png $option
 done
-refused "no model is written with its maps" run -q spots.cascade -o refused.png --bake 64
+refused "this option writes maps of a model, but no such model is written" run -q spots.cascade -o refused.png --bake 64
 refused "the domain is not a surface" run -q spots.cascade -o refused.png --turntable 4
 [ ! -e kept2 ] || fail "a folder was made for a plane"
-refused "no model is written that it could tile" $model -o refused.png --retile
-refused "no model is written that it could tile" $model -o refused.npz --retile
-refused "no model is written with its maps" $model -o refused.ply --bake 64
+refused "--retile needs a model, but no model is written" $model -o refused.png --retile
+refused "--retile needs a model, but no model is written" $model -o refused.npz --retile
+refused "this option writes maps of a model, but no such model is written" $model -o refused.ply --bake 64
 refused "no picture is drawn" $model -o refused.ply --turntable 4
 refused "the cells of a model have no rows and columns" $model -o refused.png --flat
 refused "the cells of a model have no rows and columns" $model -o refused.png --sheet refused.s.png
@@ -305,7 +305,7 @@ refused "the cells of a model have no rows and columns" $model -o refused.png --
 refused "the cells of a model have no rows and columns" $model -o refused.png --features
 refused "the cells of a model have no rows and columns" $model -o refused.png --space-time
 run 3 $model -o twice.png -o ./twice.png
-says err "the picture and the picture are both to be written to"
+says err "the picture and the picture would both be written to"
 run 3 $model -o no/such/folder.ply
 says err "no/such"
 run 3 $model -o big.png --scale 64

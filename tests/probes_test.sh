@@ -61,13 +61,13 @@ refused() {
     says err "$3"
     [ ! -e refused.csv ] || fail "a log is written"
 }
-plane='a place in this domain has x from 0 to 1, y from 0 to 0.4'
+plane='this position is not in the domain, which has x from 0 to 1, y from 0 to 0.4'
 for place in '0.5' '0.5, 0.5' '0.5, -0.1' '0.5, nan' '0.5, y' '0.1, 0.1, 0.1' ''; do
     refused plane.cascade "u at ($place)" "$plane"
 done
-says err "'u at (0.5, 0.2)' reads the cell in the middle"
+says err "write 'u at (0.5, 0.2)' for the cell in the middle"
 refused plane.cascade 'q at (0.5, 0.2)' "'q' is not"
-refused line.cascade 'u at (0.5, 0.5)' 'a place in this domain has x from 0 to 1'
+refused line.cascade 'u at (0.5, 0.5)' 'this position is not in the domain, which has x from 0 to 1'
 echo 'domain { surface: sphere; cells: 50 } stage a: gray_scott { iterations: 1 }' | sed 's/} stage/}\nstage/' >model.cascade
-refused model.cascade 'u at (0.5, 0.5)' 'only cells of a flat grid are read at a place'
+refused model.cascade 'u at (0.5, 0.5)' 'a value at a position can be read only from fields on a plane or in a volume'
 exit 0

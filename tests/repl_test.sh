@@ -111,7 +111,7 @@ cmp later/t.a.npy gone_on/t.a.npy || fail "a picture's session does not go on"
 "$CASCADE" run live.png --set t.ka=1/50 -o other.png >out 2>err || fail "the script of a picture does not run"
 says err 'its session is not played, because options change the script'
 "$CASCADE" run live.png --frames film >out 2>err && fail "frames of a session"
-says err 'a session is played to its end before anything is written'
+says err 'only the end of a session can be written'
 # The log of a session that began with a saved run does not grow it again.
 feed ':load live' ':run 3' ':save resumed.png'
 "$CASCADE" run resumed.png -o own.png >out 2>err || fail "the script of a picture does not run"
@@ -142,7 +142,7 @@ cmp on/s.b.npy resumed/s.b.npy || fail "a painted parameter is lost"
 # Remarks on the result are shown, and that no steps are left.
 feed 'domain { grid: 16, 8 }' 'stage s: gray_scott { u: 1; v: 0; iterations: 50 }' ':run' ':show v' ':run' \
     ':set s.feed=0.05'
-says err "stage 's' ended uniform (u = 1, v = 0): all cells are the same"
+says err "stage 's' ended uniform (u = 1, v = 0), with all cells the same"
 says out '0 in all cells'
 [ "$(grep -c "':init' begins again" err)" = 2 ] || fail "not told that all is over"
 

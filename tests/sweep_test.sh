@@ -73,15 +73,15 @@ for wrong in 0/3 4/3 3 a/b 1/0 1/3/2 -1/3; do
     says err "'$wrong' is not a part of a sweep"
 done
 run 3 sweep spots.cascade $vary --part 1/11 -o wrong
-says err '11 parts are more than the 10 runs of the sweep'
+says err '11 parts are too many for the 10 runs of the sweep'
 run 3 sweep spots.cascade $vary --part 1/2 --film a.gif -o wrong
-says err 'a part of a sweep writes no film'
+says err 'a part of a sweep cannot write a film'
 run 3 sweep spots.cascade $vary --part 1/2 --curve mean -o wrong
-says err 'a part of a sweep draws no curve'
+says err 'a part of a sweep cannot draw a curve'
 run 3 sweep spots.cascade $vary --gather nowhere -o wrong
 says err "'nowhere' holds no results of a sweep"
 run 3 sweep spots.cascade $vary --gather first --fields -o wrong
-says err '--gather copies results, but no fields'
+says err '--fields cannot be used with --gather, which copies results without fields'
 [ ! -e wrong ] || fail "a wrong part has written"
 
 # The job script of the documentation, with a stand-in for Slurm that runs the jobs of an array.
@@ -177,6 +177,6 @@ run 0 run spots.cascade --log ka --log 't + 0.5' --log-every 150 -q
 run 0 run spots.cascade --log ka --log-file numbers.csv
 says out 'wrote numbers.csv'
 run 2 run spots.cascade --log 'a'
-says err 'this differs from cell to cell'
+says err 'this value differs from cell to cell'
 run 0 sweep --help
 echo "sweep: right"

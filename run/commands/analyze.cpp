@@ -59,7 +59,7 @@ private:
         }
         if (analysis.states.empty()) {
             if (spans.empty()) return {};
-            return failure("no flat state was found that parameters could change");
+            return failure("no flat state, with all cells equal, was found");
         }
         const Vector& state = state_to_show(analysis).state.species;
         if (spans.size() == 2) {

@@ -236,22 +236,22 @@ Result<void> check_curve(std::string_view number, std::span<const Variation> var
     }
     for (const auto& [name, count] : cell_counts) known.emplace_back(name);
     if (std::ranges::count(known, number) == 0) {
-        return failure(fmt::format("a sweep has no curve of '{}'", number),
-                       fmt::format("curves: {}", fmt::join(known, ", ")));
+        return failure(fmt::format("a sweep cannot draw a curve of '{}'", number),
+                       fmt::format("curves can be drawn of {}", fmt::join(known, ", ")));
     }
     const std::vector<std::string> names = names_but_seed(varied);
     if (names.empty()) {
         return failure("a curve needs a varied name other than the seed",
-                       "vary one, as in --vary feed=0.02..0.06:9");
+                       "add a name with numbers, as in --vary feed=0.02..0.06:9");
     }
     for (const Ensemble& each : ensembles_of(*count_runs(varied), varied)) {
         if (const auto across = read_number(each.values[0]); across && std::isfinite(*across)) {
             continue;
         }
         return failure(
-            fmt::format("'{}', a value of {}, is not a number, so it cannot be a point of a curve",
+            fmt::format("the value '{}' of {} is not a number, so it cannot be a point of a curve",
                         each.values[0], names[0]),
-            "vary a name with numbers first");
+            "put a name with numbers into the first --vary");
     }
     return {};
 }

@@ -91,10 +91,10 @@ const FilmFrame* FilmCrew::drawn(std::size_t number) const {
 
 Result<void> FilmCrew::add(const FilmFrame& frame) {
     if (frame.width != width_ || frame.height != height_) {
-        note({fmt::format("the film cannot go on: its frames have {} × {} pixels, and this one {} "
-                          "× {}",
+        note({fmt::format("the film ends here: its frames have {} × {} pixels, but the next "
+                          "frame would have {} × {}",
                           width_, height_, frame.width, frame.height),
-              "--until-stage ends the run before it"});
+              "--until-stage can end the run before this frame"});
         for (Film& film : films_) film.writer.reset();
     }
     bool is_taken = false;

@@ -35,10 +35,12 @@ void check_moments(Script& script, const RunRequest& request) {
                              !request.log.expressions.empty() || films_steps(request) ||
                              request.model_files.animate || request.picture.space_time;
     if (!is_observed) {
-        return refuse("nothing is observed over time",
-                      "--series NAME.npy, --log EXPR, --frames FOLDER and -o NAME.gif observe");
+        return refuse("this option needs an output over time, but none is requested",
+                      "add --series NAME.npy, --log EXPR, --frames FOLDER or -o NAME.gif");
     }
-    const std::string hint = "without it the stage's 'interval' counts, in steps";
+    const std::string hint =
+        "leave the option out to observe the stage by steps, at each "
+        "'interval'";
     for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
         const Stage& stage = script.program->stages[k];
         const System& system = script.program->system_of(k);

@@ -37,7 +37,7 @@ public:
         if (rows->empty()) return failure(fmt::format("{} has no names in its first line", file_));
         if (auto good = check_names(rows->front()); !good) return tl::unexpected(good.error());
         if (rows->size() == 1) {
-            return failure(fmt::format("{} has names and no row of values", file_));
+            return failure(fmt::format("{} has names but no row of values", file_));
         }
         if (rows->size() - 1 > most_runs) {
             return failure(fmt::format("{} has more than {} rows", file_, most_runs));
@@ -70,7 +70,9 @@ private:
     Result<void> check_names(const std::vector<CsvCell>& names) {
         for (const CsvCell& name : names) {
             if (name.text.empty()) {
-                return wrong(name, "there is no name", "the first line has a name for each column");
+                return wrong(name, "there is no name",
+                             "write a name for each column in the "
+                             "first line");
             }
             if (name.text.find_first_of(";\t") != std::string::npos) {
                 return wrong(name, "the cells of a table must be separated by commas",
@@ -78,10 +80,10 @@ private:
             }
             if (name.text.find_first_of("=,()\n") != std::string::npos || read_number(name.text)) {
                 return wrong(name, fmt::format("'{}' is not a name", printable(name.text)),
-                             "the first line has names as for --set, such as feed or spots.ka");
+                             "write names as for --set, such as feed or spots.ka");
             }
             if (std::ranges::count(names_, name.text) > 0) {
-                return wrong(name, fmt::format("'{}' has a column already", name.text));
+                return wrong(name, fmt::format("'{}' already has a column", name.text));
             }
             names_.push_back(name.text);
         }
@@ -92,7 +94,7 @@ private:
     Result<void> check_row(const std::vector<CsvCell>& row) {
         if (row.size() != names_.size()) {
             return wrong(row.size() < names_.size() ? row.back() : row[names_.size()],
-                         fmt::format("this row has {}, and the first line has {}",
+                         fmt::format("this row has {}, but the first line has {}",
                                      counted(static_cast<std::int64_t>(row.size()), "cell"),
                                      names_.size()));
         }
@@ -113,7 +115,7 @@ private:
         const auto number = read_number(cell.text);
         if (!number || !std::isfinite(*number)) {
             return wrong(cell, fmt::format("'{}' is not a number", printable(cell.text)),
-                         "a cell is a number such as 0.025, 2e-3 or 1/40");
+                         "every cell must be a number such as 0.025, 2e-3 or 1/40");
         }
         if (name != "seed" || read_seed(cell.text)) return {};
         return wrong(cell, fmt::format("'{}' is not a seed", cell.text), what_seeds_are);

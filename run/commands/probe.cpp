@@ -77,8 +77,10 @@ bool Probes::take(Script& script, const std::string& option, const std::string& 
     };
     const DomainSettings& domain = script.program->domain;
     if (domain.model || domain.surface || has_cells(script)) {
-        return refuse("only cells of a flat grid are read at a place",
-                      "--series NAME.h5 has all cells, with their positions");
+        return refuse(
+            "a value at a position can be read only from fields on a plane or in a "
+            "volume",
+            "use --series NAME.h5 for all cells and their positions");
     }
     const std::vector<double> lengths = lengths_of(domain.grid);
     if (!is_within(numbers, lengths)) {
@@ -88,9 +90,10 @@ bool Probes::take(Script& script, const std::string& option, const std::string& 
             ranges.push_back(fmt::format("{} from 0 to {:.4g}", names[k], lengths[k]));
             middle.push_back(fmt::format("{:.4g}", lengths[k] / 2));
         }
-        return refuse(fmt::format("a place in this domain has {}", fmt::join(ranges, ", ")),
-                      fmt::format("'{} at ({})' reads the cell in the middle", text.substr(0, at),
-                                  fmt::join(middle, ", ")));
+        return refuse(fmt::format("this position is not in the domain, which has {}",
+                                  fmt::join(ranges, ", ")),
+                      fmt::format("write '{} at ({})' for the cell in the middle",
+                                  text.substr(0, at), fmt::join(middle, ", ")));
     }
     std::array<double, 3> place{};
     std::copy(numbers.begin(), numbers.end(), place.begin());

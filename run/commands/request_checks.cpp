@@ -20,8 +20,8 @@ namespace {
 
 constexpr const char* not_a_model = "the domain is not a model";
 constexpr const char* how_to_get_a_model =
-    "--mesh FILE, or mesh: \"FILE\" in the domain, makes it one";
-constexpr const char* shows_every_interval = "--frames writes a picture each interval";
+    "write mesh: \"FILE\" in the domain, or run with --mesh FILE";
+constexpr const char* shows_every_interval = "--frames FOLDER writes a picture at each interval";
 
 template <typename Which>
 std::string how_to_write(Which which) {
@@ -100,33 +100,31 @@ private:
         const std::int64_t rows = domain_.grid.height * domain_.grid.depth;
         if (rows != 1 && !domain_.model) {
             refuse({space_time},
-                   fmt::format("a space-time picture is drawn of a grid of one row, not of {}",
-                               rows),
+                   fmt::format("a space-time picture needs a grid of one row, not of {}", rows),
                    fmt::format("for a plane, {}", shows_every_interval));
         }
         std::error_code error;
         refuse_if(is_called_like_a_movie(request_.frames) &&
                       !std::filesystem::is_directory(request_.frames, error),
-                  frames, "frames are pictures in a folder, and this is named like a film",
+                  frames, "--frames writes pictures into a folder, but this is the name of a film",
                   is_film(request_.frames)
                       ? fmt::format("-o {} writes a film", request_.frames.string())
                       : "-o NAME.mp4 writes a film");
         const bool is_csv = is_of_format(request_.series, FileFormat::csv);
         refuse_if(is_csv && (rows != 1 || domain_.model), series,
-                  "a .csv series has a row of cells",
-                  "--series NAME.npy has planes, volumes and models, too");
+                  "a .csv series can hold only one row of cells",
+                  "use --series NAME.npy for planes, volumes and models");
         if (request_.series.empty() || is_of_format(request_.series, FileFormat::pvd)) {
-            refuse({field}, "no array of fields is written",
-                   "--series NAME.npy writes one, NAME.h5 a dataset for each, and NAME.csv a table "
-                   "of a line of cells");
+            refuse({field}, "--field needs a series in an .npy, .h5 or .csv file",
+                   "add --series NAME.npy or NAME.h5, or for a line of cells NAME.csv");
         }
         if (!is_volume)
             refuse({slice, slices}, "a plane has no slices", "grid: W, H, D makes a volume");
         if (!is_volume && !domain_.model && !can_hold(request_.volume, FormatTrait::planes)) {
             refuse({volume},
-                   fmt::format("a {} file holds a volume, and this is a plane",
+                   fmt::format("a {} file can hold only a volume, but this grid is a plane",
                                lower_ending(request_.volume)),
-                   fmt::format("--volume NAME{} writes planes, too; grid: W, H, D makes a volume",
+                   fmt::format("use --volume NAME{} for a plane; grid: W, H, D makes a volume",
                                endings_of(FormatTrait::planes, "or")));
         }
     }
@@ -134,20 +132,20 @@ private:
     /// Refuses outputs that need rows and columns, because the cells of a model have none.
     void check_on_model() {
         const std::string message = "the cells of a model have no rows and columns";
-        refuse({flat}, message, "-o model.ply has the pattern without light");
+        refuse({flat}, message, "use -o model.ply for the pattern without light");
         refuse({space_time}, message, shows_every_interval);
-        refuse({sheet}, message, "--show a draws another species");
-        refuse({volume}, message, "-o model.vtp has all species for ParaView");
+        refuse({sheet}, message, "use --show a to draw another species");
+        refuse({volume}, message, "use -o model.vtp for all species in ParaView");
         refuse({features}, message);
         check_model_files();
         if (maps_said(script_, request_.picture.bump != 0).heights) return;
         refuse({displace}, "the surface has no heights",
-               "height: e in the picture block gives them, or --bump");
+               "write height: e in the picture block, or use --bump");
     }
 
     void check_on_plane() {
         const std::string message = "the domain is not a surface";
-        const std::string hint = "surface: x, y, z in the domain makes one";
+        const std::string hint = "write surface: x, y, z in the domain for a surface";
         const bool shows_slice = picture_expression(script_.tree, "body").has_value();
         refuse_if(request_.picture.flat && !shows_slice, flat, message, hint);
         refuse({view, fov, ground, background, quality, lighting}, message, hint);
@@ -160,10 +158,10 @@ private:
         const std::string message = "cells that crawl have no rows and columns";
         refuse({space_time}, message, shows_every_interval);
         refuse({flat, features, retile}, message);
-        refuse({bump}, message, "a shape has a height");
-        refuse({sheet}, message, "--show e draws another value");
+        refuse({bump}, message, "write height: e in the picture block for the height of shapes");
+        refuse({sheet}, message, "use --show e to draw another value");
         refuse({volume, series}, message,
-               "-o NAME.cells.vtp has all values at the end, for ParaView");
+               "use -o NAME.cells.vtp for all values at the end, in ParaView");
         if (domain_.model) check_model_files();
         else check_without_surface();
         const std::string copies_of_shapes = "cells that crawl are written as copies of shapes";
@@ -173,12 +171,13 @@ private:
             refuse_output(output, copies_of_shapes,
                           output_of(FormatTrait::copies) + " writes them");
         }
-        refuse({lods}, copies_of_shapes,
-               "'detail' in the picture block says how fine the shapes are");
-        refuse({displace}, copies_of_shapes, "--bake writes their heights as a map");
-        refuse({animate}, copies_of_shapes, "-o NAME.gif and other films show how they move");
-        refuse({texels_per_cell}, "cells that crawl have sizes of their own",
-               "--bake N says how many texels");
+        refuse({lods}, copies_of_shapes, "write detail: 0.2 in the picture block for finer shapes");
+        refuse({displace}, copies_of_shapes, "use --bake to write the heights as a map");
+        refuse({animate}, copies_of_shapes, "use -o NAME.gif for a film of the moving cells");
+        refuse({texels_per_cell},
+               "cells that crawl differ in size, so their size in texels "
+               "cannot be set",
+               "use --bake N for maps of N x N texels");
     }
 
     /// Refuses options that need a model, if there are bodies or crawling cells without a model.
@@ -202,15 +201,15 @@ private:
         refuse_if(!has_output([&](const auto& output) { return files_.is_animated(output); }),
                   animate, "no model is written that could move",
                   how_to_write(FormatTrait::growth));
-        refuse_if(files_.has_maps(), animate, "maps do not move",
-                  fmt::format("leave out {}: colours of points do",
+        refuse_if(files_.has_maps(), animate, "a model with maps cannot be animated",
+                  fmt::format("leave out {}: colours of points can be animated",
                               flag_of(is_given(request_, bake) ? bake : texels_per_cell)));
-        refuse_if(files_.levels > 1, animate, "levels of detail do not move", "leave out --lods");
-        refuse_if(files_.retile, animate, "the triangles of --retile do not move",
+        refuse_if(files_.levels > 1, animate, "levels of detail cannot be animated",
+                  "leave out --lods");
+        refuse_if(files_.retile, animate, "the triangles of --retile cannot be animated",
                   "leave out --retile");
-        refuse_if(writes_one_moment(request_), animate,
-                  "a session is played to its end before anything is written",
-                  "a run of its script shows how it grows");
+        refuse_if(writes_one_moment(request_), animate, "only the end of a session can be written",
+                  "run the session's script to see how the pattern grows");
     }
 
     /// On a model: refuses options that apply to files which are not requested.
@@ -225,34 +224,37 @@ private:
         const bool has_picture =
             request_.outputs.empty() || has_output_of(FormatKind::picture) || has_output(is_film);
         if (!is_tiled) {
-            refuse({retile}, "no model is written that it could tile",
+            refuse({retile}, "--retile needs a model, but no model is written",
                    how_to_write(FormatKind::model));
         }
         check_levels();
         if (!has_output(is_baked)) {
-            refuse({bake, texels_per_cell}, "no model is written with its maps",
+            refuse({bake, texels_per_cell},
+                   "this option writes maps of a model, but no such "
+                   "model is written",
                    how_to_write(FormatTrait::maps));
-            refuse({exr}, "no maps are written", how_to_write_maps());
+            refuse({exr}, "--exr needs maps, but no maps are written", how_to_write_maps());
         }
         if (!has_texture) {
             refuse({unwrap},
                    files_.retile && is_tiled
                        ? "the triangles of --retile have no texture coordinates"
-                       : "no model is written that has texture coordinates",
+                       : "--unwrap needs a model file with texture coordinates, but none is "
+                         "written",
                    how_to_write(FormatTrait::texture));
         }
         check_animated();
         if (has_picture) return;
         refuse({turntable}, "no picture is drawn",
-               "-o NAME.png draws pictures NAME-001.png, …, and -o NAME.gif a film");
+               "add -o NAME.png for pictures NAME-001.png, …, or -o NAME.gif for a film");
     }
 
     /// Checks the outputs of a body. A body has a surface, but the surface has no cells.
     void check_of_body() {
         for (const auto& output : request_.outputs) {
             if (!is_of_kind(output, FormatKind::cells)) continue;
-            refuse_output(output, "only models are written to such files",
-                          "--volume FILE.vti has all species of a volume");
+            refuse_output(output, "only models can be written to such files",
+                          "use --volume FILE.vti for all species of a volume");
         }
         check_without_surface();
         check_cells_of_model();
@@ -269,17 +271,21 @@ private:
             const bool has_maps = is_plane && can_hold(output, FormatTrait::maps);
             if (has_maps && files_.has_maps()) continue;
             refuse_output(output,
-                          fmt::format("only models are written to such files, and {}", not_a_model),
-                          has_maps ? "--bake N writes a rectangle with maps of N texels"
+                          fmt::format("only models can be written to such files, but {}",
+                                      not_a_model),
+                          has_maps ? "add --bake N for a rectangle with maps of N x N texels"
                                    : how_to_get_a_model);
         }
         check_cells_of_model();
         refuse({lods}, not_a_model, how_to_get_a_model);
         if (!is_plane) return check_without_surface();
         refuse({unwrap}, not_a_model, how_to_get_a_model);
-        if (!files_.has_maps()) refuse({exr}, "no maps are written", how_to_write_maps());
+        if (!files_.has_maps())
+            refuse({exr}, "--exr needs maps, but no maps are written", how_to_write_maps());
         if (!has_model) {
-            refuse({bake, texels_per_cell}, "no model is written with its maps",
+            refuse({bake, texels_per_cell},
+                   "this option writes maps of a model, but no such "
+                   "model is written",
                    output_of(FormatTrait::maps) + " writes a rectangle with them");
         }
     }
@@ -288,17 +294,19 @@ private:
     void check_flat_picture() {
         const PictureRequest& picture = request_.picture;
         if (draws_scene(script_, picture)) {
-            refuse({copies}, "only planes are drawn in copies",
-                   "of a surface by a formula, --flat draws the texture alone");
+            refuse({copies}, "only planes can be drawn in copies",
+                   "on a surface given by formulas, add --flat to draw only the texture");
             return;
         }
         if (picture.space_time) {
-            refuse({size}, "a space-time picture has a pixel for each cell and interval",
-                   "--scale N draws them as N x N pixels");
-            refuse({copies}, "a space-time picture has no copies");
+            refuse({size},
+                   "the size of a space-time picture is fixed: one pixel for each cell "
+                   "and interval",
+                   "use --scale N to draw each of them as N x N pixels");
+            refuse({copies}, "a space-time picture cannot be drawn in copies");
         }
         const auto [columns, rows] = sides_that_repeat(domain_.grid, picture.slice);
-        const std::string hint = "a domain with boundary: periodic repeats";
+        const std::string hint = "write boundary: periodic in the domain";
         refuse_if(picture.copies.across > 1 && !columns, copies,
                   "the pattern does not repeat across its left and right sides", hint);
         refuse_if(picture.copies.down > 1 && !rows, copies,
@@ -314,18 +322,17 @@ private:
             refuse({fps, seconds}, message, how_to_write(FormatKind::film));
         }
         if (request_.frames.empty() && !films_steps(request_)) {
-            refuse({label}, "no frames of a run are drawn",
-                   "--frames FOLDER and -o NAME.gif draw them");
+            refuse({label}, "--label needs frames or a film, but none is written",
+                   "add --frames FOLDER or -o NAME.gif");
         }
         if (!has_film) return;
-        refuse({space_time}, "a space-time picture is one picture, and no film",
-               "-o NAME.png draws it");
+        refuse({space_time}, "a space-time picture cannot be written as a film", "use -o NAME.png");
         for (const auto& output : request_.outputs) {
             if (is_film(output)) check_film_format(output);
         }
         if (writes_one_moment(request_) && films_steps(request_)) {
-            refuse_output(first_film(), "a session is played to its end before anything is written",
-                          "of a surface, --turntable N films its end from all around");
+            refuse_output(first_film(), "only the end of a session can be written",
+                          "on a surface, add --turntable N to film the end from all sides");
         }
     }
 
@@ -344,20 +351,24 @@ private:
         if (request_.picture.detail == 1) return;
         const auto& model = domain_.model;
         const auto& mask = domain_.mask;
-        refuse_if(has_cells(script_), detail, "cells that crawl have no finer cells",
-                  "--size draws them larger");
+        refuse_if(has_cells(script_), detail, "cells that crawl cannot be divided into finer cells",
+                  "use --size for a larger picture");
         refuse_if(model && model->cells != ModelCellKind::spread, detail,
                   "cells that are faces or points of a model cannot be divided",
-                  "--cells 20000 spreads cells, which can");
+                  "use --cells 20000 to spread cells that can be divided");
         refuse_if(mask && std::any_of(mask->formula.nodes.begin(), mask->formula.nodes.end(),
                                       is_draw_in_cell),
-                  detail, "the mask draws a random number in each cell",
-                  "noise(…) has the same outlines in finer cells");
-        refuse_if(writes_one_moment(request_), detail, "a session ends with its own cells",
-                  "-o tile.glb --bake 2048 writes smooth maps of a plane");
+                  detail,
+                  "--detail cannot keep this mask, which draws a random number in each "
+                  "cell",
+                  "use noise(…), whose outlines stay the same in finer cells");
+        refuse_if(writes_one_moment(request_), detail,
+                  "the end of a session cannot be carried "
+                  "to finer cells",
+                  "use -o tile.glb --bake 2048 for smooth maps of a plane");
         const std::string message =
-            "it shows every step, and only the end is carried to finer cells";
-        const std::string hint = "a script with a finer grid shows all steps on it";
+            "this output shows the whole run, but --detail computes finer cells only at the end";
+        const std::string hint = "use a finer grid in the script instead";
         refuse({frames, series, animate, space_time}, message, hint);
         if (films_steps(request_)) refuse_output(first_film(), message, hint);
     }
@@ -365,7 +376,8 @@ private:
     void check_panels() {
         constexpr std::size_t most = 26;  // Panels are labelled with the letters of the alphabet.
         if (!has_output_of(FormatKind::figure)) {
-            refuse({panel}, "no figure is drawn", output_of(FormatKind::figure) + " draws one");
+            refuse({panel}, "--panel needs a figure, but no figure is drawn",
+                   output_of(FormatKind::figure) + " draws one");
         }
         refuse_if(request_.panels.size() > most, panel,
                   fmt::format("a figure has at most {} panels", most));
@@ -374,8 +386,8 @@ private:
     /// For a repeated session: refuses outputs that are written while a run takes its steps.
     void check_with_session() {
         refuse({frames, series, space_time, log, at, every, stop_at, checkpoint},
-               "a session is played to its end before anything is written",
-               "'cascade repl' plays it and continues from there");
+               "only the end of a session can be written",
+               "use 'cascade repl' to play the session and continue it");
     }
 
     Script& script_;

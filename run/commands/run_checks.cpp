@@ -134,7 +134,7 @@ Result<void> check_outputs(const Script& script, const RunRequest& request,
                                return a.path.lexically_normal() == b.path.lexically_normal();
                            });
     if (twice == files.end()) return {};
-    return failure(fmt::format("{} and {} are both to be written to {}", twice[0].what,
+    return failure(fmt::format("{} and {} would both be written to {}", twice[0].what,
                                twice[1].what, twice->path.string()));
 }
 
@@ -150,7 +150,7 @@ Result<void> check_film_sizes(const Script& script, const RunRequest& request,
     if (request.labels.empty() || has_room_for_caption(size.width, size.height)) return {};
     return failure(fmt::format("frames of {} × {} pixels have no room for a label", size.width,
                                size.height),
-                   "a larger --scale or --size makes room");
+                   "use a larger --scale or --size");
 }
 
 Result<void> check_folders(const RunRequest& request, Folders folders) {
@@ -183,14 +183,14 @@ void check_stop_at(Script& script, const StopAt& wanted) {
     if (!stage) return;
     if (*stage >= script.stage_count()) {
         script.diagnostics.error(span, fmt::format("stage '{}' does not run", wanted.stage),
-                                 "--until-stage ends the run before it");
+                                 "--until-stage ends the run before this stage");
         return;
     }
     const std::int64_t iterations = script.program->stages[*stage].iterations;
     if (wanted.step <= iterations) return;
     span.begin = length + 1;
     script.diagnostics.error(span,
-                             fmt::format("stage '{}' has {} steps", wanted.stage, iterations));
+                             fmt::format("stage '{}' has only {} steps", wanted.stage, iterations));
 }
 
 }  // namespace cascade

@@ -32,7 +32,7 @@ Result<void> check_rows(const Script& script, const LogRequest& request) {
         if (is_known) rows += every > 0 ? stage.iterations / every : 10;
         if (rows <= most_log_rows) continue;
         return failure(fmt::format("the log would have more than {} rows", most_log_rows),
-                       "write a row after more steps, with --log-every");
+                       "use --log-every with more steps from one row to the next");
     }
     return {};
 }

@@ -161,7 +161,7 @@ Result<void> RunResults::write_growth(const std::filesystem::path& path) {
     if (frames->count() == 0) {
         return failure(fmt::format("'{}' has no moments, because the run took no step",
                                    path.string()),
-                       "there is one at the start of a stage and at each 'interval'");
+                       "a moment is written at the start of a stage and at each 'interval'");
     }
     FilmPlan plan = film_plan(request.film, frames->count(), false, ModelGrowth::most);
     const auto look_of = [&](std::size_t k) -> Result<ModelLook> {
@@ -291,8 +291,7 @@ Result<void> RunResults::write(const Canvas& canvas, const Early& early) {
     if (!request.save.empty() && early.saved) report.written.push_back(request.save);
     if (painter.fell_back() && control.warn) {
         control.warn(
-            "where the picture names a stage that has not run, the default picture is "
-            "drawn instead");
+            "the picture reads a stage that has not run, so the default picture is drawn instead");
     }
     if (!first) return {};
     if (!report.written.empty()) {

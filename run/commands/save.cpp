@@ -71,7 +71,9 @@ Result<void> take_model(Overrides& saved, const Overrides& changes) {
         return std::filesystem::path(path).filename();
     };
     if (!saved.model || name(*saved.model) != name(*changes.model)) {
-        return failure("a resumed run keeps its model", "--mesh can only give its new location");
+        return failure("a resumed run cannot change its model",
+                       "use --mesh only for the new "
+                       "location of the same model");
     }
     saved.model = changes.model;
     saved.model_is_asked_for = changes.model_is_asked_for;
@@ -100,7 +102,7 @@ Result<Script> load_saved_script(const std::filesystem::path& folder, const Over
     if (!changes.sets.empty() || changes.grid || changes.seed || changes.solver ||
         changes.precision || changes.fast || changes.cells || changes.up || changes.facing) {
         return failure(
-            "a resumed run keeps its grid, seed, precision, rounding, parameters and solver",
+            "a resumed run cannot change its grid, seed, precision, rounding, parameters or solver",
             "--steps, --until-stage and --allow-read can change, and --mesh can give the new "
             "location of the same model");
     }

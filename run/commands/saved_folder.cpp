@@ -101,7 +101,7 @@ Result<std::optional<nlohmann::json>> manifest_before(const fs::path& folder) {
     auto json = text && is_small_json(*text) ? nlohmann::json::parse(*text, nullptr, false)
                                              : nlohmann::json();
     if (is_manifest(json)) return json;
-    return failure(fmt::format("'{}' does not belong to a saved run, and is not replaced",
+    return failure(fmt::format("'{}' is not replaced, because it does not belong to a saved run",
                                path.string()),
                    "save into another folder");
 }
@@ -116,7 +116,8 @@ Result<void> check_name(const fs::path& folder, const std::string& name,
     const bool is_known = std::find(before.begin(), before.end(), name) != before.end();
     if (fs::is_regular_file(status) && is_known) return {};
     return failure(
-        fmt::format("'{}' does not belong to the run that is saved there, and is not replaced",
+        fmt::format("'{}' is not replaced, because it does not belong to the run that is saved "
+                    "there",
                     path.string()),
         "save into another folder");
 }
@@ -150,7 +151,7 @@ Result<std::unique_ptr<SavedFolderChange>> SavedFolderChange::begin(const fs::pa
     if (!change->lock_.folder().is_open()) return cannot_write(folder, errno);
     if (change->lock_.is_refused()) {
         return failure(fmt::format("another run is being saved in '{}'", folder.string()),
-                       "save each into a folder of its own");
+                       "save each run into another folder");
     }
     if (auto done = change->tidy(); !done) return tl::unexpected(done.error());
     return change;

@@ -62,7 +62,7 @@ bool check_names(Script& script, const SeriesFields& fields, bool is_hdf5) {
         if (!is_hdf5 || is_hdf5_name(*name)) continue;
         return refuse(
             *name, fmt::format("'{}' cannot be the name of a dataset in a .h5 file", *name),
-            fmt::format("{} 'value={}' gives it another name", option,
+            fmt::format("{} 'value={}' gives the field another name", option,
                         fields.expressions[static_cast<std::size_t>(name - names.begin())]));
     }
     return true;

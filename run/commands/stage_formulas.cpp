@@ -53,7 +53,7 @@ bool StageFormulas::add(Script& script, const std::string& option, const std::st
         if (formula && kind == FormulaKind::uniform &&
             !plan_view(*script.program, *formula, k).is_uniform) {
             script.diagnostics.error(
-                formula->nodes.back().span, "this differs from cell to cell",
+                formula->nodes.back().span, "this value differs from cell to cell",
                 option + " takes one number for all cells, such as mean(e over domain)");
             return false;
         }

@@ -132,8 +132,8 @@ Result<void> check_sweep_film(const SweepRequest& request, const std::atomic<boo
     const bool has_pace = pace.frames_per_second > 0 || pace.seconds > 0;
     if (request.film.empty()) {
         if (!has_pace) return {};
-        return failure("--fps and --seconds are for films, and none is written",
-                       "--film NAME.gif writes one");
+        return failure("--fps and --seconds need a film, but none is written",
+                       "add --film NAME.gif");
     }
     if (auto good = check_writable(request.film); !good) return good;
     if (auto good = check_film(request.film); !good) return good;

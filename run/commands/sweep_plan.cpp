@@ -92,27 +92,27 @@ Result<void> check_curves(const SweepRequest& request) {
 /// Checks what a part, and a sweep that gathers results, leave out.
 Result<void> check_division(const SweepRequest& request, std::size_t runs) {
     if (request.part.count > runs) {
-        return failure(fmt::format("{} parts are more than the {} runs of the sweep",
+        return failure(fmt::format("{} parts are too many for the {} runs of the sweep",
                                    request.part.count, runs),
-                       fmt::format("at most --part 1/{}", runs));
+                       fmt::format("use --part 1/{} at most", runs));
     }
     if (!request.part.is_all() && !request.film.empty()) {
-        return failure("a part of a sweep writes no film",
-                       "the same command without --part writes it, when all parts are done");
+        return failure("a part of a sweep cannot write a film",
+                       "run the same command without --part when all parts are done");
     }
     if (!request.part.is_all() && !request.curves.empty()) {
-        return failure("a part of a sweep draws no curve",
-                       "the same command without --part draws it, when all parts are done");
+        return failure("a part of a sweep cannot draw a curve",
+                       "run the same command without --part when all parts are done");
     }
     if (request.fields && !request.gathered.empty()) {
-        return failure("--gather copies results, but no fields",
-                       "leave --fields out; the fields stay in their folders");
+        return failure("--fields cannot be used with --gather, which copies results without fields",
+                       "leave --fields out: the fields stay in their folders");
     }
     for (const auto& folder : request.gathered) {
         std::error_code error;
         if (std::filesystem::is_directory(folder / "runs", error)) continue;
         return failure(fmt::format("'{}' holds no results of a sweep", folder.string()),
-                       "--gather takes a folder that 'cascade sweep' has written");
+                       "name a folder that 'cascade sweep' has written");
     }
     return {};
 }

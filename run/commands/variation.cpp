@@ -47,7 +47,7 @@ std::optional<Failure> colons_for_dots(std::string_view text, std::string_view n
                            high = trimmed(values.substr(first + 1, last - first - 1)),
                            count = trimmed(values.substr(last + 1));
     if (!read_number(low) || !read_number(high) || !read_number(count)) return {};
-    Failure failure = wrong(text, "two dots separate the ends of a range");
+    Failure failure = wrong(text, "'..' must separate the ends of a range");
     const bool is_count = read_all<std::int64_t>(count).has_value();
     failure.hint = fmt::format("write {}={}..{}:{}", name, low, high, is_count ? count : "COUNT");
     return failure;
@@ -139,10 +139,10 @@ Result<Variation> parse_variation(std::string_view text) {
     }
     if (dots == std::string_view::npos) {
         if (values.find(':') != std::string_view::npos) {
-            return tl::unexpected(wrong(text, "two dots separate the ends of a range"));
+            return tl::unexpected(wrong(text, "'..' must separate the ends of a range"));
         }
         if (values.starts_with('[') && values.ends_with(']')) {
-            return tl::unexpected(wrong(text, "a list has no brackets"));
+            return tl::unexpected(wrong(text, "a list must be written without brackets"));
         }
         variation.values = split_list(values);
         const auto is_empty = [](const std::string& value) { return value.empty(); };
@@ -163,20 +163,23 @@ Result<Variation> parse_variation(std::string_view text) {
     }
     const std::size_t colon = values.rfind(':');
     if (colon == std::string_view::npos || colon < dots) {
-        return tl::unexpected(wrong(text, "a range is followed by ':' and the number of values"));
+        return tl::unexpected(wrong(text,
+                                    "':' and the number of values are missing after the "
+                                    "range"));
     }
     const auto low = read_number(trimmed(values.substr(0, dots)));
     const auto high = read_number(trimmed(values.substr(dots + 2, colon - dots - 2)));
     const auto count = read_all<std::int64_t>(trimmed(values.substr(colon + 1)));
     if (!low || !high || !std::isfinite(*low) || !std::isfinite(*high)) {
-        return tl::unexpected(wrong(text, "the ends of a range are numbers"));
+        return tl::unexpected(wrong(text, "the ends of a range must be numbers"));
     }
     if (!count || *count < 1 || *count > static_cast<std::int64_t>(most_runs)) {
-        return tl::unexpected(wrong(text, fmt::format("a range has 1 to {} values", most_runs)));
+        return tl::unexpected(
+            wrong(text, fmt::format("a range must have 1 to {} values", most_runs)));
     }
     if (distances == Distances::equal_ratios && !(*low * *high > 0)) {
         return tl::unexpected(
-            wrong(text, "the ends of a range with 'log' have one sign, and none is 0"));
+            wrong(text, "with 'log', the ends of a range must be both above 0 or both below 0"));
     }
     variation.values = spread(*low, *high, *count, distances);
     return variation;
@@ -184,7 +187,7 @@ Result<Variation> parse_variation(std::string_view text) {
 
 Result<Variation> parse_seeds(std::string_view text) {
     const auto wrong_seeds = [&](const std::string& why) {
-        return failure(fmt::format("'{}' are no seeds: {}", text, why),
+        return failure(fmt::format("'{}' is not a list of seeds: {}", text, why),
                        "write --seeds 1..50 or --seeds 3,7,12");
     };
     const std::size_t dots = text.find("..");
@@ -201,7 +204,7 @@ Result<Variation> parse_seeds(std::string_view text) {
     if (!first || !last) return wrong_seeds(what_seeds_are);
     if (*last < *first) return wrong_seeds("the first seed is above the last");
     if (*last - *first >= most_runs) {
-        return wrong_seeds(fmt::format("these are more than {} runs", most_runs));
+        return wrong_seeds(fmt::format("the sweep would have more than {} runs", most_runs));
     }
     for (std::uint64_t k = *first; k <= *last; ++k) {
         variation.values.push_back(fmt::format("{}", k));
@@ -224,9 +227,9 @@ Result<VariedRange> parse_varied_range(std::string_view text) {
     const auto low = read_number(trimmed(range.substr(0, dots)));
     const auto high = read_number(trimmed(range.substr(dots + 2)));
     if (!low || !high || !std::isfinite(*low) || !std::isfinite(*high)) {
-        return wrong_range("the ends of a range are numbers");
+        return wrong_range("the ends of a range must be numbers");
     }
-    if (!(*low < *high)) return wrong_range("its first end is not the smaller one");
+    if (!(*low < *high)) return wrong_range("the first end must be the smaller one");
     return VariedRange{name, *low, *high};
 }
 
@@ -246,8 +249,8 @@ Result<std::size_t> count_runs(std::span<const Variation> varied) {
                 fmt::format("'{}' occurs twice in the values of '{}'", twice, varied[k].name));
         }
         if (varied[k].values.size() > most_runs / runs) {
-            return failure(fmt::format("these are more than {} runs", most_runs),
-                           "vary less, or in larger steps");
+            return failure(fmt::format("the sweep would have more than {} runs", most_runs),
+                           "use fewer values or larger steps between them");
         }
         runs *= varied[k].values.size();
     }

@@ -57,7 +57,7 @@ std::optional<double> read_number(std::string_view text);
 /// A seed: a whole number from 0 to 4294967295. Empty for any other text.
 std::optional<std::uint32_t> read_seed(std::string_view text);
 /// The hint of messages about other texts.
-inline constexpr const char* what_seeds_are = "seeds are whole numbers from 0 to 4294967295";
+inline constexpr const char* what_seeds_are = "a seed must be a whole number from 0 to 4294967295";
 
 /// The number of runs, which is the number of all combinations of values. Fails if a name is varied
 /// twice, if a value is listed twice, or if there are more than `most_runs` runs.

@@ -118,7 +118,7 @@ private:
             text.span,
             fmt::format("'{}' has {} slices, but the position has only two numbers",
                         script_.program->literals->text(text_of(text)), array.slices),
-            "a third number, from 0 to 1, selects a point between the first and the last slice");
+            "add a third number, from 0 to 1, for a point between the first and the last slice");
         return false;
     }
 

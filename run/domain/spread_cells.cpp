@@ -215,7 +215,7 @@ Result<void> CellRequest::check(const SurfaceMesh& mesh) const {
     if (bytes > static_cast<double>(available_memory())) {
         return failure(fmt::format("making these cells takes {}, more than is free",
                                    with_unit(bytes, "B")),
-                       "fewer cells: --cells");
+                       "use fewer cells with --cells");
     }
     return check_cells(mesh, options);
 }

@@ -258,7 +258,7 @@ Result<const PointAttribute*> find_attribute(const std::string& name, const Surf
         names.push_back(attribute.name);
     }
     const std::string near = nearest_name(name, names);
-    return failure(fmt::format("the model's points have no '{}'", name),
+    return failure(fmt::format("the model's points have no attribute '{}'", name),
                    !near.empty()   ? fmt::format("did you mean '{}'?", near)
                    : names.empty() ? std::string("they have no attributes")
                                    : fmt::format("they have {}", fmt::join(names, ", ")));

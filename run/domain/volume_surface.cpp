@@ -77,7 +77,8 @@ public:
                 return failure(
                     fmt::format("'{}' has {} slices, but the position has only two numbers",
                                 short_name(name), array->slices),
-                    "a third number, from 0 to 1, selects a point between the first and the last slice");
+                    "add a third number, from 0 to 1, for a point between the first and the last "
+                    "slice");
             }
             volumes_.emplace(text, Volume(*std::move(array), half));
         }

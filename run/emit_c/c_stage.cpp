@@ -86,8 +86,8 @@ private:
             program_.system_of(item->stage).is_species(item->item) &&
             !program_.stages[item->stage].sides.empty()) {
             error_ = fmt::format(
-                "stage '{}' reads {} at its neighbours, whose sides are rules of "
-                "that stage, which are not compiled with this one",
+                "stage '{}' reads {} in neighbouring cells, but the sides of that stage cannot "
+                "be compiled with this one",
                 stage_.name, tables_.item_path(*item));
         }
         return request_.name + "_boundary";

@@ -115,29 +115,30 @@ Result<Scheme> fixed_scheme(const Program& program, std::uint32_t k,
     const std::string name(name_of(stage.time.solver));
     if (is_adaptive(stage.time.solver)) {
         return failure(
-            fmt::format("stage '{}' is solved by {}, which chooses its steps during the run, "
-                        "but compiled steps are of one length",
+            fmt::format("stage '{}' is solved by {}, which chooses its steps during the run, but "
+                        "all compiled steps have the same length",
                         stage.name, name),
-            "--solver rk4 takes such steps");
+            "use --solver rk4");
     }
     if (is_semi_implicit(stage.time.solver)) {
         return failure(
-            fmt::format("stage '{}' is solved by {}, which takes waves of the whole grid and no "
-                        "cells",
+            fmt::format("stage '{}' is solved by {}, which computes all cells of the grid "
+                        "together and cannot be compiled",
                         stage.name, name),
-            "--solver rkl1 --stages 7 compiles long steps");
+            "use --solver rkl1 --stages 7 for long steps");
     }
     if (stage.time.automatic_speed) {
         return failure(
-            fmt::format("stage '{}' chooses its steps during the run, but compiled steps are "
-                        "of one length",
+            fmt::format("stage '{}' chooses its steps during the run, but all compiled steps "
+                        "have the same length",
                         stage.name),
-            asked_solver ? fmt::format("--set {}.solver={} keeps its speed", stage.name, name)
-                         : fmt::format("--set {}.speed=… is that length", stage.name));
+            asked_solver
+                ? fmt::format("use --set {}.solver={}, which keeps the speed", stage.name, name)
+                : fmt::format("use --set {}.speed=… for this length", stage.name));
     }
     if (stage.time.every > 0) {
-        return failure(fmt::format("steps of stage '{}' end at multiples of 'every', but compiled "
-                                   "steps are of one length",
+        return failure(fmt::format("steps of stage '{}' end at multiples of 'every', but all "
+                                   "compiled steps have the same length",
                                    stage.name),
                        "write 'interval', which counts steps");
     }
@@ -145,11 +146,11 @@ Result<Scheme> fixed_scheme(const Program& program, std::uint32_t k,
         return failure(fmt::format("stage '{}' is solved by {}, which chooses the number of its "
                                    "stages as it runs, but a compiled step has a fixed number",
                                    stage.name, name),
-                       "--stages N says how many: an odd number");
+                       "use --stages N with an odd number");
     }
     if (stages && !is_stabilised(stage.time.solver)) {
-        return failure(
-            fmt::format("--stages: {} has no stages to choose; rkl1 and rkl2 have", name));
+        return failure(fmt::format(
+            "--stages: {} has no stages to choose; only rkl1 and rkl2 have stages", name));
     }
     const ItemId speed = program.system_of(k).speed_item();
     if (!stage.uniform[speed] && !takes_speed_by_cell(stage.time.solver)) {
@@ -196,48 +197,49 @@ Result<SizedStages> with_sizes(Script& script, const std::string& asked,
 /// Fails if the header cannot express the domain or the stage.
 Result<void> check_header_knows(const Program& program, std::uint32_t stage) {
     if (program.domain.model) {
-        return failure("a stage on a model is not compiled to an object file",
-                       "'cascade run' compiles it in memory; --grid makes its domain a plane");
+        return failure("a stage on a model cannot be compiled to an object file",
+                       "use 'cascade run', or --grid for a plane as the domain");
     }
     if (program.domain.precision != Precision::single) {
-        return failure("a stage in double precision is not compiled to an object file",
-                       "'cascade run' compiles it in memory; --precision single is compiled");
+        return failure("a stage in double precision cannot be compiled to an object file",
+                       "use 'cascade run', or --precision single");
     }
     const StepPlan rates = plan_rates(program, stage, {});
     for (const Pass& pass : rates.passes) {
         if (pass.convolutions.empty() && pass.solves.empty()) continue;
-        return failure(fmt::format("stage '{}' has a {}, which is not compiled to an object file",
+        return failure(fmt::format("stage '{}' has a {}, which cannot be compiled to an object "
+                                   "file",
                                    program.stages[stage].name,
                                    pass.solves.empty() ? "convolution" : "constraint"),
-                       "'cascade run' compiles it in memory");
+                       "use 'cascade run' instead");
     }
     for (const auto& sides : program.stages[stage].sides) {
         for (std::size_t side = 0; side < side_count; ++side) {
             if (!takes_value(sides[side].kind)) continue;
             if (!plan_side(program, sides[side], static_cast<Side>(side), stage).changes) continue;
             return failure(
-                fmt::format("stage '{}' has a side whose value changes while it runs, which is "
-                            "not compiled to an object file",
+                fmt::format("stage '{}' has a side whose value changes while it runs, which "
+                            "cannot be compiled to an object file",
                             program.stages[stage].name),
-                "'cascade run' compiles it in memory");
+                "use 'cascade run' instead");
         }
     }
     if (!program.stages[stage].definition_sides.empty()) {
         return failure(
-            fmt::format("stage '{}' has a side of a definition, which is not compiled to "
-                        "an object file",
+            fmt::format("stage '{}' has a side of a definition, which cannot be compiled to an "
+                        "object file",
                         program.stages[stage].name),
-            "'cascade run' compiles it in memory");
+            "use 'cascade run' instead");
     }
     if (program.stages[stage].coarse > 1) {
-        return failure(fmt::format("stage '{}' runs on a coarser grid, which is not compiled to an "
-                                   "object file",
+        return failure(fmt::format("stage '{}' runs on a coarser grid, which cannot be compiled "
+                                   "to an object file",
                                    program.stages[stage].name),
-                       "'cascade run' compiles it in memory");
+                       "use 'cascade run' instead");
     }
     if (program.domain.mask) {
-        return failure("a domain with a mask is not compiled to an object file",
-                       "'cascade run' compiles it in memory");
+        return failure("a domain with a mask cannot be compiled to an object file",
+                       "use 'cascade run' instead");
     }
     return {};
 }
@@ -246,7 +248,7 @@ Result<void> check_header_knows(const Program& program, std::uint32_t stage) {
 
 Result<CompiledStep> compile_step(Script& script, const CompileRequest& request) {
     if (script.program->stages.empty()) return failure("this script has no stage to compile");
-    if (auto good = check_for_fields(script, "C is made of"); !good) {
+    if (auto good = check_for_fields(script, "C can be written only for"); !good) {
         return tl::unexpected(good.error());
     }
     auto sized = with_sizes(script, request.stage.value_or("1"), request.kernel_cache);

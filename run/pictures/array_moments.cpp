@@ -69,7 +69,7 @@ Result<WrittenSeries> ArraySeries::finish() {
     if (moments_ == 0) {
         return failure(fmt::format("'{}' has no moments, because the run took no step",
                                    path_.string()),
-                       "there is one at the start of a stage and at each 'interval'");
+                       "a moment is written at the start of a stage and at each 'interval'");
     }
     if (auto done = complete(); !done) return tl::unexpected(done.error());
     return WrittenSeries{files_of_series(path_), 0};

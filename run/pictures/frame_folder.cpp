@@ -59,7 +59,8 @@ Result<std::vector<std::filesystem::path>> earlier_frames(const std::filesystem:
     if (is_resumed && !frames.empty()) {
         return failure(fmt::format("the folder '{}' holds frames of an earlier run",
                                    folder.string()),
-                       "name another folder with --frames: a resumed run begins its own numbers");
+                       "name another folder with --frames, because a resumed run numbers its "
+                       "frames from the start");
     }
     for (const auto& frame : frames) {
         const auto drawn = read_embedded_script(frame);

@@ -82,7 +82,7 @@ void FrameRecorder::record(const Canvas& canvas, const std::string& stage, std::
         if (canvas.body) is_kept = is_kept && keep_body(*canvas.body, frames_.back());
         if (!is_kept) {
             failure_ = Failure{"the frames do not fit into the folder for temporary files",
-                               "ask for a larger interval"};
+                               "use a larger 'interval'"};
             return;
         }
     }

@@ -33,8 +33,8 @@ std::string describe_spare_texels(std::int64_t side, double texels_of_cell) {
     if (!(along > most)) return {};
     const auto needed = static_cast<std::uint64_t>(static_cast<double>(side) * enough / along);
     return fmt::format(
-        "a cell is {:.0f} texels wide in maps of {} texels: '--bake {}' shows as much, and more "
-        "cells show more",
+        "a cell is {:.0f} texels wide in maps of {} texels: '--bake {}' shows as much detail, "
+        "and more cells would show more",
         along, side, std::bit_ceil(needed));
 }
 

@@ -34,12 +34,13 @@ std::string ends_of(const Spread& values) {
 std::string describe_range(const Spread& values, ValueRange range) {
     const double low = std::min(range.low, range.high), high = std::max(range.low, range.high);
     const auto about = [&](const char* words) {
-        return fmt::format("{}: all it shows ({}) {} the range {:.4g},{:.4g}", is_one_colour,
+        return fmt::format("{}: all shown values ({}) {} the range {:.4g},{:.4g}", is_one_colour,
                            ends_of(values), words, range.low, range.high);
     };
-    if (values.largest < low) return about("lies below");
-    if (values.smallest > high) return about("lies above");
-    if (values.largest - values.smallest < (high - low) / levels) return about("is one level of");
+    if (values.largest < low) return about("lie below");
+    if (values.smallest > high) return about("lie above");
+    if (values.largest - values.smallest < (high - low) / levels)
+        return about("lie within one level of");
     return {};
 }
 
@@ -81,11 +82,11 @@ std::string describe_uniform(const Canvas& canvas) {
     if (!is_uniform) return {};
     if (canvas.is_colour()) return is_one_colour;
     if (spread_of(canvas.fields[0]).count == 0) {
-        return fmt::format("{}: what it shows is infinite or not a number in all cells",
+        return fmt::format("{}: the shown value is infinite or not a number in all cells",
                            is_one_colour);
     }
     const Spread values = spread_of(canvas.fields[0]);
-    return fmt::format("{}: what it shows {} {:.4g}{}", is_one_colour,
+    return fmt::format("{}: the shown value {} {:.4g}{}", is_one_colour,
                        values.is_one_number() ? "is" : "differs by less than a 100,000th from",
                        values.mean, values.is_one_number() ? " in all cells" : "");
 }
@@ -98,9 +99,8 @@ std::string describe_waves(Painter& painter, const Simulation& simulation, std::
     const double cells = measure::unresolved_wavelength(samples);
     const char* const why = "the grid shapes them as much as the equations do";
     if (!std::isnan(cells)) {
-        return fmt::format(
-            "the waves of the pattern are {:.2g} cells long: with fewer than {:.0f} {}", cells,
-            measure::fewest_cells_a_wave, why);
+        return fmt::format("the waves of the pattern are {:.2g} cells long: below {:.0f} cells {}",
+                           cells, measure::fewest_cells_a_wave, why);
     }
     if (!made_its_pattern(simulation, stage)) return {};
     const double part = measure::unresolved_part(samples);
@@ -152,7 +152,7 @@ std::string remark_on_material(const Script& script, const Canvas& canvas) {
     if (!canvas.body) return describe_clamped(canvas.material);
     const std::string settings = material_said(script);
     if (settings.empty()) return {};
-    return fmt::format("the picture does not show {}: pictures of surfaces and models do",
+    return fmt::format("the picture does not show {}: only pictures of surfaces and models do",
                        settings);
 }
 

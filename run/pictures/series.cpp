@@ -268,8 +268,9 @@ Result<std::unique_ptr<SeriesWriter>> make_series(const std::filesystem::path& p
                                                   SeriesFields fields, bool is_resumed) {
     std::error_code error;
     if (is_resumed && std::filesystem::exists(path, error)) {
-        return failure(fmt::format("'{}' holds moments of an earlier run", path.string()),
-                       "name another file with --series: a resumed run begins its own series");
+        return failure(
+            fmt::format("'{}' holds moments of an earlier run", path.string()),
+            "name another file with --series, because a resumed run begins a new series");
     }
     const FormatRow* const format = find_format(path);
     const SeriesRow* const writer = format ? row_of(series_writers, format->format) : nullptr;

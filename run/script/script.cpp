@@ -297,10 +297,10 @@ Script load_script(std::string name, std::string text, std::filesystem::path fol
 Result<void> check_for_fields(const Script& script, std::string_view what) {
     for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
         if (!script.program->system_of(k).cells) continue;
-        return failure(fmt::format("stage '{}' consists of cells that crawl that crawl, and {} "
-                                   "stages of fields",
+        return failure(fmt::format("stage '{}' consists of cells that crawl, but {} stages of "
+                                   "fields",
                                    script.program->stages[k].name, what),
-                       "'cascade run' grows and draws them");
+                       "use 'cascade run' for this stage");
     }
     return {};
 }

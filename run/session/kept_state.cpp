@@ -40,8 +40,8 @@ public:
         restore(moment);
         const auto now = values_of_start(simulation_.view(stage_));
         if (now.empty() && !missing_.empty() && !record_.numbers.empty()) {
-            return failure(fmt::format("'{}' is new, and cells that were born since stage '{}' "
-                                       "began have no value to start with",
+            return failure(fmt::format("'{}' cannot be added now, because cells born since stage "
+                                       "'{}' began have no starting value for it",
                                        system().item_name(missing_[0]), kept_.name),
                            "go back to the start of the stage, and change it there");
         }

@@ -289,13 +289,13 @@ void LiveRun::add_to_log(const Change& change, RunPlace at) {
 
 Accepted<void> LiveRun::apply(const Change& change, RunControl& control, bool joins_last) {
     if (log_.changes.size() >= most_logged_changes) {
-        return refuse("the log of this session is full of changes",
+        return refuse("the log of this session cannot hold more changes",
                       "save the script or the values, and begin a session with them");
     }
     const std::size_t bytes = bytes_of(change);
     const bool is_too_large = bytes > 0 && bytes_of(log_) + bytes > most_texts;
     if (is_too_large && std::holds_alternative<SetText>(change)) {
-        return refuse("the log of this session is full of texts",
+        return refuse("the log of this session cannot hold more texts of scripts",
                       "save the script, and begin a session with it");
     }
     const bool is_remembered = !joins_last || past_.empty();

@@ -74,7 +74,8 @@ Accepted<ItemId> LiveRun::painted_item(const std::string& name, const char* pain
     }
     if (!system.is_species(*item) && stage.uniform[*item]) {
         return refuse(fmt::format("'{}' is one number for all cells", name),
-                      fmt::format("'{0}: {0} + 0*x' in the stage gives each cell its own", name));
+                      fmt::format("'{0}: {0} + 0*x' in the stage gives each cell its own value",
+                                  name));
     }
     return *item;
 }
@@ -124,7 +125,7 @@ void LiveRun::give(const std::string& name, ItemId item, Field values) {
 }
 
 Accepted<void> LiveRun::paint_fields(const std::string& name, const StrokeValues& values_of) {
-    auto item = painted_item(name, "species, parameters and 'frozen' can be");
+    auto item = painted_item(name, "species, parameters and 'frozen' can be painted");
     if (!item) return tl::unexpected(std::move(item.error()));
     auto values = values_of();
     if (!values) return tl::unexpected(std::move(values.error()));
@@ -139,7 +140,7 @@ Accepted<void> LiveRun::paint_cells(const std::string& name, const StrokeValues&
     Accepted<ItemId> item;
     if (!removes) {
         item = painted_item(name,
-                            "species, parameters, 'r', 'age' and 'frozen' can be; "
+                            "species, parameters, 'r', 'age' and 'frozen' can be painted; "
                             "'remove' takes cells away");
         if (!item) return tl::unexpected(std::move(item.error()));
     }
@@ -154,7 +155,7 @@ Accepted<void> LiveRun::paint_cells(const std::string& name, const StrokeValues&
     simulation_->change_stage(stage_, [&](StageState& state) {
         left = remove_cells(*state.tissue(), *values);
     });
-    if (left == 0) return refuse("this takes all cells", "at least one must stay");
+    if (left == 0) return refuse("this would remove all cells", "at least one cell must stay");
     painted_[stage_].insert(name);
     return {};
 }

@@ -54,11 +54,13 @@ public:
         const auto& model = simulation_.domain().model;
         const bool is_plane = !model && !canvas.cells && !canvas.body;
         if (is_plane && simulation_.domain().program->domain.surface) {
-            return failure("a surface of parameters is not written as a model",
-                           "'surface: torus(1, 0.4)' and the other surfaces by name are");
+            return failure("a surface given by formulas cannot be written as a model",
+                           "surfaces with a name, such as 'surface: torus(1, 0.4)', can be "
+                           "written as models");
         }
         if (form_ == ModelForm::maps && !is_plane && !model) {
-            return failure("only a model or a plane has maps", "save the model without them");
+            return failure("maps can be written only for a model or a plane",
+                           "save the model without them");
         }
         if (is_plane || form_ == ModelForm::maps) {
             if (auto made = choose_maps(); !made) return tl::unexpected(made.error());

@@ -37,9 +37,10 @@ Accepted<std::string> session_picture(LiveRun& run, const PictureRequest& reques
         return refuse(fits.error());
     }
     if (!painter->is_flat() && !RayCaster::is_available()) {
-        return refuse("a page without the program draws no pictures of surfaces",
-                      "'cascade view' draws them, and 'cascade run' draws them from the "
-                      "session or its script");
+        return refuse(
+            "pictures of surfaces cannot be drawn on a page that runs without the "
+            "program",
+            "use 'cascade view', or 'cascade run' with the session or its script");
     }
     const PngTexts texts = run.is_resumed() ? embed_script(run.script(), request)
                                             : embed_session(run.script(), request, run.log());

@@ -117,8 +117,7 @@ std::string describe_uniform(const Ended& ended) {
     if (since.step == course.first().step && is_the_same &&
         is_uniform_in_space(ended.stage(), system)) {
         return ended.about(
-            "ended uniform ({}): all cells are the same; noise or a spot in a starting value would "
-            "make them differ",
+            "ended uniform ({}), with all cells the same: add noise or a spot to a starting value",
             values);
     }
     const std::string step = with_commas(since.step);
@@ -133,8 +132,8 @@ std::string describe_uniform(const Ended& ended) {
                            values);
     }
     return ended.about(
-        "ended uniform ({}): the differences it began with faded, and nothing has grown; "
-        "it has been uniform since step {} or before",
+        "ended uniform ({}): the differences at its start have faded, and it has been uniform "
+        "since step {} or before",
         values, step);
 }
 
@@ -144,13 +143,14 @@ std::string describe_until(const Ended& ended) {
     if (!(time.until || time.steady) || state.condition_met) return {};
     if (time.steps_between_looks() > state.steps) {
         return ended.about(
-            "took {} steps and never evaluated 'until', which it does every {} steps ('check')",
+            "took {} steps and never evaluated 'until', because this happens only every {} steps "
+            "('check')",
             with_commas(state.steps), with_commas(time.steps_between_looks()));
     }
     if (!time.steady) {
-        return ended.about("took {} steps and 'until' has not ended it", with_commas(state.steps));
+        return ended.about("took {} steps, and 'until' was never true", with_commas(state.steps));
     }
-    return ended.about("took {} steps and has not settled as 'until: steady({:.4g})' asks",
+    return ended.about("took {} steps and has not settled as 'until: steady({:.4g})' requires",
                        with_commas(state.steps), *time.steady);
 }
 
@@ -163,8 +163,8 @@ std::string errors_in_words(const Stage& stage, const StageCourse& course) {
         return {};
     }
     return fmt::format(
-        "took steps of first order whose estimated errors add up to {:.2g} % of the differences "
-        "between its cells; solver: {} has smaller ones",
+        "made errors in its time steps, estimated at {:.2g} % of the differences between its "
+        "cells; 'solver: {}' makes smaller errors",
         100 * course.errors(), is_semi_implicit(solver) ? "etdrk4" : "rkl2");
 }
 
@@ -186,8 +186,8 @@ std::string describe_growth(const Ended& ended) {
     }
     const std::string errors = errors_in_words(ended.stage(), course);
     return ended.about(
-        "was still growing when it ended: the deviation of {} rose by {:.0f} % in the "
-        "last tenth, to {:.2g}; more steps would change the picture{}",
+        "was still growing when it ended: the deviation of {} rose by {:.0f} % in the last tenth "
+        "of the stage, to {:.2g}; more steps would change the picture{}",
         species_name(ended.system(), fastest), 100 * growth,
         course.last().species[fastest].deviation(), errors.empty() ? "" : "; it " + errors);
 }
@@ -217,7 +217,10 @@ std::string describe_fading(const Ended& ended) {
         rest += fmt::format("{}{} {:.2g} about {:.3g}", k > 0 ? ", " : "", species_name(system, k),
                             spread.deviation(), spread.mean);
     }
-    return ended.about("is dying out: the deviations left are small and falling ({})", rest);
+    return ended.about(
+        "is dying out: the remaining differences between its cells are small and "
+        "shrinking ({})",
+        rest);
 }
 
 /// Describes a stage that ends with its starting values because its rates are 0 everywhere.
@@ -320,7 +323,7 @@ constexpr Diagnosis<Ended> remarks_on_cells[] = {
      }},
     {has_missed_its_condition,
      [](const Ended& ended) {
-         return fmt::format("'until' of stage '{}' never came true, in {} steps up to t = {:.4g}",
+         return fmt::format("'until' of stage '{}' was never true in {} steps up to t = {:.4g}",
                             ended.stage().name, ended.state().steps, ended.state().t);
      }},
 };

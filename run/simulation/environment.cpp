@@ -75,9 +75,10 @@ Result<std::shared_ptr<const ModelCells>> make_cells(Script& script,
     if (deadline.ends_work()) {
         script.diagnostics.error(
             script.program->domain.model->span,
-            fmt::format("the cells of the model are not made after {} s", options.model_seconds),
-            "ask for fewer 'cells', or for those of a model with fewer triangles: 'cascade mesh "
-            "MODEL --simplify 50000 -o simple.ply'");
+            fmt::format("the cells of the model were not finished after {} s",
+                        options.model_seconds),
+            "use fewer 'cells', or a model with fewer triangles: 'cascade mesh MODEL --simplify "
+            "50000 -o simple.ply'");
         return failure("the model takes too long");
     }
     if (control.cancel) return failure("stopped while the cells of the model were made");
@@ -134,7 +135,7 @@ Result<void> find_mask(Environment& here, Script& script, const RunControl& cont
     }
     if (here.mask->cells > 0) return {};
     script.diagnostics.error(mask->span, "no cell is inside the mask",
-                             "cells where it is not 0 belong to the domain");
+                             "cells where the mask is not 0 belong to the domain");
     return failure("the domain has no cells");
 }
 

@@ -102,8 +102,8 @@ std::string describe_jump_of_lengths(const StageView& view) {
         if (is_uniform) words.resize(1);
         return fmt::format(
             "stage '{}' begins with a length of {:.4g}, but stage '{}', whose values it reads, "
-            "ended with {:.4g}, so amounts jump; an 'extent' of the stage that is {} at t = 0 "
-            "continues the growth",
+            "ended with {:.4g}, so amounts jump; to continue the growth, give the stage an "
+            "'extent' that is {} at t = 0",
             view.stage().name, *to, before.name, *from, fmt::join(words, ", "));
     }
     return {};

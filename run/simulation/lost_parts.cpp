@@ -123,7 +123,7 @@ std::string words_for(const StageView& view, const LostPart& found) {
             : fmt::format("too {} for single precision, which takes it for {}",
                           is_too_large ? "large" : "small", is_too_large ? "infinite" : "0");
     return fmt::format(
-        "stage '{}': {} {} is {} {:.2g} {}, {}; 'precision: double' in the domain keeps it",
+        "stage '{}': {} {} is {} {:.2g} {}, {}; 'precision: double' in the domain avoids this loss",
         view.stage().name, sources.text(found.span), where, is_too_large ? "up to" : "at most",
         found.value, steps == 0 ? "at the start" : fmt::format("after step {}", steps), trouble);
 }

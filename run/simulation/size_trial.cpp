@@ -282,8 +282,9 @@ private:
         if (!grown.holds_still() && !before.is_uniform &&
             relative_change(now.cells, before.cells) > other_wavelength) {
             return failure(
-                fmt::format("the pattern of stage '{}' has no size of its own: in a trial run its "
-                            "waves had {:.3g} cells after half of the time and {:.3g} at the end",
+                fmt::format("the pattern of stage '{}' has no fixed wavelength: in a trial run "
+                            "its waves were {:.3g} cells long after half of the time and {:.3g} "
+                            "cells at the end",
                             name, before.cells, now.cells),
                 "leave 'size' out: the pattern widens throughout the run, or never settles");
         }

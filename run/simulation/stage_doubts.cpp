@@ -85,15 +85,16 @@ std::string describe_unsolved(const Doubted& stage, const Unsolved& report) {
     const SolveReport& solve = report.solve;
     if (!(solve.largest_rest <= largest_rest)) {
         return fmt::format(
-            "stage '{}': the constraint of {} was not solved: after {} iterations its residual "
-            "was still {:.2g} of the residual without {}; its operator may have no inverse, or its "
+            "stage '{}': the constraint of {} was not solved: after {} iterations the remaining "
+            "error was still {:.2g} of the error without {}; its operator may have no inverse, "
+            "or its "
             "coefficients may differ too much",
             stage.name(), report.unknown, solve.most_iterations, solve.largest_rest,
             report.unknown);
     }
     return fmt::format(
-        "stage '{0}': the mean of the constraint of {1}, {2:.2g} of the whole, cannot be balanced, "
-        "because any constant may be added to {1}; the rest was solved, and the mean of {1} is 0",
+        "stage '{0}': the constraint of {1} has a mean, {2:.2g} of the whole, which no values of "
+        "{1} can balance; the rest was solved, and the mean of {1} is 0",
         stage.name(), report.unknown, solve.largest_mean);
 }
 
@@ -211,8 +212,7 @@ std::string describe_chequerboard(const Doubted& stage, std::size_t species) {
     }
     if (!limit && estimate.eigenvalue > 0 && !is_partly_implicit(use.solver)) {
         return text +
-               ", because its rate makes differences of neighbours grow, the faster the finer they "
-               "are: is a sign wrong?";
+               ", because its rate makes differences between neighbours grow: is a sign wrong?";
     }
     return {};
 }
@@ -271,8 +271,9 @@ std::string describe_astray(const Doubted& stage, const Astray& found) {
     const StageView& view = stage.view;
     const StepInUse use = view.step_in_use();
     const std::string text = fmt::format(
-        "stage '{}': the time step is too large: {} more steps would move {} by {:.2g}, and {} "
-        "steps of a third of the length by {:.2g}, to values that differ by {:.2g}; ",
+        "stage '{}': the time step is too large: {} more steps would change {} by {:.2g}, but {} "
+        "steps of a third of the length would change it by {:.2g}, and the results differ by "
+        "{:.2g}; ",
         stage.name(), least_trial_steps, found.species, found.change,
         least_trial_steps * shorter_steps, found.change_of_shorter, found.apart);
     const auto limit = longest_step(view.stability(view.state().species()), use);
@@ -290,8 +291,8 @@ std::optional<ChangesLost> find_changes_lost(const Doubted& stage) {
 std::string describe_changes_lost(const Doubted& stage, const ChangesLost& found) {
     return fmt::format(
         "stage '{}': a step would change {} by about {:.2g}, which is too small to be added to "
-        "values of {:.2g} in single precision; about {:.2g} is lost over the stage; "
-        "'precision: double' in the domain keeps it",
+        "values of {:.2g} in single precision, so about {:.2g} is lost over the stage; "
+        "'precision: double' in the domain avoids this loss",
         stage.name(), found.species, found.change, found.value, found.lost);
 }
 
@@ -307,8 +308,8 @@ std::string describe_amount_changed(const Doubted& stage, const AmountChanged& f
     const std::string part =
         found.part < 10 ? fmt::format("by {:.2g} %", 100 * found.part) : "many times over";
     return fmt::format(
-        "stage '{}': steps of {:.4g} do not follow the growth of the domain: without a reaction "
-        "they would change an amount {}; {}",
+        "stage '{}': steps of {:.4g} are too long for the growth of the domain: even without a "
+        "reaction, they would change an amount {}; {}",
         stage.name(), speed, part,
         found.speed ? fmt::format("try 'speed: {:.2g}'", *found.speed)
                     : "its length changes too suddenly");

@@ -34,15 +34,14 @@ std::int64_t look_every(const Stage& stage, std::int64_t usual) {
 Failure explain(const StepTooShort& place, const StageView& view) {
     Failure failure;
     failure.message = fmt::format(
-        "stage '{}' ({}): steps shrink to nothing: at t = {:.6g} even one of {:.2g} is too long, "
-        "for "
-        "{} at {}",
+        "stage '{}' ({}): steps shrink to nothing: at t = {:.6g} even a step of {:.2g} is too "
+        "long for {} at {}",
         view.stage().name, view.system().name, place.t, place.step,
         species_name(view.system(), place.species),
         view.environment().place_in_words(place.column, place.row));
     failure.hint =
-        "something jumps or grows without bound there; with a larger tolerance or euler the "
-        "run may continue";
+        "a value jumps or grows without bound there; a larger 'tolerance' or 'solver: euler' may "
+        "let the run continue";
     return failure;
 }
 

@@ -160,7 +160,7 @@ Result<void> find_sizes(Environment& here, Script& script, const SimulationOptio
         if (control.note) {
             control.note(
                 fmt::format("stage '{}': its lengths are multiplied by {} for waves of {:g}, "
-                            "since its own are {:.3g} long",
+                            "because its own waves are {:.3g} long",
                             stage.name, *factor, stage.size->wanted, stage.size->wanted / *factor));
         }
         scaled = with_lengths(scaled ? *scaled : *here.program, k, *factor);

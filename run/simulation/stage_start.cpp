@@ -122,8 +122,8 @@ public:
                     fmt::format(
                         "stage '{}': {} has a slope at the side {}, where the surface is sheared",
                         view_.stage().name, name, side_names[side]),
-                    "slope(…) and flux(…) need rows and columns that meet at right angles; fixed(…) "
-                    "does not");
+                    "use fixed(…): slope(…) and flux(…) need rows and columns that meet at right "
+                    "angles");
             }
             if (value.changes) {
                 changing_.push_back(bind_side(value, view_.number(), number,
@@ -195,13 +195,14 @@ Result<void> check_reaches(const StageView& view) {
                         .number_at(0, 0);
         }
         if (!good || lags_in_box(here.grid, reach) <= most_lags) return;
-        good = failure(fmt::format("stage '{}': convolve {} takes more than {} cells together",
+        good = failure(fmt::format("stage '{}': convolve {} adds up more than {} cells",
                                    view.stage().name,
                                    reach ? fmt::format("with a reach of {:.4g}", *reach)
                                          : std::string("without a reach"),
                                    with_commas(most_lags)),
                        reach ? "make the reach shorter"
-                             : "convolve(k, e, r) takes those within a distance");
+                             : "use convolve(k, e, r), which reads only the cells within the "
+                               "distance r");
     };
     for_each_kernel_of_stage(view.program(), view.number(), check);
     return good;

@@ -137,7 +137,8 @@ std::string name_of(const System& system, ItemId item) {
 /// A remark on a tissue in which as many cells are born as die.
 std::string describe(const Turnover& turnover, const Stage& stage) {
     return fmt::format(
-        "stage '{}' divides and dies without end: {} births and {} deaths from t = {:.4g} to {:.4g}, "
+        "stage '{}' divides and dies without end: {} births and {} deaths from t = {:.4g} to "
+        "{:.4g}, "
         "while the number of cells stays near {}",
         stage.name, turnover.births, turnover.deaths, turnover.from, turnover.to, turnover.cells);
 }
@@ -222,8 +223,8 @@ void TissueRun::warn_of_waiting(const Tissue& tissue) {
     if (!waits || is_waiting_ || !control_->warn) return;
     is_waiting_ = true;
     control_->warn(fmt::format(
-        "stage '{}': no cell has divided or died since t = {:.4g}, and 'until' is not true at "
-        "t = {:.4g}; it may never be",
+        "stage '{}': no cell has divided or died since t = {:.4g}, and 'until', which is not "
+        "true at t = {:.4g}, may never become true",
         stage.name, last, state_.t));
 }
 
@@ -252,8 +253,8 @@ Result<StageEnd> TissueRun::advance(std::int64_t last_step, RunControl& control,
     observation_ = observation;
     if (std::exchange(reaches_all_, false) && control.warn) {
         control.warn(
-            fmt::format("stage '{}': 'near' reaches all cells, so each step takes time "
-                        "as the square of their number",
+            fmt::format("stage '{}': 'near' reaches all cells, so the time of each step grows "
+                        "with the square of the number of cells",
                         stage.name));
     }
     can_go_on_ = false;
@@ -320,15 +321,15 @@ Failure explain(const TissueFailure& failure, const StageView& view, std::int64_
                     term_or("it divides by 0 or grows without bound")};
         case Kind::too_short:
             return {
-                fmt::format("{}: steps shrink to nothing: at t = {:.6g} even one of {:.2g} is too "
-                            "long still, for {} of cell {}",
+                fmt::format("{}: steps shrink to nothing: at t = {:.6g} even a step of {:.2g} is "
+                            "too long for {} of cell {}",
                             where, failure.t, failure.step, what, failure.number),
-                term_or("something jumps or grows without bound there") +
-                    "; with a larger tolerance the run may continue"};
+                term_or("a value jumps or grows without bound there") +
+                    "; a larger 'tolerance' may let the run continue"};
         case Kind::too_far:
             return {fmt::format("{}: a step of {:.3g} from t = {:.6g} moves cell {} too far", where,
                                 failure.step, failure.t, failure.number),
-                    "a smaller largest_step keeps cells beside their neighbours"};
+                    "use a smaller 'largest_step', which keeps cells beside their neighbours"};
         case Kind::divides_for_ever:
             return {fmt::format("{}: cell {} would divide again as soon as it has divided, at "
                                 "t = {:.6g}",
@@ -339,7 +340,7 @@ Failure explain(const TissueFailure& failure, const StageView& view, std::int64_
             return {fmt::format("{}: at t = {:.6g} there would be {} cells, more than fit into "
                                 "memory",
                                 where, failure.t, failure.cells),
-                    "larger cells, or a condition of 'divide' that ends, make fewer"};
+                    "make the cells larger, or let the condition of 'divide' end"};
         case Kind::too_many_neighbours:
             return {fmt::format("{}: {}", where, failure.refusal.message), failure.refusal.hint};
     }

@@ -47,7 +47,7 @@ Result<std::shared_ptr<const TissueGround>> ground_of(const Environment& here,
     if (const double most = largest_value(values[0], here.inside()); most <= 0) {
         return failure(fmt::format("the body of stage '{}' is empty: its formula is at most {:.4g}",
                                    stage.name, most),
-                       "cells are on its surface where it becomes larger than 0");
+                       "cells lie where the formula of the body becomes larger than 0");
     }
     auto body = grown_body(values[0], here.grid.boundary, cancel);
     if (cancel) {
@@ -112,9 +112,9 @@ private:
         const std::size_t most = most_cells_in_memory(view_.system(), here_.precision());
         if (static_cast<std::uint64_t>(founders.count) > most) {
             return failure(
-                fmt::format("stage '{}' would start with {} cells, and there is memory for {}",
+                fmt::format("stage '{}' would start with {} cells, but there is memory only for {}",
                             view_.stage().name, founders.count, most),
-                "fewer founders can divide until there are enough cells");
+                "start with fewer founders, which can divide until there are enough cells");
         }
         std::vector<NearPlace> places;
         if (founders.places.empty()) {

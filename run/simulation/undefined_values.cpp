@@ -183,7 +183,7 @@ void warn_of_uniform_pictures(const Environment& environment, const RunControl& 
             "image(\"{}\"{}) is {:.4g} in all cells{}", literals.text(name.text),
             is_lightness ? "" : fmt::format(", \"{}\"", name_of(reading.channel)), levels.mean,
             is_lightness && levels.mean > 1 - one_level
-                ? ": is it all transparent? What is transparent lies on white"
+                ? ": is the picture transparent? Transparent pixels count as white"
                 : ""));
     });
 }

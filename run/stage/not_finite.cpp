@@ -34,8 +34,8 @@ std::optional<double> limit(const NotFiniteReport& report) {
 /// them grow, or steps are too long to follow the equations.
 std::string advice_for_growth(const StepInUse& use) {
     if (is_adaptive(use.solver)) return "the reaction itself grows without bound here";
-    return "either the reaction itself grows without bound here, or steps are too long to follow "
-           "it; 'solver: rk23', which chooses its steps by their error, tells which";
+    return "either the reaction itself grows without bound here, or the steps are too long; "
+           "'solver: rk23' chooses the length of steps by their error";
 }
 
 }  // namespace
@@ -75,7 +75,7 @@ Failure describe(const NotFiniteReport& report) {
     }
     if (is_locally_implicit(use.solver)) {
         failure.hint = fmt::format(
-            "{} is stable for a reaction that decays at any step, but not for diffusion and for "
+            "{} is stable for a reaction that decays at any step, but not for diffusion or "
             "growth; try 'speed: {:.2g}'",
             name_of(use.solver), use.speed / 2);
         return failure;
@@ -85,8 +85,8 @@ Failure describe(const NotFiniteReport& report) {
         failure.hint = advise(*largest, use);
     } else if (!report.largest_before) {
         failure.hint =
-            "on a smaller grid, where a copy of the species is kept, this message names the step "
-            "and the reason";
+            "use a smaller grid to see the step and the reason: on this grid, no copy of the "
+            "species is kept";
     } else if (*report.largest_before < most_that_is_sane) {
         failure.hint = fmt::format(
             "no value was above {:.3g} before that step: look for a division by zero, or a "

@@ -39,8 +39,9 @@ std::string advise(double limit, const StepInUse& use) {
         std::isnan(use.speed) ? "varies by cell" : fmt::format("is {:.6g}", use.speed);
     const double speed = safe_speed(limit);
     std::string text = fmt::format(
-        "the largest stable speed is about {:.3g} and this stage's {}; try 'speed: {}{}'", limit,
-        used, speed, iterations_for(speed, use));
+        "the largest stable speed is about {:.3g}, and the speed of this stage {}; try 'speed: "
+        "{}{}'",
+        limit, used, speed, iterations_for(speed, use));
     if (use.diffusion_limits && !std::isnan(use.speed)) {
         text += ", or longer steps: 'solver: rkl2; speed: auto";
         // The suggested duration replaces the iterations.

@@ -74,10 +74,10 @@ async function save() {
     // What has no model or maps is told in one message.
     await show("hole");
     await click("model");
-    await browser.until(`${notice}.startsWith("a surface of parameters is not written as a model")`);
+    await browser.until(`${notice}.startsWith("a surface given by formulas cannot be written as a model")`);
     await show("crowd");
     await click("maps");
-    await browser.until(`${notice}.startsWith("only a model or a plane has maps")`);
+    await browser.until(`${notice}.startsWith("maps can be written only for a model or a plane")`);
     const [session] = readdirSync(process.env.TMPDIR).filter((name) => name.startsWith("cascade-") && !name.endsWith(".html"));
     expect(readdirSync(join(process.env.TMPDIR, session)).length === 0, "files are left in the folder of the session");
 

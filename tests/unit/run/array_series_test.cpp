@@ -134,7 +134,7 @@ TEST_F(ArraySeriesTest, CanBeReadIfTheRunFails) {
     EXPECT_EQ(json("grown.json")["moments"].size(), 6U);
     EXPECT_EQ(numbers<float>("grown.npy").size(), 6U * 16U);
     run_badly(script, of("grown.csv"));
-    EXPECT_THAT(script.messages(false), HasSubstr("a .csv series has a row of cells"));
+    EXPECT_THAT(script.messages(false), HasSubstr("a .csv series can hold only one row of cells"));
 }
 
 TEST_F(ArraySeriesTest, OfALineIsATable) {
@@ -158,7 +158,8 @@ TEST_F(ArraySeriesTest, IsRefusedBeforeTheFirstStep) {
         return why + script.messages(false);
     };
     EXPECT_THAT(refusal(of("grown.csv")), HasSubstr("--series NAME.npy has planes"));
-    EXPECT_THAT(refusal(of("grown.pvd", {"u"})), HasSubstr("no array of fields is written"));
+    EXPECT_THAT(refusal(of("grown.pvd", {"u"})), HasSubstr("--field needs a series in an .npy, "
+                                                           ".h5 or .csv file"));
     EXPECT_THAT(refusal(of("grown.npy", {"rgb(u, v, 0)"})), HasSubstr("--field takes numbers"));
     EXPECT_THAT(refusal(of("grown.npy", {"w"})), HasSubstr("'w' is not a parameter of s"));
     EXPECT_THAT(refusal(of("none/grown.npy")), HasSubstr("there is no folder"));

@@ -375,7 +375,7 @@ TEST_F(CompileTest, WrongRequestsAreRefusedInWords) {
 
 TEST_F(CompileTest, ModelsAreRefused) {
     EXPECT_EQ(refused("domain { surface: sphere; cells: 50 }\nstage one: turing_spots { }").message,
-              "a stage on a model is not compiled to an object file");
+              "a stage on a model cannot be compiled to an object file");
 }
 
 TEST_F(CompileTest, SidesOfAnotherStageAreRefused) {
@@ -384,26 +384,25 @@ TEST_F(CompileTest, SidesOfAnotherStageAreRefused) {
         "stage one: s { speed: 0.1 }\n"
         "domain { grid: 8, 4; boundary: noflux }\n";
     EXPECT_EQ(refused(text + "stage two: s { u: lap(one.u) }", {.stage = "two"}).message,
-              "stage 'two' reads u of stage 'one' at its neighbours, whose sides are rules of that "
-              "stage, which are not compiled with this one");
+              "stage 'two' reads u of stage 'one' in neighbouring cells, but the sides of that "
+              "stage cannot be compiled with this one");
 }
 
 TEST_F(CompileTest, StepsOfChosenLengthAreRefused) {
     const auto message = [&](const std::string& statements, const CompileRequest& wanted = {}) {
         return refused("stage only: turing_spots { " + statements + " }", wanted).message;
     };
-    EXPECT_EQ(
-        message("solver: rk23; duration: 10"),
-        "stage 'only' is solved by rk23, which chooses its steps during the run, but compiled "
-        "steps are of one length");
-    EXPECT_EQ(
-        message("speed: auto; duration: 10"),
-        "stage 'only' chooses its steps during the run, but compiled steps are of one length");
+    EXPECT_EQ(message("solver: rk23; duration: 10"),
+              "stage 'only' is solved by rk23, which chooses its steps during the run, but all "
+              "compiled steps have the same length");
+    EXPECT_EQ(message("speed: auto; duration: 10"),
+              "stage 'only' chooses its steps during the run, but all compiled steps have the same "
+              "length");
     EXPECT_EQ(message("solver: rkl1; duration: 10"),
               "stage 'only' is solved by rkl1, which chooses the number of its stages as it "
               "runs, but a compiled step has a fixed number");
     EXPECT_EQ(message("", {.stages = 5}),
-              "--stages: euler has no stages to choose; rkl1 and rkl2 have");
+              "--stages: euler has no stages to choose; only rkl1 and rkl2 have stages");
 }
 
 }  // namespace

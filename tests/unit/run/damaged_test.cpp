@@ -137,7 +137,7 @@ TEST_F(DamagedTest, APlaceToStopAtIsOnTheWay) {
               "note: the stages are large, small\n");
     wanted.stop_at = StopAt{"large", 301};
     EXPECT_EQ(faults(wanted),
-              "<--stop-at>:1:7: error: stage 'large' has 300 steps\n"
+              "<--stop-at>:1:7: error: stage 'large' has only 300 steps\n"
               "    1 | large:301\n"
               "      |       ^~~\n");
     wanted.stop_at = StopAt{"small", 10};
@@ -159,8 +159,8 @@ TEST_F(DamagedTest, ASpaceTimePictureNeedsOneRow) {
     RunRequest wanted = request();
     wanted.picture.space_time = true;
     EXPECT_THAT(faults(wanted),
-                HasSubstr("<--space-time>:1:1: error: a space-time picture is drawn "
-                          "of a grid of one row, not of 18"));
+                HasSubstr("<--space-time>:1:1: error: a space-time picture needs a grid of one "
+                          "row, not of 18"));
 }
 
 TEST_F(DamagedTest, ARefusedRunLeavesNoFolder) {

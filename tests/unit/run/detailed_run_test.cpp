@@ -136,10 +136,12 @@ TEST_F(DetailedRunTest, WhatHasNoFinerCellsIsRefused) {
     expect("domain { surface: sphere; cells: faces }\nstage one: turing_spots { iterations: 1 }",
            detailed("a.png"), "faces or points of a model cannot be divided");
     expect("domain { surface: sphere }\nstage one: scales { founders: 4; duration: 1 }",
-           detailed("a.png"), "cells that crawl have no finer cells");
+           detailed("a.png"), "cells that crawl cannot be divided into finer cells");
     expect(
         "domain { grid: 8, 8; mask: random(0, 1) > 0 }\nstage one: turing_spots { iterations: 1 }",
-        detailed("a.png"), "the mask draws a random number in each cell");
+        detailed("a.png"),
+        "--detail cannot keep this mask, which draws a random number in each "
+        "cell");
     expect("domain { grid: 16384, 16384 }\nstage one: turing_spots { iterations: 1 }",
            detailed("a.png", 8), "the domain would have 17179869184 cells");
     RunRequest film = detailed("film.gif");

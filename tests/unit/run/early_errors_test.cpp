@@ -51,7 +51,7 @@ TEST(EarlyErrors, ComeBeforeCellsAreMade) {
     expect_early(refusal_of("1", [](RunRequest& r) { r.log.expressions = {"mean(u over"}; }),
                  "<--log>");
     expect_early(refusal_of("attr(\"weight\")", [](RunRequest&) {}),
-                 "the model's points have no 'weight'");
+                 "the model's points have no attribute 'weight'");
 }
 
 TEST(EarlyErrors, OfTextureCoordinates) {

@@ -131,7 +131,7 @@ TEST_F(LiveRunTest, AModelThatTakesTooLongIsRefused) {
     run->limit_models(1e-6);
     const std::string why =
         refused(*run, SetText{"domain { surface: creature; cells: 100000 }\n" + still});
-    EXPECT_NE(why.find("the cells of the model are not made after 1e-06 s"), std::string::npos)
+    EXPECT_NE(why.find("the cells of the model were not finished after 1e-06 s"), std::string::npos)
         << why;
     EXPECT_NE(why.find("--simplify"), std::string::npos) << why;
     // Nothing is cancelled after that.

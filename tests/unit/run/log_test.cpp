@@ -151,7 +151,7 @@ TEST_F(LogTest, WrongExpressions) {
         return script.messages(false);
     };
     EXPECT_THAT(message_of("a + 1"),
-                HasSubstr("<--log>:1:1: error: this differs from cell to cell"));
+                HasSubstr("<--log>:1:1: error: this value differs from cell to cell"));
     EXPECT_THAT(message_of("x"), HasSubstr("differs from cell to cell"));
     EXPECT_THAT(message_of("q"), HasSubstr("<--log>:1:1: error: "));
     EXPECT_THAT(message_of("1 +"), HasSubstr("<--log>:1:"));

@@ -198,8 +198,8 @@ TEST_F(RunTest, AMaskWithoutCellsIsAFault) {
     EXPECT_EQ(script.messages(false),
               "test.cascade:1:28: error: no cell is inside the mask\n"
               "    1 | domain { grid: 8, 8; mask: disc(1, 1, 0.1) * 0 }\n"
-              "      |                            ^~~~~~~~~~~~~~~~~~~ cells where it is not 0 "
-              "belong to the domain\n");
+              "      |                            ^~~~~~~~~~~~~~~~~~~ cells where the mask is "
+              "not 0 belong to the domain\n");
 }
 
 }  // namespace

@@ -161,7 +161,7 @@ TEST(ModelInput, ItsStagesAreNotCompiledToObjectFiles) {
     ASSERT_TRUE(script.program);
     const auto compiled = compile_step(script, {});
     ASSERT_FALSE(compiled);
-    EXPECT_EQ(compiled.error().message, "a stage on a model is not compiled to an object file");
+    EXPECT_EQ(compiled.error().message, "a stage on a model cannot be compiled to an object file");
 }
 
 }  // namespace

@@ -281,7 +281,8 @@ TEST_F(MomentsTest, AreRefusedWhereNothingHasATime) {
         return script.messages(false);
     };
     const std::string grown = "stage s: gray_scott { iterations: 2 }";
-    EXPECT_THAT(refusal(grown, false), HasSubstr("nothing is observed over time"));
+    EXPECT_THAT(refusal(grown, false), HasSubstr("this option needs an output over time, but "
+                                                 "none is requested"));
     EXPECT_THAT(refusal("stage s: gray_scott { iterations: 2; speed: x + 0.1 }"),
                 HasSubstr("has no time, because its speed differs from cell to cell"));
 }

@@ -57,7 +57,7 @@ TEST(NotFinite, DoesNotAskAStateThatIsSpoiled) {
     report.estimate_before.largest_speed = 2.19e-63;
     EXPECT_THAT(describe(report).hint, Not(HasSubstr("largest stable speed")));
     EXPECT_THAT(describe(report).hint,
-                HasSubstr("or steps are too long to follow it; 'solver: rk23', which"));
+                HasSubstr("or the steps are too long; 'solver: rk23' chooses"));
     report.estimate_at_start.largest_speed = 1.5;
     EXPECT_THAT(describe(report).hint, HasSubstr("the largest stable speed is about 1.5 "));
     // The stable speed of a state that has only begun to grow is reported.
@@ -96,18 +96,19 @@ TEST(StepAdvice, IsAsMuchTimeAsBefore) {
     use.speed = 1;
     use.iterations = 5000;
     EXPECT_EQ(advise(0.207, use),
-              "the largest stable speed is about 0.207 and this stage's is 1; "
-              "try 'speed: 0.19; iterations: 26316'");
+              "the largest stable speed is about 0.207, and the speed of this stage is 1; try "
+              "'speed: 0.19; iterations: 26316'");
     use.diffusion_limits = true;
     EXPECT_THAT(advise(0.207, use),
                 HasSubstr("', or longer steps: 'solver: rkl2; speed: auto; duration: 5000'"));
     use.iterations = 0;
     EXPECT_EQ(advise(0.207, use),
-              "the largest stable speed is about 0.207 and this stage's is 1; "
-              "try 'speed: 0.19', or longer steps: 'solver: rkl2; speed: auto'");
+              "the largest stable speed is about 0.207, and the speed of this stage is 1; try "
+              "'speed: 0.19', or longer steps: 'solver: rkl2; speed: auto'");
     use.speed = NAN;
     EXPECT_EQ(advise(0.207, use),
-              "the largest stable speed is about 0.207 and this stage's varies by cell; try "
+              "the largest stable speed is about 0.207, and the speed of this stage varies by "
+              "cell; try "
               "'speed: 0.19'");
 }
 

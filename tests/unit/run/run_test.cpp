@@ -102,7 +102,8 @@ TEST_F(RunTest, ResumeRefusesAnotherGridAndAFolderWithoutARun) {
     wanted.save = path("saved");
     run_well(script, wanted);
     EXPECT_EQ(load_saved_script(path("saved"), other).error().message,
-              "a resumed run keeps its grid, seed, precision, rounding, parameters and solver");
+              "a resumed run cannot change its grid, seed, precision, rounding, parameters or "
+              "solver");
     EXPECT_NE(load_saved_script(path("nothing"), {}).error().message.find("holds no saved run"),
               std::string::npos);
 }

@@ -136,7 +136,7 @@ TEST_F(SavedFolderTest, WhatIsNotASavedRunIsNotReplaced) {
     fs::create_directory(path("saved"));
     ASSERT_TRUE(write_file(path("saved/run.json"), "{\"name\": \"of another program\"}"));
     EXPECT_THAT(why_not_saved(two_stages),
-                HasSubstr("does not belong to a saved run, and is not replaced"));
+                HasSubstr("is not replaced, because it does not belong to a saved run"));
     EXPECT_EQ(names().size(), 1u);
     fs::remove(path("saved/run.json"));
     ASSERT_TRUE(write_file(path("saved/small.b.npy"), "my own"));

@@ -43,18 +43,20 @@ TEST_F(SilentResults, AllOfThePictureBesideTheRange) {
     EXPECT_THAT(words_of(text, wanted), IsEmpty());
     wanted.picture.range = ValueRange{50, 90};
     EXPECT_THAT(words_of(text, wanted),
-                ElementsAre(AllOf(StartsWith("the picture is of one colour: all it shows ("),
-                                  HasSubstr("lies below the range 50,90"))));
+                ElementsAre(AllOf(StartsWith("the picture is of one colour: all shown values ("),
+                                  HasSubstr("lie below the range 50,90"))));
     wanted.picture.range = ValueRange{-1, -2};
-    EXPECT_THAT(words_of(text, wanted), ElementsAre(HasSubstr("lies above the range -1,-2")));
+    EXPECT_THAT(words_of(text, wanted), ElementsAre(HasSubstr("lie above the range -1,-2")));
     wanted.picture.range = ValueRange{-10000, 10000};
-    EXPECT_THAT(words_of(text, wanted), ElementsAre(HasSubstr("is one level of the range")));
+    EXPECT_THAT(words_of(text, wanted),
+                ElementsAre(HasSubstr("lie within one level of the range")));
     wanted.picture.range = ValueRange{3, 5};
     EXPECT_THAT(words_of(text, wanted), IsEmpty());
     wanted.picture.range.reset();
     wanted.picture.show = "ka";
     EXPECT_THAT(words_of(text, wanted),
-                ElementsAre("the picture is of one colour: what it shows is 0.0125 in all cells"));
+                ElementsAre(
+                    "the picture is of one colour: the shown value is 0.0125 in all cells"));
 }
 
 TEST_F(SilentResults, AGridThatIsALine) {
@@ -107,7 +109,8 @@ TEST_F(SilentResults, SweepsRemarkOnTheirRuns) {
     ASSERT_EQ(rows.size(), 4u);
     EXPECT_THAT(rows[1],
                 HasSubstr(
-                    "stage 'skin' is dying out: the deviations left are small and falling (u "));
+                    "stage 'skin' is dying out: the remaining differences between its cells are "
+                    "small and shrinking (u "));
     EXPECT_THAT(rows[2], HasSubstr("stage 'skin' died out: it has been uniform since step "));
     EXPECT_THAT(rows[3], testing::EndsWith(",200,"));
 }

@@ -161,14 +161,15 @@ TEST_F(SmoothPictureRun, WhatCannotBeIsRefused) {
     EXPECT_THAT(reason(plane("grid: 8, 8; boundary: noflux", "0"), copies),
                 HasSubstr("the pattern does not repeat across its left and right sides"));
     EXPECT_THAT(reason(plane("surface: sphere; cells: 200", "0"), copies),
-                HasSubstr("only planes are drawn in copies"));
+                HasSubstr("only planes can be drawn in copies"));
     copies.copies = {1, 2};
     EXPECT_THAT(reason(plane("grid: 8, 8; boundary: periodic, noflux", "0"), copies),
                 HasSubstr("the pattern does not repeat across its upper and lower sides"));
     PictureRequest rows = smooth(100, 100);
     rows.space_time = true;
     EXPECT_THAT(reason(plane("grid: 8", "0"), rows),
-                HasSubstr("a space-time picture has a pixel for each cell and interval"));
+                HasSubstr("the size of a space-time picture is fixed: one pixel for each cell "
+                          "and interval"));
     Script script = load(plane("grid: 8, 8", "0"));
     RunRequest wanted = request();
     wanted.picture = smooth(1 << 20, 1 << 20);

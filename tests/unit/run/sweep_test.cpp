@@ -385,16 +385,16 @@ TEST_F(SetsTest, SayWhereTheyAreWrong) {
     EXPECT_EQ(fault_of("a,b\n1,x\n"), ":2:3: 'x' is not a number");
     EXPECT_EQ(fault_of("a,b\n1,1/0\n"), ":2:3: '1/0' is not a number");
     EXPECT_EQ(fault_of("a,b\n1,\n"), ":2:3: 'b' has no value here");
-    EXPECT_EQ(fault_of("a,b\n1,2\n\n3\n"), ":4:1: this row has 1 cell, and the first line has 2");
-    EXPECT_EQ(fault_of("a,b\n1,2,3\n"), ":2:5: this row has 3 cells, and the first line has 2");
+    EXPECT_EQ(fault_of("a,b\n1,2\n\n3\n"), ":4:1: this row has 1 cell, but the first line has 2");
+    EXPECT_EQ(fault_of("a,b\n1,2,3\n"), ":2:5: this row has 3 cells, but the first line has 2");
     EXPECT_EQ(fault_of("a,b\n1,2\n1, 2\n"), ":3:1: this row repeats line 2");
-    EXPECT_EQ(fault_of("a,a\n"), ":1:3: 'a' has a column already");
+    EXPECT_EQ(fault_of("a,a\n"), ":1:3: 'a' already has a column");
     EXPECT_EQ(fault_of("a,,b\n"), ":1:3: there is no name");
     EXPECT_EQ(fault_of("0.1,0.2\n"), ":1:1: '0.1' is not a name");
     EXPECT_EQ(fault_of("a;b\n1;2\n"), ":1:1: the cells of a table must be separated by commas");
     EXPECT_EQ(fault_of("seed\n-1\n"), ":2:1: '-1' is not a seed");
     EXPECT_EQ(fault_of("a,\"b\n"), ":1:3: this quoted cell has no end");
-    EXPECT_EQ(fault_of("a,b\n"), " has names and no row of values");
+    EXPECT_EQ(fault_of("a,b\n"), " has names but no row of values");
     EXPECT_EQ(fault_of("\n"), " has no names in its first line");
 }
 
