@@ -25,7 +25,7 @@ int continue_command(const Options& options, Console& console) {
 
     FollowRequest request = options.follow;
     if (!request.varied) {
-        console.fail({"nothing is varied", "say what with --vary, as in --vary feed=0.02..0.06"});
+        console.fail({"nothing is varied", "add --vary, as in --vary feed=0.02..0.06"});
         return exit_status::wrong_use;
     }
     request.simulation = options.run.simulation;

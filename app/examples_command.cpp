@@ -76,7 +76,7 @@ Result<std::vector<fs::path>> copy_example(const Example& example, const fs::pat
     for (const auto& [from, to] : copies) {
         if (!fs::exists(to, unknown)) continue;
         return failure(fmt::format("{} already exists", to.string()),
-                       "an example replaces no file");
+                       "choose another name: an example never replaces a file");
     }
     std::vector<fs::path> written;
     for (const auto& [from, to] : copies) {

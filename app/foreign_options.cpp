@@ -49,16 +49,16 @@ struct NeedlessOption {
     std::string_view name, needs, advice;
 };
 constexpr NeedlessOption needless_options[] = {
-    {"port", "--no-browser", "the page is at a free port of this machine, which is printed"},
-    {"host", "--no-browser", "the page is for browsers of this machine only"},
-    {"bind", "--no-browser", "the page is for browsers of this machine only"},
-    {"open", "--no-browser", "the browser opens by itself"},
-    {"browser", "--no-browser", "the browser opens by itself"},
-    {"dpi", "--size", "--size 1920x1080 says how many pixels a picture has"},
-    {"i", "--unicode", "the files are changed themselves"},
-    {"write", "--unicode", "the files are changed themselves"},
-    {"in-place", "--unicode", "the files are changed themselves"},
-    {"inplace", "--unicode", "the files are changed themselves"},
+    {"port", "--no-browser", "leave it out: the page uses a free port, which is printed"},
+    {"host", "--no-browser", "leave it out: only browsers of this machine can open the page"},
+    {"bind", "--no-browser", "leave it out: only browsers of this machine can open the page"},
+    {"open", "--no-browser", "leave it out: the browser opens by itself"},
+    {"browser", "--no-browser", "leave it out: the browser opens by itself"},
+    {"dpi", "--size", "write --size 1920x1080 for the pixels of a picture"},
+    {"i", "--unicode", "leave it out: the files themselves are changed"},
+    {"write", "--unicode", "leave it out: the files themselves are changed"},
+    {"in-place", "--unicode", "leave it out: the files themselves are changed"},
+    {"inplace", "--unicode", "leave it out: the files themselves are changed"},
 };
 
 bool is_number(std::string_view text) {
@@ -89,7 +89,7 @@ std::string advice_about_option(std::string_view option, const std::string& valu
     }
     const bool is_of_script =
         !has_near && name.size() > 0 && is_option("--set") && is_number(value);
-    return is_of_script ? fmt::format("a value of the script is set by --set {}={}", name, value)
+    return is_of_script ? fmt::format("write --set {}={} to set a value of the script", name, value)
                         : "";
 }
 

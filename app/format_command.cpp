@@ -36,7 +36,7 @@ int format_file(const std::string& path, const Options& options, Console& consol
     }
     if (text->starts_with("\x89PNG")) {
         console.fail({fmt::format("{} is a picture; its script cannot be changed", path),
-                      "fmt reads scripts"});
+                      "use fmt only for scripts"});
         return exit_status::wrong_script;
     }
     const auto result = formatted(path, *text, options.notation, console);

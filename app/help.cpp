@@ -60,9 +60,9 @@ const std::string_view sweep_examples = R"(Examples:
   cascade sweep coral.cascade --vary gray_scott.feed=0.02..0.06:9 --vary gray_scott.kill=0.05..0.07:9
   cascade sweep coral.cascade --vary seed=1..1000:1000 --part 3/100      a job of a cluster
 
-All goes into one folder: sheet.png, features.csv (wavelength, spots, area, direction of what the
-picture shows), and a small result of every run, so that the same command goes on where a sweep was
-stopped, and one with more values runs only what is new.)";
+All results go into one folder: sheet.png, features.csv (wavelength, spots, area and direction of
+the shown pattern), and a small result of every run. The same command continues a sweep that was
+stopped, and a command with more values computes only the new runs.)";
 
 const std::string_view follow =
     "Follows steady states through a parameter, with folds, branch points and their stability.";
@@ -80,7 +80,8 @@ const std::string_view check_examples = R"(Examples:
   cascade check leopard.cascade --dump ir            what a cell computes in a step)";
 
 const std::string_view analyze =
-    "Says what will grow from a script's equations: flat states, waves, stable steps. Runs nothing.";
+    "Says what will grow from a script's equations: flat states, waves, stable steps. Runs "
+    "nothing.";
 const std::string_view analyze_examples = R"(Examples:
   cascade analyze spots.cascade                      the first stage
   cascade analyze leopard.cascade --stage small --set small.ka=0.01
@@ -135,7 +136,8 @@ const std::string_view import_model_examples = R"(Examples:
   cascade import 'https://visualpde.com/sim/?options=…' -o spirals.cascade
   cascade import presets.js --preset KdV             a preset of VisualPDE
   cascade import neuron.ode --diffusion v=1
-What cannot be said in Cascade is an error at its line. What differs is said, and written as comments.)";
+A part of the model that Cascade cannot express is an error at its line. Differences are
+reported and written as comments.)";
 
 const std::string_view format =
     "Rewrites scripts in the canonical style: blanks, lines, indentation.";
@@ -144,7 +146,8 @@ const std::string_view format_examples = R"(Examples:
   cascade fmt --check *.cascade                      status 1 if one would change
   cascade fmt - < draft.cascade                      to standard output
   cascade fmt --unicode spots.cascade                ∂u/∂t = D∇²u for u' = D*lap(u)
-Comments stay, and so does what an author has lined up. A script that cannot be read is left alone.)";
+Comments stay, and so do columns that an author has lined up. A script with errors of syntax
+is not changed.)";
 
 const std::string_view mesh =
     "Describes 3-D models, and what has to be repaired in them; writes them refined, simplified or "
@@ -156,7 +159,7 @@ const std::string_view mesh_examples = R"(Examples:
   cascade mesh horse.ply --simplify 5000 -o low.obj  with fewer triangles
 PLY, OBJ, OFF, STL, glTF and GLB are read.)";
 
-const std::string_view repl = "The language line by line, with pictures in the terminal.";
+const std::string_view repl = "Runs the language line by line, with pictures in the terminal.";
 const std::string_view repl_examples = R"(Example:
   cascade repl leopard.cascade
 Then :help lists the commands.)";
@@ -167,7 +170,7 @@ const std::string_view view_examples = R"(Examples:
   cascade view                                       offers the systems of the library
   cascade view leopard.cascade
   cascade view leopard.cascade --no-browser          prints the address
-Only this machine reaches the page. Ctrl-C ends it.)";
+Only this machine can reach the page. Ctrl-C ends it.)";
 
 const std::string_view lsp =
     "Checks and explains scripts in an editor: a server of the Language Server Protocol.";
@@ -181,7 +184,8 @@ const std::string_view export_page =
     "Writes a script as one page that any browser opens: its pattern grows there, offline.";
 const std::string_view export_page_examples = R"(Example:
   cascade export leopard.cascade --html leopard.html
-The page is that of 'cascade view', and carries Cascade, the model and the pictures of the script.)";
+The page works like the page of 'cascade view'. It contains Cascade, the model and the pictures of
+the script.)";
 
 std::string in_lines(const std::vector<std::string>& names) {
     constexpr std::size_t widest = 52;

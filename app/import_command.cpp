@@ -136,7 +136,7 @@ private:
             known +=
                 fmt::format("{}{} ({})", known.empty() ? "" : ", ", format.name, format.endings);
         }
-        return {fmt::format("'{}' is in no format that can be imported", given_),
+        return {fmt::format("'{}' has no format that can be imported", given_),
                 "the formats are: " + known};
     }
 
@@ -163,7 +163,7 @@ private:
                                                std::pair("--presets", !options_.presets.empty())}) {
             if (!is_given) continue;
             return failure(
-                fmt::format("a {} is no preset, so {} has no meaning", format.name, option));
+                fmt::format("a {} is not a preset, so {} has no meaning", format.name, option));
         }
         return {};
     }
@@ -183,7 +183,7 @@ private:
         if (!script.program) {
             return refuse({fmt::format("the script of {} would have errors; nothing was written",
                                        given_),
-                           "the model may use a construct whose import is wrong"},
+                           "the import of some part of the model is probably wrong"},
                           exit_status::wrong_script);
         }
         std::vector<std::pair<fs::path, std::string_view>> files;
@@ -193,7 +193,7 @@ private:
             std::error_code error;
             if (fs::exists(path, error)) {
                 return refuse({fmt::format("{} already exists", path.string()),
-                               "an import replaces no file; give another name with -o"},
+                               "give another name with -o: an import never replaces a file"},
                               exit_status::failed_run);
             }
         }
@@ -205,8 +205,10 @@ private:
         }
         for (const std::string& each : draft.remarks) console_.note(each);
         if (draft.waits_for_click) {
-            console_.note(fmt::format("nothing grows until it is painted on: cascade view {}",
-                                      output.string()));
+            console_.note(
+                fmt::format("nothing grows until you paint on the pattern: cascade "
+                            "view {}",
+                            output.string()));
         }
         return exit_status::success;
     }

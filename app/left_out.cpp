@@ -59,7 +59,7 @@ extern "C" [[noreturn]] void cascade_left_out() {
         arguments.push_back(nullptr);
         ::execv(launcher.c_str(), arguments.data());
     }
-    std::cerr << "cascade: this program can only draw first pictures, and " << launcher.string()
-              << " could not build the whole one\n";
+    std::cerr << "cascade: this program can draw only a first picture, and " << launcher.string()
+              << " could not build the whole program\n";
     std::_Exit(cascade::exit_status::bug);
 }

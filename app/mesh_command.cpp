@@ -107,11 +107,11 @@ private:
 std::optional<Failure> misuse(const Options& options) {
     const bool spreads = options.cells && options.cells->kind == CellKind::places;
     if (options.cell_seed && !spreads) {
-        return Failure{"--seed means nothing without a number of --cells", ""};
+        return Failure{"--seed has no effect without a number of --cells", ""};
     }
     if (options.mesh_output.empty()) return std::nullopt;
     if (options.models.size() > 1) {
-        return Failure{"-o is the file of one model, and several are given", ""};
+        return Failure{"-o takes the file of one model, but several models are given", ""};
     }
     if (options.mesh_files.unwrap && !can_hold(options.mesh_output, FormatTrait::texture)) {
         return Failure{"'" + options.mesh_output.string() + "' cannot hold texture coordinates",

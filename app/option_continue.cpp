@@ -29,11 +29,13 @@ void add_follow(CLI::App& app, Options& options) {
         ->group(what);
     app.add_flag(
            "--flat", follow.from_flat,
-           "Begin with the flat state, in which all cells are equal,\nand not with the end of the run")
+           "Begin with the flat state, in which all cells are equal,\nand not with the end of "
+           "the run")
         ->group(what);
     add_value(
         app, "--branches", "N",
-        "Follow up to N branches: also those that meet the first\nones, in the order of their points (1)",
+        "Follow up to N branches: also branches that meet the\nfirst ones, in the order of their "
+        "points (1)",
         whole_number(1, 1000),
         [&](auto count) { follow.branches = static_cast<std::size_t>(count); })
         ->group(what);
@@ -65,7 +67,8 @@ void add_follow(CLI::App& app, Options& options) {
         ->group(files);
     add_value(
         app, "--curve", "NUMBER",
-        "What the diagram shows upwards: norm, min, max or mean of\nthe first species, or as in max_v",
+        "The vertical axis of the diagram: norm, min, max or mean\nof the first species, or of "
+        "another, as in max_v",
         any_text, [&](auto number) { follow.up = number; })
         ->group(files);
     add_value(app, "--save", "DIR", "Save every state as a run, to go on from it by run --resume",

@@ -45,8 +45,8 @@ void add_simulation(CLI::App& app, Options& options, const std::string& threads)
               })
         ->group(group);
     // This option is for tests and fuzzers, so --help does not show it.
-    add_value(app, "--tiling", "LEVELS,LAYER", "How steps go through memory", parse_tiling,
-              [&](const Tiling& tiling) { simulation.tiling = tiling; })
+    add_value(app, "--tiling", "LEVELS,LAYER", "The order in which steps go through memory",
+              parse_tiling, [&](const Tiling& tiling) { simulation.tiling = tiling; })
         ->group("");
     app.add_flag_callback(
            "--no-kernel-cache", [&simulation] { simulation.kernel_cache.clear(); },
@@ -62,10 +62,9 @@ void add_mesh(CLI::App& app, Options& options) {
         "Buffers of glTF files may lie below this folder too, not\nonly below the model's; "
         "'all': everywhere; may be given\nagain");
     add_value(app, "--subdivide", "N",
-              "Make four smaller triangles of each one, N times over, on a\nsmooth surface",
-              whole_number(1, 8),
+              "Divide each triangle into four, N times, on a smooth\nsurface", whole_number(1, 8),
               [&](auto times) { options.reshaping.subdivide = static_cast<int>(times); });
-    add_value(app, "--simplify", "N", "Leave about N triangles, where the shape needs them most",
+    add_value(app, "--simplify", "N", "Keep about N triangles, where the shape needs them most",
               whole_number(1, std::numeric_limits<std::int32_t>::max()),
               [&](auto count) { options.reshaping.simplify = static_cast<std::size_t>(count); });
     app.add_flag("--unwrap", options.mesh_files.unwrap,
@@ -124,7 +123,8 @@ void add_limits(CLI::App& app, Options& options) {
 }
 
 void add_quiet(CLI::App& app, Options& options) {
-    app.add_flag("-q,--quiet", options.quiet, "No progress and no remarks")->group(execution_group);
+    app.add_flag("-q,--quiet", options.quiet, "Print no progress and no remarks")
+        ->group(execution_group);
 }
 
 void add_dump(CLI::App& app, Options& options) {
@@ -176,7 +176,8 @@ void add_export(CLI::App& app, Options& options) {
         ->group("Output");
     app.add_flag(
            "--exact", options.exact,
-           "The bits of 'cascade run', also of numbers below 1.2e-38;\nsteps take 8 times as long")
+           "Give the bits of 'cascade run' for numbers below 1.2e-38,\ntoo; steps take 8 times "
+           "as long")
         ->group("Output");
 }
 

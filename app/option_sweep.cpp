@@ -19,7 +19,8 @@ void add_varied(CLI::App& app, Options& options) {
     app.add_option_function<std::vector<std::string>>(
            "--vary", read_all,
            "A parameter or setting and its values: a range and their\nnumber, feed=0.02..0.06:9, "
-           "or a list, ka=1/400,1/200; with\n:log at equal ratios, 0.001..1:7:log; may be given again:\nthe first "
+           "or a list, ka=1/400,1/200; with\n:log at equal ratios, 0.001..1:7:log; may be given "
+           "again:\nthe first "
            "runs across, the second up")
         ->allow_extra_args(false)
         ->type_name("NAME=VALUES")
@@ -58,7 +59,8 @@ void add_sweep_files(CLI::App& app, Options& options) {
     add_run_options(app, options.run, RunOption::fps, RunOption::seconds);
     app.add_option(
            "--curve", sweep.curves,
-           "Plot a feature against the first varied name, as FEATURE.svg;\nmay be given several times")
+           "Plot a feature against the first varied name, as FEATURE.svg;\nmay be given several "
+           "times")
         ->allow_extra_args(false)
         ->type_name("FEATURE")
         ->group(files);
@@ -70,8 +72,8 @@ void add_sweep_files(CLI::App& app, Options& options) {
 void add_sweep_processes(CLI::App& app, SweepRequest& sweep) {
     const std::string divided = "Many processes";
     add_value(app, "--part", "K/N",
-              "Take the K-th of N parts of the runs; the same command\n"
-              "without it draws the sheet when all parts are done",
+              "Take the K-th of N parts of the runs; the same command\nwithout --part draws the "
+              "sheet when all parts are done",
               parse_part, [&](auto part) { sweep.part = part; })
         ->group(divided);
     app.add_option_function<std::vector<std::string>>(

@@ -322,17 +322,18 @@ Result<std::string> parse_output_path(std::string_view text) {
                        "the endings of films are " + endings_of(FormatKind::film, "and"));
     }
     if (is_of_kind(text, FormatKind::volume)) {
-        return failure(fmt::format("'{}' is a volume, but -o writes pictures of it", text),
-                       fmt::format("--volume {} writes it", text));
+        return failure(fmt::format("'{}' is a volume, but -o writes only pictures of volumes",
+                                   text),
+                       fmt::format("use --volume {}", text));
     }
     const std::string ending = lower_ending(std::filesystem::path(text));
     if (ending == ".npy" || ending == ".csv" || ending == ".h5" || ending == ".txt") {
-        return failure(fmt::format("'{}' is a file of numbers, and -o writes pictures", text),
+        return failure(fmt::format("'{}' is a file of numbers, but -o writes pictures", text),
                        "--save FOLDER writes each species as .npy, --series NAME.npy, NAME.h5 or "
                        "NAME.csv fields over time, --log EXPR a table of numbers over time");
     }
     return failure(
-        fmt::format("the ending of '{}' is not that of a file that can be written", text),
+        fmt::format("'{}' has an ending that Cascade cannot write", text),
         fmt::format("{} is a picture, {} a figure with axes; {} are films; on a model, {} are "
                     "models, {} their cells",
                     endings_of(FormatKind::picture), endings_of(FormatKind::figure, "or"),
@@ -365,8 +366,8 @@ Result<std::string> parse_frames_folder(std::string_view text) {
     const bool is_number = !text.empty() && text.find_first_not_of("0123456789") == text.npos;
     if (!is_number) return std::string(text);
     return failure(fmt::format("the name of a folder is missing before the number '{}'", text),
-                   fmt::format("the stage's 'interval' says how many frames there are; the folder "
-                               "./{} can be named so",
+                   fmt::format("write the name of a folder, such as ./{}; the stage's 'interval' "
+                               "sets the number of frames",
                                text));
 }
 

@@ -225,7 +225,8 @@ bool PromptSession::advance(std::int64_t steps) {
 
 void PromptSession::tell_over() {
     console_.say(
-        "every stage has taken its steps: ':init' begins again, and a new stage continues\n");
+        "every stage has taken its steps: type ':init' to begin again, or a new stage to "
+        "continue\n");
 }
 
 void PromptSession::remark(const std::string& words) {
@@ -251,7 +252,7 @@ void PromptSession::show(const std::string& expression) {
     console_.draw(pictures_.draw(image, console_.out()));
     if (!canvas.is_colour()) console_.print(in_words(canvas.fields[0]));
     if (painter->fell_back()) {
-        console_.warn("it names a stage that has not run; this is the default picture");
+        console_.warn("the picture reads a stage that has not run, so this is the default picture");
     }
 }
 
@@ -299,8 +300,8 @@ void PromptSession::save(const std::string& path) {
     if (ending == ".cascade") return save_text(path);
     if (ending == ".png") return save_picture(path);
     if (has_ending_of_file(path)) {
-        return fail({fmt::format("':save' writes no file that ends with {}", ending),
-                     "it writes NAME.png, NAME.cascade, NAME.session, or a folder of fields"});
+        return fail({fmt::format("':save' cannot write a file that ends with {}", ending),
+                     "use NAME.png, NAME.cascade, NAME.session, or a folder for the fields"});
     }
     const auto written = save_run(path, run_->script(), run_->simulation());
     if (!written) return fail(written.error());

@@ -90,10 +90,8 @@ Result<std::vector<Variation>> variations(const Options& options, const LoadedFi
         varied.push_back(std::move(*variation));
     }
     if (!varied.empty()) return varied;
-    return failure(
-        "nothing is varied",
-        "say what with --vary, as in --vary feed=0.02..0.06:9, with --sets FILE.csv or with "
-        "--seeds 1..20");
+    return failure("nothing is varied",
+                   "add --vary, as in --vary feed=0.02..0.06:9, --sets FILE.csv or --seeds 1..20");
 }
 
 int sweep_script(const Options& options, Console& console, Ranks* ranks) {

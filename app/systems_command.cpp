@@ -200,7 +200,7 @@ int new_command(const Options& options, Console& console) {
     std::error_code error;
     if (std::filesystem::exists(options.new_script, error)) {
         console.fail({fmt::format("{} already exists", options.new_script.string()),
-                      "a script to start from replaces no file"});
+                      "choose another name: 'cascade new' never replaces a file"});
         return exit_status::failed_run;
     }
     if (auto done = write_file(options.new_script, script); !done) {

@@ -100,4 +100,4 @@ whole run plane.cascade --save saved
 whole run volume.cascade --volume a.vdb
 
 CASCADE_WHOLE=1 "$first" check model.cascade >out 2>err
-[ $? = 70 ] && grep -q 'could not build the whole one' err || fail "calls itself for ever: $(cat out err)"
+[ $? = 70 ] && grep -q 'could not build the whole program' err || fail "calls itself for ever: $(cat out err)"

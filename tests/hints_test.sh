@@ -130,7 +130,7 @@ for option in --port --host --open; do
     grep -qE "there is no option $option; the (page|browser)" err || fail "view $option: $(cat err)"
 done
 "$CASCADE" fmt s.cascade --write >out 2>err && fail "no fault: fmt --write"
-grep -qF "the files are changed themselves" err || fail "fmt --write: $(cat err)"
+grep -qF "leave it out: the files themselves are changed" err || fail "fmt --write: $(cat err)"
 "$CASCADE" run s.cascade --film x >out 2>err && fail "no fault: run --film"
 grep -qF -- "--field" err && fail "--field is near --film"
 hint "did you mean 'cascade systems'?" list -- systems

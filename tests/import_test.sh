@@ -88,7 +88,7 @@ run 3 import "$models/spots.vti"
 says err 'spots.cascade already exists'
 run 64 import
 run 2 import "$SOURCE/README.md"
-says err 'is in no format that can be imported'
+says err 'has no format that can be imported'
 run 64 import "$models/spots.vti" --diffusion a=1
 says err 'has its own diffusion'
 run 0 import "$models/clock.ode" --diffusion x=0.5 -o disc.cascade

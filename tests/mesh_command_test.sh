@@ -44,7 +44,7 @@ cmp -s out first || fail "seed 1 is the default"
 run 0 mesh cube.obj --cells 600 --seed 2
 cmp -s out first && fail "another seed gives the same cells"
 run 64 mesh cube.obj --seed 2
-says err "--seed means nothing without a number of --cells"
+says err "--seed has no effect without a number of --cells"
 # Texture coordinates in written files, which are read again.
 run 0 mesh cube.obj --unwrap
 says out "made texture coordinates: "
@@ -158,7 +158,7 @@ says err "--subdivide"
 run 64 mesh cube.obj -o same.off
 says err "'same.off' does not end in .ply, .obj, .glb, .vtp or .stl"
 run 64 mesh cube.obj new.obj --unwrap -o newer.glb
-says err "-o is the file of one model, and several are given"
+says err "-o takes the file of one model, but several models are given"
 run 64 mesh cube.obj --unwrap -o new.vtp
 says err "'new.vtp' cannot hold texture coordinates"
 run 3 mesh cube.obj --unwrap -o nowhere/new.glb
@@ -169,7 +169,7 @@ says out "the nearest neighbour 1 away, deviation 0.0 %"
 run 0 mesh cube.obj --cells vertices
 says out "8 cells of mean area 0.75, deviation 0.0 %, 3.00 neighbours each"
 run 64 mesh cube.obj --cells faces --seed 2
-says err "--seed means nothing without a number of --cells"
+says err "--seed has no effect without a number of --cells"
 run 64 mesh cube.obj --cells edges
 says err "or write 'faces' or 'vertices'"
 run 3 mesh cube.obj --cells 1000000000

@@ -314,7 +314,7 @@ run 3 $model -o big.png --size 100000x100000
 says err "a picture of 100000 × 100000 pixels has more than 268435456 pixels"
 says err "use a smaller --size"
 run 64 $model -o m.fbx
-says err "the ending of 'm.fbx' is not that of a file that can be written"
+says err "'m.fbx' has an ending that Cascade cannot write"
 run 64 $model --bump 2
 says err "'2' is not a number from -1 to 1"
 run 64 $model --bump nan

@@ -129,7 +129,7 @@ feed 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 10 }' ':save 
 [ -f large.PNG ] || fail "NAME.PNG is not a picture"
 for name in photo.JPG anim.gif table.csv; do
     feed_wrong 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 10 }' ":save $name"
-    says err "':save' writes no file that ends with"
+    says err "':save' cannot write a file that ends with"
     [ -e "$name" ] && fail "a folder is called $name"
 done
 

@@ -267,11 +267,11 @@ INSTANTIATE_TEST_SUITE_P(
         WrongUse{{}, "Usage: cascade COMMAND"},
         WrongUse{{"rnu", "a.cascade"}, "no command 'rnu'; did you mean 'cascade run'?"},
         WrongUse{{"a.cascade"}, "no command 'a.cascade'; did you mean 'cascade run a.cascade'?"},
-        WrongUse{
-            {"fly"},
-            "the commands are run, sweep, continue, check, analyze, bench, compile, systems, examples, new, "
-            "import, palettes, fmt, mesh, "
-            "repl, export, view"},
+        WrongUse{{"fly"},
+                 "the commands are run, sweep, continue, check, analyze, bench, compile, systems, "
+                 "examples, new, "
+                 "import, palettes, fmt, mesh, "
+                 "repl, export, view"},
         WrongUse{{"run"}, "cascade run: a script is missing"},
         WrongUse{{"check"}, "cascade check: a script is missing"},
         WrongUse{{"run", "a", "--pallete", "tan"}, "no option --pallete; did you mean --palette?"},
@@ -299,10 +299,9 @@ INSTANTIATE_TEST_SUITE_P(
         WrongUse{{"run", "a", "--range", "3"}, "'3' is not a range"},
         WrongUse{{"run", "a", "--range", "3,3"}, "'3,3' is not a range"},
         WrongUse{{"run", "a", "--range", "nan,1"}, "'nan,1' is not a range"},
-        WrongUse{{"run", "a", "-o", "a.jpg"},
-                 "the ending of 'a.jpg' is not that of a file that can be written"},
+        WrongUse{{"run", "a", "-o", "a.jpg"}, "'a.jpg' has an ending that Cascade cannot write"},
         WrongUse{{"run", "a", "-o", "a.png", "-o", "a.xyz"}, ".npz and .cells.vtp their cells"},
-        WrongUse{{"run", "a", "-o", "a.vdb"}, "--volume a.vdb writes it"},
+        WrongUse{{"run", "a", "-o", "a.vdb"}, "use --volume a.vdb"},
         WrongUse{{"run", "a", "--volume", "a.vtk"}, "'a.vtk' does not end in .vti or .vdb"},
         WrongUse{{"run", "a", "--bump", "-1.5"}, "'-1.5' is not a number from -1 to 1"},
         WrongUse{{"run", "a", "--up", "xy"}, "'xy' is not one of x, y, z"},
