@@ -85,8 +85,7 @@ Result<LinearModel> linear_model(const Program& program, std::uint32_t stage,
             if (!KernelTapes(model, kernel).has_too_many_lags({})) continue;
             return failure(fmt::format("its convolutions reach more than {} cells",
                                        KernelTapes::most_lags),
-                           "a third argument, the distance up to which cells count, makes them "
-                           "shorter: convolve(k, e, 20)");
+                           "add a distance as the third argument, as in convolve(k, e, 20)");
         }
     }
     std::sort(model.parameters.begin(), model.parameters.end());

@@ -157,9 +157,9 @@ Result<MeshTexture> unwrap(const SurfaceMesh& mesh, std::int64_t texels, Team& t
     MeshTexture texture(mesh.triangles.size());
     if (cancel) return texture;
     if (scale == 0) {
-        return failure(fmt::format("the model falls into {}, too many for a texture of {} × {}",
+        return failure(fmt::format("the model consists of {}, too many for a texture of {} × {}",
                                    counted(std::ssize(charts), "separate part"), texels, texels),
-                       "a larger texture has room for more");
+                       "use a larger texture");
     }
     for (const Chart& chart : charts) {
         for (std::size_t n = 0; n < chart.triangles.size(); ++n) {

@@ -118,7 +118,7 @@ private:
         skip_blanks();
         if (at_end() || text_[at_] == ',' || ends_line(text_[at_])) return {};
         return failure(fmt::format("{}:{}: there is text after a quoted cell", line_, column()),
-                       "a quote inside of quotes is written twice");
+                       "write a quote inside of quotes twice");
     }
 
     std::string_view text_;

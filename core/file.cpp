@@ -50,7 +50,7 @@ Result<void> write_in_place(const fs::path& path, std::string_view bytes) {
     Descriptor file(open_file(path, O_WRONLY | O_NONBLOCK));
     if (!file.is_open() && errno == ENXIO) {
         return failure(fmt::format("cannot write '{}': no program reads this pipe", path.string()),
-                       "begin reading it before the run ends, or name a file");
+                       "begin to read the pipe before the run ends, or name a file");
     }
     if (!file.is_open()) return cannot("write", path.string(), errno);
     if (const int error = write_all_waiting(file, bytes))

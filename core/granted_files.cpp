@@ -81,7 +81,7 @@ Result<std::string> GrantedFiles::read_at(const fs::path& path, const std::strin
         return read_file_below(folder, *way, largest, name);
     }
     return failure(fmt::format("'{}' lies outside of the {}'s folder", short_name(name), owner_),
-                   "--allow-read FOLDER grants what lies there");
+                   "use --allow-read FOLDER to allow files of that folder");
 }
 
 Result<std::string> GrantedFiles::read(const std::string& name, std::uint64_t largest) const {

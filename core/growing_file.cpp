@@ -20,7 +20,7 @@ Result<void> check_can_grow(const std::filesystem::path& path) {
     if (S_ISDIR(status.st_mode)) return cannot("write", path.string(), EISDIR);
     if (S_ISREG(status.st_mode)) return {};
     return failure(fmt::format("cannot write '{}': it is a pipe or a device", path.string()),
-                   "such a file is completed by changing its beginning: name a new file");
+                   "name a new file: the beginning of such a file is written last");
 }
 
 Result<std::unique_ptr<GrowingFile>> GrowingFile::create(const std::filesystem::path& path) {

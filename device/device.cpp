@@ -88,12 +88,13 @@ const DeviceProgram& Device::program(const std::string& source, const TextTarget
 ExecutorFailure failure_of(const DeviceFacts& facts, const OpenclError& error) {
     return ExecutorFailure(
         {fmt::format("{} failed: {}", facts.name, error.message),
-         "--checkpoint 10m saves what a run has done, and threads can continue from there"});
+         "use --checkpoint 10m to save the run while it goes on, so that it can continue on "
+         "threads"});
 }
 
 ExecutorFailure failure_of(const DeviceFacts& facts, const ProgramRefused& refusal) {
     std::string hint =
-        "CASCADE_DEVICE_SOURCE=FILE.cl keeps the program and all messages, for a report";
+        "set CASCADE_DEVICE_SOURCE=FILE.cl to keep the program and all messages for a report";
     const char* const path = std::getenv("CASCADE_DEVICE_SOURCE");
     if (path != nullptr && *path != '\0') {
         const auto written =

@@ -52,12 +52,12 @@ void check_memory(const StepProblem& problem, std::size_t species, bool keeps,
                  static_cast<double>(largest) / static_cast<double>(facts.largest_buffer));
     if (part <= 1) return;
     throw ExecutorFailure(
-        {fmt::format("the steps need {:.2f} GB on {}, which has {:.2f} GB, {:.2f} GB in one piece",
+        {fmt::format("the steps need {:.2f} GB on {}, which has {:.2f} GB in total and {:.2f} GB "
+                     "in one piece",
                      static_cast<double>(needed) / 1e9, facts.name,
                      static_cast<double>(facts.memory) / 1e9,
                      static_cast<double>(facts.largest_buffer) / 1e9),
-         fmt::format("about {:.0f} cells would fit; steps on threads use this machine's "
-                     "memory",
+         fmt::format("use about {:.0f} cells, or leave --device out to use this machine's memory",
                      static_cast<double>(problem.grid.cell_count()) / part)});
 }
 
@@ -158,8 +158,8 @@ void DeviceExecutor::prepare(const StepProblem& problem) {
     if (&problem == problem_) return;
     CHECK(!problem_ || problem.grid == problem_->grid, "passes of one grid");
     if (const std::string reason = reason_against(problem, device_->facts()); !reason.empty()) {
-        throw ExecutorFailure(
-            {"the device cannot go on with the stage, because " + reason, "steps on threads can"});
+        throw ExecutorFailure({"the device cannot go on with the stage, because " + reason,
+                               "leave --device out to run the stage on threads"});
     }
     on(*device_, [&] {
         planes_.make(problem.registers, problem.temporaries);
@@ -304,7 +304,8 @@ MakeExecutor on_device(std::shared_ptr<Device> device, bool may_differ,
             if (!probe.is_exact() && !may_differ) {
                 throw ExecutorFailure(
                     {fmt::format("{} is not bit-exact: {}", facts.name, probe.fault),
-                     "--fast allows other bits; steps on threads have the same bits everywhere"});
+                     "add --fast to allow other bits, or leave --device out to get the same bits "
+                     "everywhere"});
             }
             if (!probe.is_exact() && tell) {
                 tell(

@@ -13,7 +13,7 @@ namespace {
 Result<OpenclApi> load() {
     void* const library = ::dlopen("libOpenCL.so.1", RTLD_NOW | RTLD_LOCAL);
     if (library == nullptr) {
-        return failure("devices are driven by OpenCL, whose loader libOpenCL.so.1 is missing",
+        return failure("devices need OpenCL, but its loader libOpenCL.so.1 is missing",
                        "install the package ocl-icd-libopencl1 and the driver of the device");
     }
     OpenclApi api;
@@ -25,7 +25,7 @@ Result<OpenclApi> load() {
 #undef CASCADE_LOAD
     if (missing != nullptr) {
         return failure(fmt::format("libOpenCL.so.1 lacks {}, a function of OpenCL 1.2", missing),
-                       "the package ocl-icd-libopencl1 has a newer one");
+                       "install a newer one with the package ocl-icd-libopencl1");
     }
     return api;
 }

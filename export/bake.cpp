@@ -30,7 +30,7 @@ constexpr double most_covered_area = 64;
 
 tl::unexpected<Failure> no_area() {
     return failure("the model's texture coordinates have no area in the texture",
-                   "--unwrap makes new ones");
+                   "use --unwrap to make new ones");
 }
 
 /// Working memory of one thread, allocated in advance.
@@ -301,7 +301,8 @@ private:
                     : "";
             bake.warnings.push_back(fmt::format(
                 "{:.1f} % of the texture belongs to several parts of the model{}: {:.1f} % of the "
-                "model shows the pattern of another part; --unwrap gives each a place of its own",
+                "model shows the pattern of another part; --unwrap gives each part another place "
+                "in the texture",
                 100 * bake.shared, why, 100 * bake.overlapping));
         }
         if (layout_.skipped().without_area > 0) {
@@ -331,15 +332,16 @@ private:
 
 Result<void> check_bakeable(const SurfaceMesh& mesh, double samples) {
     if (mesh.texture.empty()) {
-        return failure("the model has no texture coordinates to paint by", "--unwrap makes some");
+        return failure("the model has no texture coordinates to paint by",
+                       "use --unwrap to make some");
     }
     const double covered = TextureLayout(mesh, 1, 1).covered_area();
     if (covered * samples < 1) return no_area();
     if (covered <= most_covered_area) return {};
     return failure(
         fmt::format("the model's texture coordinates cover the texture {:.0f} times over", covered),
-        "they are meant for a picture that repeats; --unwrap gives every part of the model a "
-        "place of its own");
+        "they are meant for a picture that repeats; --unwrap gives every part of the model "
+        "another place");
 }
 
 Result<Bake> bake(const SurfaceMesh& mesh, const CellFilter& filter, const PaintedCells& cells,

@@ -24,7 +24,7 @@ Result<Vector3d> origin_of_glb(std::span<const Vector3d> points, Vector3d low, V
     }
     if (!(size >= least_size && farthest <= largest_size)) {
         return failure(fmt::format("a model of size {:.3g} with coordinates of up to {:.3g} does "
-                                   "not fit into a GLB file, which holds binary32 numbers",
+                                   "not fit into a GLB file, whose numbers have only 32 bits",
                                    size, farthest),
                        "scale the model, or write a PLY file");
     }

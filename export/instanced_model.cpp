@@ -197,9 +197,9 @@ Result<MergedCopies> merge_copies(const Instances& copies) {
             return with_commas(static_cast<std::int64_t>(number));
         };
         return failure(
-            fmt::format("{} copies have {} triangles together, and at most {} are merged",
+            fmt::format("{} copies have {} triangles in total, but at most {} can be merged",
                         text(copies.placements.size()), text(count), text(most_merged_triangles)),
-            "write them as instances, or with coarser shapes");
+            "leave --merge out, or use coarser shapes");
     }
     MergedCopies merged;
     merged.triangles.reserve(count);
@@ -254,12 +254,12 @@ Result<void> write_instanced(const std::filesystem::path& path, const InstancedM
                              bool is_merged) {
     if (!can_hold(path, FormatTrait::copies)) {
         return failure(
-            fmt::format("cannot write '{}': copies on a model go into files whose name "
+            fmt::format("cannot write '{}': copies on a model can be written only to a name that "
                         "ends in {}",
                         path.string(), endings_of(FormatTrait::copies, "or")));
     }
     if (!has_triangles(model)) {
-        return failure(fmt::format("cannot write '{}': there is nothing to be seen", path.string()),
+        return failure(fmt::format("cannot write '{}': it would show nothing", path.string()),
                        "no cell is drawn, and there is no surface below them");
     }
     return write_encoded(path, [&] {

@@ -57,8 +57,8 @@ Vector3d origin_of_file(const std::filesystem::path& path, const SurfaceMesh& me
 std::vector<std::string> remarks_of_origin(const std::filesystem::path& path, Vector3d origin) {
     if (origin == Vector3d{}) return {};
     return {
-        fmt::format("'{}' has the model moved by {}, {}, {}, to the origin: STL files hold "
-                    "binary32 numbers, which would blur its triangles where they are",
+        fmt::format("in '{}' the model is moved by {}, {}, {}, to the origin: far from it, the "
+                    "32-bit numbers of STL files would blur the triangles",
                     path.filename().string(), -origin.x, -origin.y, -origin.z)};
 }
 

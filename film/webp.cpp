@@ -108,7 +108,7 @@ public:
         before_ = frame;
         if (file_->size() + data.size() > largest_file) {
             return failure("the film is larger than the 4 GiB of a WebP file",
-                           "take another format, or fewer or smaller frames");
+                           "use another format, or fewer or smaller frames");
         }
         return file_->append(chunk("ANMF", data));
     }

@@ -105,7 +105,8 @@ Expression FormulaReader::binary(int least) {
             const FormulaWord sign = take();
             const bool is_power = found->precedence == of_foreign_power;
             if (sign.text == "^" && !dialect_.caret_is_power) {
-                fail(sign.span, "'^' combines the bits of whole numbers, which has no counterpart");
+                fail(sign.span,
+                     "'^' combines the bits of whole numbers, which has no counterpart in Cascade");
                 break;
             }
             // A power groups from the right, and its exponent may have a sign.
@@ -183,15 +184,17 @@ Expression FormulaReader::after_bracket() {
         fail(next().span, "a vector of several values has no counterpart in Cascade");
     }
     expect(")");
-    if (dialect_.is_c && at(".")) fail(next().span, "components of vectors have no counterpart");
+    if (dialect_.is_c && at("."))
+        fail(next().span, "components of vectors have no counterpart in Cascade");
     return inner;
 }
 
 Expression FormulaReader::of_name(const FormulaWord& word) {
     Expression made = name(word.text);
     made.span = word.span;
-    if (dialect_.is_c && at(".")) fail(next().span, "components of vectors have no counterpart");
-    if (at("[") && dialect_.is_c) fail(next().span, "arrays have no counterpart");
+    if (dialect_.is_c && at("."))
+        fail(next().span, "components of vectors have no counterpart in Cascade");
+    if (at("[") && dialect_.is_c) fail(next().span, "arrays have no counterpart in Cascade");
     const std::string_view close = at("[") ? "]" : ")";
     if (!at("(") && !at("[")) return made;
     // A value at another cell, u[x + 1, y], is read as the call of a function "u[".

@@ -244,12 +244,12 @@ std::optional<Draft> read_ready(Import& import) {
     const std::string_view type = rule.attribute("type").value();
     if (type != "formula") {
         return refuse(rule,
-                      fmt::format("a rule of the type '{}' is a program, not a formula",
+                      fmt::format("this rule of the type '{}' is a program, not a formula",
                                   plain_line(type)),
-                      "only rules of the type 'formula' are imported");
+                      "only rules of the type 'formula' can be imported");
     }
     if (const pugi::xml_node mesh = file->root().child("UnstructuredGrid")) {
-        return refuse(mesh, "patterns of Ready on meshes (.vtu) are not imported",
+        return refuse(mesh, "patterns of Ready on meshes (.vtu) cannot be imported",
                       "save the mesh as a model and use 'domain { mesh: … }'");
     }
     const pugi::xml_node image = file->root().child("ImageData");

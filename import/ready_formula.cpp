@@ -89,7 +89,8 @@ void ReadyFormula::statement(FormulaReader& reader) {
         if (std::find(std::begin(words_of_c), std::end(words_of_c), target.text) !=
             std::end(words_of_c)) {
             return reader.fail(target.span,
-                               fmt::format("'{}' of OpenCL has no counterpart", target.text));
+                               fmt::format("'{}' of OpenCL has no counterpart in Cascade",
+                                           target.text));
         }
         if (target.kind != FormulaWord::Kind::name) {
             return reader.fail(target.span, "an assignment should begin here");
@@ -97,9 +98,10 @@ void ReadyFormula::statement(FormulaReader& reader) {
         if (reader.at(",")) continue;  // A declaration.
         const FormulaWord sign = reader.take();
         if (sign.text == ";") return;
-        if (sign.text == "[") return reader.fail(sign.span, "arrays have no counterpart");
+        if (sign.text == "[")
+            return reader.fail(sign.span, "arrays have no counterpart in Cascade");
         if (sign.text == ".") {
-            return reader.fail(sign.span, "components of vectors have no counterpart");
+            return reader.fail(sign.span, "components of vectors have no counterpart in Cascade");
         }
         constexpr std::string_view signs[] = {"=", "+=", "-=", "*=", "/="};
         if (std::find(std::begin(signs), std::end(signs), sign.text) == std::end(signs)) {
@@ -179,8 +181,9 @@ std::optional<Expression> ReadyFormula::meaning(const Expression& part) {
     }
     auto found = meaning_of(function, opencl_functions);
     if (!found) {
-        fail(part.span, fmt::format("the function '{}' of {} arguments has no counterpart",
-                                    part.text, part.of.size()));
+        fail(part.span,
+             fmt::format("the function '{}' of {} arguments has no counterpart in Cascade",
+                         part.text, part.of.size()));
     }
     return found;
 }

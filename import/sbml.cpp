@@ -46,8 +46,8 @@ SbmlReader* load_sbml_reader(Import& import) {
     const auto entry = reinterpret_cast<SbmlReaderEntry*>(::dlsym(module, sbml_reader_symbol));
     SbmlReader* const reader = entry != nullptr ? entry(version()) : nullptr;
     if (reader != nullptr) return reader;
-    return refuse(fmt::format("{} belongs to another build than this program", CASCADE_SBML_MODULE),
-                  "install both again");
+    return refuse(fmt::format("{} belongs to another build of this program", CASCADE_SBML_MODULE),
+                  "install this program and its modules again");
 #else
     return refuse("this build has no libSBML", "install libsbml5-dev and build Cascade again");
 #endif
@@ -100,8 +100,9 @@ private:
         if (part.kind == Expression::Kind::call) {
             if (word == "piecewise") return choice(part);
             if (auto found = meaning_of(part, sbml_functions)) return found;
-            fail(part.span, fmt::format("the function '{}' of {} arguments has no counterpart",
-                                        word, part.of.size()));
+            fail(part.span,
+                 fmt::format("the function '{}' of {} arguments has no counterpart in Cascade",
+                             word, part.of.size()));
             return std::nullopt;
         }
         if (const auto found = own_.find(word); found != own_.end()) return name(found->second);
@@ -117,7 +118,7 @@ private:
     /// piecewise(a, if this, b, if that, else c)
     std::optional<Expression> choice(const Expression& part) {
         if (part.of.size() % 2 == 0) {
-            fail(part.span, "a choice without a last value has no counterpart");
+            fail(part.span, "a choice without a last value has no counterpart in Cascade");
             return std::nullopt;
         }
         Expression made = part.of.back();

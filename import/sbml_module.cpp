@@ -36,10 +36,10 @@ private:
 
     void refuse_what_has_no_counterpart() {
         if (model_.getNumEvents() > 0) {
-            refuse(*model_.getEvent(0), "events have no counterpart");
+            refuse(*model_.getEvent(0), "events have no counterpart in Cascade");
         }
         if (model_.isSetConversionFactor()) {
-            refuse(model_, "conversion factors have no counterpart");
+            refuse(model_, "conversion factors have no counterpart in Cascade");
         }
     }
 
@@ -62,8 +62,8 @@ private:
             node.setType(AST_NAME);
             node.setName("sbml_time");
         }
-        if (type == AST_FUNCTION_DELAY) refuse(part, "delays have no counterpart");
-        if (type == AST_FUNCTION_RATE_OF) refuse(part, "'rateOf' has no counterpart");
+        if (type == AST_FUNCTION_DELAY) refuse(part, "delays have no counterpart in Cascade");
+        if (type == AST_FUNCTION_RATE_OF) refuse(part, "'rateOf' has no counterpart in Cascade");
         for (unsigned k = 0; k < node.getNumChildren(); ++k) name_time(*node.getChild(k), part);
     }
 
@@ -79,7 +79,8 @@ private:
 
     void add(const Compartment& part) {
         if (!part.getConstant() && ruled_.contains(part.getId())) {
-            return refuse(part, "a compartment that changes its size has no counterpart");
+            return refuse(part,
+                          "a compartment that changes its size has no counterpart in Cascade");
         }
         made_.constants.push_back({part.getId(), start_of(part, size_of(part))});
     }
@@ -102,13 +103,14 @@ private:
             return refuse(part, fmt::format("the reaction '{}' has no rate", part.getId()));
         }
         if (part.isSetFast() && part.getFast()) {
-            return refuse(part, "fast reactions have no counterpart");
+            return refuse(part, "fast reactions have no counterpart in Cascade");
         }
         made_.assignments.push_back({part.getId(), formula_of(law->getMath(), *law)});
     }
 
     void add(const Rule& part) {
-        if (part.isAlgebraic()) return refuse(part, "algebraic rules have no counterpart");
+        if (part.isAlgebraic())
+            return refuse(part, "algebraic rules have no counterpart in Cascade");
         if (part.isAssignment()) {
             made_.assignments.push_back({part.getVariable(), formula_of(part.getMath(), part)});
         }
@@ -124,7 +126,8 @@ private:
         if (part.isSetInitialConcentration()) {
             start = part.getInitialConcentration() * (is_amount ? size : 1);
         }
-        if (part.isSetConversionFactor()) refuse(part, "conversion factors have no counterpart");
+        if (part.isSetConversionFactor())
+            refuse(part, "conversion factors have no counterpart in Cascade");
         SbmlRate made{part.getId(),
                       start_of(part, start),
                       {},

@@ -103,7 +103,7 @@ private:
             if (!value) return false;
             if (!value->is_number("0")) {
                 names_.fail(options_.source(import_, slope),
-                            "a slope at a border that moves has no counterpart");
+                            "a slope at a border that moves has no counterpart in Cascade");
                 return false;
             }
         }
@@ -282,7 +282,7 @@ std::optional<Draft> read_visual_pde(Import& import) {
     VisualPdeNames names(import, *options, draft);
     if (!options->text("initialState").empty()) {
         names.fail(options->source(import, "initialState"),
-                   "a state that VisualPDE reads from a file has no counterpart");
+                   "a state that VisualPDE reads from a file has no counterpart in Cascade");
         return std::nullopt;
     }
     std::string title = plain_line(options->text("simTitle"));

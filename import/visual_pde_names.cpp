@@ -362,8 +362,8 @@ std::optional<Expression> VisualPdeNames::meaning(const Expression& part, Where 
     if (auto found = part.of.size() == 1 ? named(factor, where) : std::nullopt) {
         return operation(std::move(*found), "*", part.of[0]);
     }
-    fail(part.span, fmt::format("the function '{}' of {} arguments has no counterpart", function,
-                                part.of.size()));
+    fail(part.span, fmt::format("the function '{}' of {} arguments has no counterpart in Cascade",
+                                function, part.of.size()));
     return std::nullopt;
 }
 

@@ -106,7 +106,7 @@ std::optional<std::string> json_of_link(Import& import) {
     const std::string_view link = import.bytes();
     const std::size_t mark = link.find("options=");
     if (mark == std::string_view::npos) {
-        return refuse("the link has no 'options=', which contain the simulation");
+        return refuse("the link lacks 'options=…', which describes the simulation");
     }
     std::string letters(link.substr(mark + 8));
     letters.resize(std::min(letters.find_first_of("&# \r\n"), letters.size()));
@@ -182,7 +182,7 @@ std::optional<VisualPdePreset> chosen_preset(Import& import, std::vector<VisualP
     if (const std::string named = is_link ? preset_in_link(link) : ""; !named.empty()) {
         name = named;
         if (!import.presets) {
-            return refuse(fmt::format("the link names the preset '{}', but does not have its "
+            return refuse(fmt::format("the link names the preset '{}', but does not contain its "
                                       "options",
                                       plain_line(name)),
                           "give VisualPDE's file of presets, as in --presets presets.js, or the "

@@ -236,15 +236,15 @@ std::optional<json> with_parents(Import& import, const VisualPdePreset& preset,
         if (child == nullptr) {
             import.diagnostics.error(
                 {import.source, 0, 0},
-                fmt::format("this preset changes another preset, '{}', that is not here", name),
+                fmt::format("this preset changes another preset, '{}', which is missing", name),
                 "give VisualPDE's file of presets, as in --presets presets.js, or import the link "
                 "that 'Share' gives");
             return std::nullopt;
         }
         if (depth == most_parents) {
             import.diagnostics.error({import.source, 0, 0},
-                                     fmt::format("the preset '{}' has too many parents, or is its "
-                                                 "parents' parent",
+                                     fmt::format("the preset '{}' is based on too many other "
+                                                 "presets, or on itself",
                                                  name));
             return std::nullopt;
         }

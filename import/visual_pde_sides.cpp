@@ -89,7 +89,7 @@ private:
             if (mentions(*value, u)) {
                 names_.fail(
                     span,
-                    "a value beyond a side has no counterpart if it depends on the species itself");
+                    "a value beyond a side that depends on the species itself has no counterpart in Cascade");
                 return false;
             }
             const Expression slope =

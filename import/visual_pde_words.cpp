@@ -22,7 +22,7 @@ std::optional<Expression> VisualPdeNames::named(const Expression& part, Where wh
             return name(each.own);
         }
         // Masks cannot read parameters, so the formulas of parameters are written in their place.
-        if (++depth_ > 20) fail(part.span, "the parameters read each other");
+        if (++depth_ > 20) fail(part.span, "these parameters depend on each other");
         auto value = has_failed_ ? std::nullopt : formula(each.value, Where::mask);
         --depth_;
         return value ? value : number(0);
@@ -120,7 +120,9 @@ std::optional<Expression> VisualPdeNames::at_other_cell(const Expression& part) 
         const auto distance = value_of(offset);
         const double shift = distance ? *distance / spacing : 0.5;
         if (!has_place || std::abs(shift - std::round(shift)) > 1e-6 || std::abs(shift) > 8) {
-            fail(part.span, "only values a whole number of cells away, at most 8, are imported");
+            fail(part.span,
+                 "only values of cells that are at most 8 whole cells away can be "
+                 "imported");
             return std::nullopt;
         }
         cells[k] = static_cast<int>(std::round(shift));
@@ -193,8 +195,8 @@ std::optional<Expression> VisualPdeNames::picture(const Expression& part, Where 
         const auto y = place_in_picture(part.of.size() == 2 ? part.of[1] : number(0), 'y');
         if (!x || !y) {
             fail(part.span,
-                 "a picture can be read at places that grow evenly with x and y only, such as "
-                 "(x / 2, y)");
+                 "a picture can be read only at positions that are linear in x and y, such as (x "
+                 "/ 2, y)");
             return std::nullopt;
         }
         if (*x != "sx" || *y != "sy") at = fmt::format(", {}, {}", *x, *y);

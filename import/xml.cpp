@@ -59,7 +59,7 @@ bool read_xml(Import& import, std::size_t end, pugi::xml_document& document) {
     const std::size_t type = text.find("<!DOCTYPE");
     const std::size_t entity = text.find("<!ENTITY");
     if (const std::size_t at = std::min(type, entity); at != std::string_view::npos) {
-        import.diagnostics.error(place(at), "document types and entities of XML are not read");
+        import.diagnostics.error(place(at), "document types and entities of XML cannot be read");
         return false;
     }
     if (deepest_nesting(text) > 100) {

@@ -80,7 +80,7 @@ private:
             species_.insert(each.name);
             if (each.is_member) members_.insert(each.name);
             if (file_.has_arrays && !each.is_member) {
-                fail(each.place, "a separate equation beside a chain has no counterpart",
+                fail(each.place, "a separate equation beside a chain has no counterpart in Cascade",
                      "give the values beyond the ends instead: u0=u1");
             }
         }
@@ -106,7 +106,8 @@ private:
             return std::nullopt;
         }
         Expression made = replaced(*read, [&](const Expression& part) { return meaning(part); });
-        if (mentions(made, "j")) fail(span, "the number of an element has no counterpart");
+        if (mentions(made, "j"))
+            fail(span, "the number of an element has no counterpart in Cascade");
         if (failed_) return std::nullopt;
         return made;
     }
@@ -118,7 +119,7 @@ private:
             if (word.ends_with('[')) return neighbour(part);
             if (functions_.contains(word)) return call(names_of_functions_[word], part.of);
             if (auto found = meaning_of(part, xpp_functions)) return found;
-            fail(part.span, fmt::format("the function '{}' has no counterpart", word));
+            fail(part.span, fmt::format("the function '{}' has no counterpart in Cascade", word));
             return std::nullopt;
         }
         if (arguments_.contains(word)) return name(arguments_[word]);
@@ -188,7 +189,8 @@ private:
         bool reads_others = false;
         for (const auto& [foreign, own] : names_of_) reads_others |= mentions(*value, own);
         if (reads_others) {
-            return fail(pair.place, "a function that reads parameters has no counterpart",
+            return fail(pair.place,
+                        "a function that reads parameters has no counterpart in Cascade",
                         "make them arguments of the function");
         }
         draft_.functions.push_back(

@@ -64,7 +64,7 @@ private:
         const std::string_view words = text(span);
         if (words.empty() || words.front() == '#' || words.front() == '"') return;
         if (words.back() == '\\') {
-            fail(span, "lines that continue after '\\' are not read", "join the lines");
+            fail(span, "lines that continue after '\\' cannot be read", "join the lines");
             return;
         }
         if (words.front() == '@') return options(part(span, 1, words.size()));
@@ -85,9 +85,9 @@ private:
                    first == "markov" || first == "bdry" || first == "b" || first == "solv" ||
                    first == "special" || first == "option" || first == "export" ||
                    first == "volt") {
-            fail(span, fmt::format("'{}' has no counterpart", first));
+            fail(span, fmt::format("'{}' has no counterpart in Cascade", first));
         } else if (words.front() == '%') {
-            fail(span, "groups of lines between '%' are not read",
+            fail(span, "groups of lines between '%' cannot be read",
                  "write an array in each line: u[1..50]' = …");
         } else {
             equation(span);
@@ -168,7 +168,7 @@ private:
         const bool is_fraction = name.starts_with("d") && name.ends_with("/dt") && name.size() > 4;
         if (is_fraction) name = name.substr(1, name.size() - 4) + "'";
         if (name.ends_with("(t+1)")) {
-            fail(span, "maps from step to step have no counterpart");
+            fail(span, "maps from step to step have no counterpart in Cascade");
             return;
         }
         const bool is_start = name.ends_with("(0)");

@@ -82,14 +82,14 @@ Result<void> add_kernel(CodeModule& code, const CellKernel& kernel, const Kernel
     const std::size_t size = size_of(kernel);
     if (size > largest_native_kernel) {
         return failure(
-            fmt::format("a kernel of size {} is too large for native code, which ends "
-                        "at {}",
+            fmt::format("a formula of size {} is too large for native code, which takes at most {}",
                         size, largest_native_kernel));
     }
     if (!has_multiply_add(machine) && multiplies_and_adds(kernel)) {
-        return failure(fmt::format("{} does not multiply and add with one rounding",
+        return failure(fmt::format("the processor {} cannot multiply and add with one rounding, "
+                                   "as --fast requires",
                                    machine.getTargetCPU().str()),
-                       "x86-64-v3 does; without --fast every operation is rounded");
+                       "use x86-64-v3, or leave --fast out");
     }
     const auto build = shape.stencil.links ? build_linked_function : build_grid_function;
     const std::vector<KernelPart> parts = parts_of(kernel);

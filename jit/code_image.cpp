@@ -12,10 +12,10 @@ namespace cascade {
 
 Result<std::unique_ptr<LoadedFunction>> LoadedFunction::load(const CodeImage& image) {
     const auto refused = [] {
-        return failure(
-            fmt::format("native code could not be loaded: {}",
-                        std::generic_category().message(errno)),
-            "the system may forbid programs to make code; --backend interp goes without");
+        return failure(fmt::format("native code could not be loaded: {}",
+                                   std::generic_category().message(errno)),
+                       "the system may forbid programs to create code; use --backend interp, which "
+                       "needs none");
     };
     const std::size_t size = image.bytes.size();
     void* memory =

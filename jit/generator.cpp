@@ -17,13 +17,14 @@ Result<const CodeGenerator*> load_generator() {
         const char* reason = ::dlerror();
         return failure(fmt::format("the code generator could not be loaded: {}",
                                    reason ? reason : "unknown reason"),
-                       "--backend interp works without it");
+                       "use --backend interp, which works without it");
     }
     const auto entry = reinterpret_cast<GeneratorEntry*>(::dlsym(module, generator_symbol));
     const CodeGenerator* generator = entry ? entry(code_version()) : nullptr;
     if (!generator) {
-        return failure(fmt::format("{} is of another build than this program", CASCADE_LLVM_MODULE),
-                       "install both again");
+        return failure(fmt::format("{} belongs to another build of this program",
+                                   CASCADE_LLVM_MODULE),
+                       "install this program and its modules again");
     }
     return generator;
 }

@@ -51,7 +51,7 @@ Result<void> check_names(const ObjectContent& content) {
     const auto check = [](const std::string& name) -> Result<void> {
         if (is_c_identifier(name)) return {};
         return failure("'" + name + "' is not a name of C",
-                       "letters, digits and '_', no digit in front");
+                       "use letters, digits and '_', with no digit in front");
     };
     for (const NamedKernel& function : content.functions) {
         if (auto good = check(function.name); !good) return good;
@@ -67,7 +67,7 @@ Result<void> check_names(const ObjectContent& content) {
 Result<std::vector<std::uint8_t>> compile_object(const ObjectContent& content, Stencil stencil,
                                                  const std::string& cpu) {
     if (auto good = check_names(content); !good) return tl::unexpected(good.error());
-    if (stencil.links) return failure("no object files of kernels for linked cells yet");
+    if (stencil.links) return failure("object files cannot be written for the cells of a model");
     auto target = choose_target(cpu, {});
     if (!target) return tl::unexpected(target.error());
     CodeModule code = make_module(*target->machine);

@@ -48,9 +48,11 @@ Result<std::unique_ptr<llvm::TargetMachine>> make_target_machine(const std::stri
     if (!cpu.empty()) {
         const std::vector<std::string> known = llvm_module::known_targets();
         if (std::find(known.begin(), known.end(), cpu) == known.end()) {
-            return failure(fmt::format("'{}' is not a processor that code can be made for", cpu),
-                           known.empty() ? "on this machine code is made for its own processor"
-                                         : "such as x86-64, x86-64-v2, x86-64-v3, x86-64-v4");
+            return failure(fmt::format("code cannot be made for the processor '{}'", cpu),
+                           known.empty() ? "on this machine, code can be made only for its own "
+                                           "processor"
+                                         : "use x86-64, x86-64-v2, x86-64-v3 or x86-64-v4, for "
+                                           "example");
         }
     }
     const std::string triple = llvm::sys::getProcessTriple();

@@ -70,15 +70,15 @@ bool Pattern::write(const std::string& path, const std::string& options) {
     }
     if (is_of_kind(path, FormatKind::volume)) return self_->write_volume_file(path);
     if (!output_kind(path)) {
-        self_->note({fmt::format("write() knows no format with the ending of '{}'", path),
+        self_->note({fmt::format("write() has no format for the ending of '{}'", path),
                      fmt::format("it writes {}", endings_of_files())});
         return false;
     }
     const bool films_end = request->turntable > 0 || request->slices > 0;
     if (is_film(path) && !films_end) {
         self_->note({fmt::format("'{}' would be a film of one moment", path),
-                     "film() shows the steps; with 'turntable', or for volumes 'slices', write() "
-                     "shows the present moment from all sides"});
+                     "use film() to show the steps, or write() with 'turntable' (for volumes "
+                     "'slices') to show the present moment from all sides"});
         return false;
     }
     request->outputs = {path};

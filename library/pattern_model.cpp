@@ -21,7 +21,7 @@ PatternModel Pattern::model() {
     const auto of = self_->model();
     if (!of) {
         self_->note({"the pattern grows on a grid, not on a model",
-                     "its cells are in rows and columns, and have no triangles"});
+                     "the cells of a grid have no triangles"});
         return model;
     }
     const SurfaceMesh& mesh = of->mesh;

@@ -81,7 +81,8 @@ private:
         if (name.find("://") != std::string::npos) {
             const Result<void> remote = cascade::failure(
                 fmt::format("the glTF file has its data at '{}'", short_name(name)),
-                "only files beside it are read: download it, and name it in 'uri'");
+                "only files beside the glTF file can be read: download this file and name it in "
+                "'uri'");
             failure_ = remote.error();
             return false;
         }
@@ -136,8 +137,8 @@ Result<PolygonSoup> read_gltf(std::string_view bytes, const GrantedFiles& files)
         return failure("the glTF file is too large");
     if (is_binary && bytes.size() >= 8 && bytes[4] == 1 &&
         bytes.substr(5, 3) == std::string(3, '\0')) {
-        return failure("this is a GLB file of version 1, and only version 2 is read",
-                       "most modelling programs write version 2");
+        return failure("this is a GLB file of version 1, but only version 2 can be read",
+                       "export it as version 2, which most modelling programs can write");
     }
     if (is_binary) {
         if (auto whole = check_whole(bytes); !whole) return tl::unexpected(whole.error());
@@ -155,7 +156,9 @@ Result<PolygonSoup> read_gltf(std::string_view bytes, const GrantedFiles& files)
         return failure("this is not a glTF file that can be read", without_data(std::move(fault)));
     }
     if (has_lines_only(model)) {
-        return failure("the glTF file has points or lines only", "a model is a surface");
+        return failure("the glTF file contains only points or lines",
+                       "export a surface of "
+                       "triangles");
     }
     std::size_t size = bytes.size();
     for (const tinygltf::Buffer& buffer : model.buffers) size += buffer.data.size();

@@ -79,7 +79,8 @@ Result<void> for_each_entry(const GltfJson* list, const Visit& visit) {
 Result<void> check_version(const GltfJson& file) {
     const GltfJson* const least = member(member(&file, "asset"), "minVersion");
     if (least && least->is_string() && least->get_ref<const std::string&>() > "2.0") {
-        return failure(fmt::format("the glTF file requires version {}, and version 2.0 is read",
+        return failure(fmt::format("the glTF file requires version {}, but only version 2.0 can "
+                                   "be read",
                                    short_name(least->get_ref<const std::string&>(), 20)),
                        "export it as version 2.0");
     }
@@ -90,15 +91,16 @@ Result<void> check_version(const GltfJson& file) {
                          version->get_ref<const std::string&>().starts_with("1")) ||
                         (!version && meshes && meshes->is_object());
     if (!is_old) return {};
-    return failure("this is a glTF file of version 1, and only version 2 is read",
-                   "most modelling programs write version 2");
+    return failure("this is a glTF file of version 1, but only version 2 can be read",
+                   "export it as version 2, which most modelling programs can write");
 }
 
 Result<void> check_extension(const GltfJson& name) {
     if (!name.is_string()) return {};
     const std::string& text = name.get_ref<const std::string&>();
     if (is_known_extension(text)) return {};
-    return failure(fmt::format("the glTF file requires the extension '{}', which is not read",
+    return failure(fmt::format("the glTF file requires the extension '{}', which Cascade cannot "
+                               "read",
                                short_name(text)),
                    "export it without this extension");
 }
@@ -112,7 +114,8 @@ Result<void> check_view(const GltfJson& file, const GltfJson& view) {
         const bool has_bytes =
             member(buffer, "uri") || (number && *number == 0 && !extension(buffer, name));
         if (buffer && has_bytes) continue;
-        return failure(fmt::format("the glTF file is compressed by Meshopt ({}), which is not read",
+        return failure(fmt::format("the glTF file is compressed by Meshopt ({}), which Cascade "
+                                   "cannot read",
                                    name),
                        "export it without compression, or decompress it");
     }
@@ -132,7 +135,8 @@ Result<void> check_primitive(const GltfJson& file, const GltfJson& primitive) {
         (!indices || is_plain(indices))) {
         return {};
     }
-    return failure(fmt::format("the glTF file is compressed by Draco ({}), which is not read",
+    return failure(fmt::format("the glTF file is compressed by Draco ({}), which Cascade cannot "
+                               "read",
                                name),
                    "export it without compression");
 }
@@ -144,8 +148,8 @@ Result<void> check_corners(const GltfJson& file, const GltfJson& primitive) {
         entry(member(&file, "accessors"), member(&primitive, "indices"));
     if (!corners || !member(corners, "sparse") || member(corners, "bufferView")) return {};
     return failure(
-        "the corners of the glTF file's triangles are sparse without a base, "
-        "which is not read",
+        "the glTF file stores the corners of triangles as sparse values without a base, which "
+        "Cascade cannot read",
         "export it without sparse indices");
 }
 

@@ -171,7 +171,9 @@ private:
     /// the file's limit.
     Result<void> take_steps(std::size_t arrays, std::size_t length = 1) {
         if (length > 0 && arrays > (bounds_.steps - steps_) / length) {
-            return failure("the glTF file uses its data too often for its size");
+            return failure(
+                "the glTF file reads its data more often than a file of this size "
+                "should");
         }
         steps_ += arrays * length;
         return {};

@@ -215,7 +215,7 @@ public:
         }
         if (triangles_.empty()) {
             return failure(
-                "the function of the surface is nowhere above 0 in the box, at any sample",
+                "the function of the surface is not above 0 at any sampled point of the box",
                 "choose shorter edges, or another box");
         }
         return joined();
@@ -233,8 +233,8 @@ private:
             return failure(
                 fmt::format("the surface leaves the box: its function is {:.6g} at {}",
                             values.values[k], text_of(places_[k])),
-                "make the box larger, or let the function be below 0 at its sides: min(f, g) "
-                "with a g that is above 0 only within");
+                "make the box larger, or write min(f, g) with a function g that is above 0 only "
+                "inside the box");
         }
         return {};
     }
@@ -291,7 +291,8 @@ Result<void> check_request(const ImplicitRequest& request) {
     }
     const double points = lattice_points(request);
     if (points <= most_lattice_points) return {};
-    return failure(fmt::format("the surface would be sought at {:.3g} points, {:.3g} are the most",
+    return failure(fmt::format("the function of the surface would be computed at {:.3g} points, "
+                               "but at most {:.3g} are allowed",
                                points, most_lattice_points),
                    "choose longer edges or a smaller box");
 }

@@ -173,8 +173,8 @@ private:
         EdgePairs pairs = pair_edges(soup_.points, mesh().triangles);
         if (pairs.non_manifold_edges > 0) {
             say(
-                fmt::format("{} of more than two faces: faces that continue each other stay "
-                            "together, the others end there",
+                fmt::format("{} with more than two faces: faces that continue each other stay "
+                            "connected there, and the others are cut",
                             counted(pairs.non_manifold_edges, "edge")));
         }
         const Orientation sides = orient(soup_.points, mesh().triangles, pairs.across);
@@ -185,7 +185,7 @@ private:
                 " turned to agree with the others");
         }
         if (sides.cut_edges > 0) {
-            say(fmt::format("the surface had one side only and was cut along {}",
+            say(fmt::format("the surface had only one side and was cut along {}",
                             counted(sides.cut_edges, "edge")));
         }
         if (sides.inside_out > 0) {

@@ -58,7 +58,7 @@ Result<std::string> model_ending(const std::string& name) {
                     short_name(name)),
         ending == "cascade" ? "'cascade run' draws a script"
         : ending.empty()    ? ""
-                            : "most modelling programs write .glb or .obj files");
+                            : "export the model as .glb or .obj");
 }
 
 Result<PolygonSoup> parse_model(const std::string& name, std::string_view ending,

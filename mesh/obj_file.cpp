@@ -71,8 +71,8 @@ private:
         const bool has_comma = std::ranges::any_of(words, [](std::string_view word) {
             return word.find(',') != std::string_view::npos;
         });
-        if (has_comma) return "numbers are written with a point, not a comma";
-        return words.size() < 4 ? "a point has three coordinates" : "";
+        if (has_comma) return "write numbers with a point, not with a comma";
+        return words.size() < 4 ? "write three coordinates for each point" : "";
     }
 
     /// Three coordinates, optionally followed by a colour.
@@ -141,7 +141,7 @@ private:
     Result<PolygonSoup> finished() {
         if (soup_.points.empty()) return failure("the OBJ file has no points");
         if (soup_.ends.empty() && has_curved_parts_) {
-            return failure("the OBJ file has curved surfaces only, which are not read",
+            return failure("the OBJ file contains only curved surfaces, which Cascade cannot read",
                            "export it as triangles");
         }
         for (std::size_t face = 0; face < soup_.polygon_count(); ++face) {

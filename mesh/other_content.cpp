@@ -47,9 +47,9 @@ std::optional<Failure> other_content(std::string_view bytes, std::string_view en
     for (const Beginning& each : beginnings) {
         if (!bytes.starts_with(each.text)) continue;
         if (std::ranges::find(each.endings, ending) != each.endings.end()) return std::nullopt;
-        return Failure{fmt::format("this is a {} file, and its name ends in .{}", each.format,
-                                   ending),
-                       fmt::format("let its name end in .{}", each.endings[0])};
+        return Failure{
+            fmt::format("this is a {} file, but its name ends in .{}", each.format, ending),
+            fmt::format("rename the file so that its name ends in .{}", each.endings[0])};
     }
     return std::nullopt;
 }

@@ -55,7 +55,8 @@ Result<void> check_length(std::string_view name, double length) {
 
 Result<void> check_count(double triangles) {
     if (triangles <= most_shape_triangles) return {};
-    return failure(fmt::format("the surface would have about {:.3g} triangles, {:.3g} are the most",
+    return failure(fmt::format("the surface would have about {:.3g} triangles, but at most "
+                               "{:.3g} are allowed",
                                triangles, most_shape_triangles),
                    "choose longer edges");
 }
@@ -268,7 +269,7 @@ private:
 Result<SurfaceMesh> knot_mesh(double radius, double edge) {
     if (!(radius > 0 && radius < most_knot_radius)) {
         return failure(fmt::format("a tube of radius {} cannot be tied to the knot", radius),
-                       fmt::format("the radius is above 0 and below {}", most_knot_radius));
+                       fmt::format("the radius must be above 0 and below {}", most_knot_radius));
     }
     const double columns = std::round(length_of_curve / edge);
     const double rows = std::max(3.0, std::round(tau * radius / edge));
@@ -309,8 +310,10 @@ Result<SurfaceMesh> torus_mesh(double ring_radius, double tube_radius, double ed
     if (const auto fine = check_length("the edge", edge); !fine)
         return tl::unexpected(fine.error());
     if (tube_radius >= ring_radius) {
-        return failure(fmt::format("a tube of radius {} bent to a ring of radius {} meets itself",
-                                   tube_radius, ring_radius));
+        return failure(
+            fmt::format("a tube of radius {} bent to a ring of radius {} would cross "
+                        "itself",
+                        tube_radius, ring_radius));
     }
     const double columns = cuts(tau * ring_radius, edge, 3),
                  rows = cuts(tau * tube_radius, edge, 3);

@@ -50,7 +50,7 @@ bool is_utf16(std::string_view text) {
 }
 
 tl::unexpected<Failure> utf16_failure() {
-    return failure("the file is text in UTF-16, which is not read", "save it as UTF-8");
+    return failure("the file is text in UTF-16, which Cascade cannot read", "save it as UTF-8");
 }
 
 LineReader::LineReader(std::string_view text) : text_(text) {

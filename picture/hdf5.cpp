@@ -13,7 +13,7 @@ namespace cascade {
 
 namespace {
 
-constexpr const char* without_hdf5 = "--series NAME.npy does without it";
+constexpr const char* without_hdf5 = "use --series NAME.npy, which needs no HDF5";
 
 Result<Hdf5Opener*> load_opener() {
 #ifdef CASCADE_HDF5_MODULE
@@ -28,9 +28,8 @@ Result<Hdf5Opener*> load_opener() {
     const auto entry = reinterpret_cast<Hdf5OpenerEntry*>(::dlsym(module, hdf5_opener_symbol));
     Hdf5Opener* const opener = entry ? entry(version()) : nullptr;
     if (opener) return opener;
-    return failure(fmt::format("{} belongs to another build than this program",
-                               CASCADE_HDF5_MODULE),
-                   "install both again");
+    return failure(fmt::format("{} belongs to another build of this program", CASCADE_HDF5_MODULE),
+                   "install this program and its modules again");
 #else
     return failure("this build has no HDF5",
                    fmt::format("install libhdf5-dev and build Cascade again; {}", without_hdf5));

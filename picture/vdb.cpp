@@ -12,7 +12,7 @@ namespace cascade {
 
 namespace {
 
-constexpr const char* without_it = "--volume NAME.vti does without it";
+constexpr const char* without_it = "use --volume NAME.vti, which needs no OpenVDB";
 
 #ifdef CASCADE_OPENVDB_MODULE
 /// Whether OpenVDB's libraries and the stacks of their threads fit into the address space. One of
@@ -42,9 +42,9 @@ Result<VdbEncoder*> load_encoder() {
     const auto entry = reinterpret_cast<VdbEncoderEntry*>(::dlsym(module, vdb_encoder_symbol));
     VdbEncoder* const encoder = entry ? entry(version()) : nullptr;
     if (encoder) return encoder;
-    return failure(fmt::format("{} belongs to another build than this program",
+    return failure(fmt::format("{} belongs to another build of this program",
                                CASCADE_OPENVDB_MODULE),
-                   "install both again");
+                   "install this program and its modules again");
 #else
     return failure("this build has no OpenVDB",
                    fmt::format("install libopenvdb-dev and build Cascade again; {}", without_it));

@@ -34,7 +34,7 @@ Result<void> write_drawing(const std::filesystem::path& path, const Drawing& dra
     const DrawingRow* const writer = format ? row_of(drawing_writers, format->format) : nullptr;
     return write_encoded(path, [&]() -> Result<std::string> {
         if (writer) return writer->encode(drawing);
-        return failure("a drawing cannot be written so",
+        return failure("a drawing cannot be written with this ending",
                        "end the name in " + endings_of(FormatTrait::drawing, "or"));
     });
 }

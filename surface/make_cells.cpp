@@ -115,9 +115,11 @@ Result<void> check_anisotropy(const SurfaceMesh& mesh, const Anisotropy& anisotr
     for (std::size_t t = 0; t < count; ++t) {
         const double ratio = anisotropy.ratio[t];
         if (!(ratio >= 1 && ratio <= Anisotropy::largest_ratio)) {
-            return failure(fmt::format("cells of triangle {} are to be {} times as long as wide", t,
-                                       ratio),
-                           fmt::format("ratios are 1 … {}", Anisotropy::largest_ratio));
+            return failure(fmt::format("the cells of triangle {} should be {} times as long as "
+                                       "wide",
+                                       t, ratio),
+                           fmt::format("the ratio must be from 1 to {}",
+                                       Anisotropy::largest_ratio));
         }
         if (!std::isfinite(dot(anisotropy.direction[t], anisotropy.direction[t]))) {
             return failure(fmt::format("the direction of cells of triangle {} is not finite", t));
@@ -129,15 +131,15 @@ Result<void> check_anisotropy(const SurfaceMesh& mesh, const Anisotropy& anisotr
 Result<void> check_count(const SurfaceMesh& mesh, std::uint64_t count) {
     if (count < 1 || count > most_cells) {
         return failure(fmt::format("a surface cannot have {} cells", count),
-                       fmt::format("the number of cells is 1 … {}", most_cells));
+                       fmt::format("the number of cells must be from 1 to {}", most_cells));
     }
     const std::vector<std::uint32_t> components = connected_components(mesh);
     const std::uint64_t needed =
         *std::max_element(components.begin(), components.end()) + std::uint64_t{1};
     if (count >= needed) return {};
-    return failure(fmt::format("{} cannot cover a surface of {} connected components",
+    return failure(fmt::format("{} cannot cover a surface of {} separate parts",
                                counted(count, "cell"), with_commas(needed)),
-                   fmt::format("use {} cells or more, or join components", with_commas(needed)));
+                   fmt::format("use {} cells or more, or join the parts", with_commas(needed)));
 }
 
 }  // namespace

@@ -91,8 +91,8 @@ Result<SurfaceMetric> measure_surface(const SurfaceFunction& surface, const Grid
             if (!(area > degenerate_area * mean) ||
                 !(area > degenerate_area * std::sqrt(tensor.m11 * tensor.m22))) {
                 return failure("the surface has no area " + place_of(grid, i, j),
-                               "its directions along sx and sy must not be parallel or zero in "
-                               "every cell; keep away from poles");
+                               "its directions along sx and sy must not be zero or parallel; "
+                               "leave out poles of the surface");
             }
             // Ṽ = [√m11, m12/√m11; 0, area/√m11] is upper triangular, and so is its inverse.
             const double row_length = std::sqrt(tensor.m11) / metric.unit;

@@ -112,12 +112,14 @@ void Engine::receive(std::string_view text) {
     } else if (const auto* question = std::get_if<PageQuestion>(&message->request)) {
         send_text(print_reply(id, *question, turns_->run()));
     } else if (std::holds_alternative<SaveModel>(message->request)) {
-        send_text(print_failure(id, {"a page without the program writes no models and maps",
-                                     "'cascade view' does, and so does 'cascade run -o NAME.glb' "
-                                     "with the script"}));
+        send_text(print_failure(id, {"a page that runs without the program cannot write models "
+                                     "and maps",
+                                     "use 'cascade view', or 'cascade run -o NAME.glb' with the "
+                                     "script"}));
     } else if (std::holds_alternative<LoadPart>(message->request)) {
-        send_text(print_failure(id, {"a page without the program makes no cells of models",
-                                     "'cascade view' does"}));
+        send_text(print_failure(id, {"a page that runs without the program cannot make the cells "
+                                     "of models",
+                                     "use 'cascade view'"}));
     } else {
         const auto& command = std::get<SessionCommand>(message->request);
         turns_->control().report = tell_progress;

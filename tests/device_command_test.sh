@@ -46,4 +46,4 @@ refuses 64 "'fast' is not a device" "$CASCADE" run two.cascade --device fast -o 
 refuses 64 '--ranks excludes --device' "$CASCADE" run two.cascade --device 0 --ranks 2 -o never.png
 refuses 3 'OpenCL finds no device' env OCL_ICD_VENDORS=/nowhere "$CASCADE" run two.cascade --device 0 -o never.png
 mkdir -p empty && : >empty/libOpenCL.so.1
-refuses 3 'whose loader libOpenCL.so.1 is missing' env LD_LIBRARY_PATH="$PWD/empty" "$CASCADE" run two.cascade --device 0 -o never.png
+refuses 3 'but its loader libOpenCL.so.1 is missing' env LD_LIBRARY_PATH="$PWD/empty" "$CASCADE" run two.cascade --device 0 -o never.png

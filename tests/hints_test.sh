@@ -124,7 +124,7 @@ hint "did you mean 'cascade run s.cascade …'?" s.cascade -o a.png -- run s.cas
 hint "--mesh creature -o creature.obj" mesh creature -- \
     run s.cascade --mesh creature --cells 100 -q -o creature.obj
 hint "'cascade run' draws a script" mesh s.cascade -- run s.cascade -q
-hint "most modelling programs write .glb or .obj files" mesh a.fbx -- mesh ball.obj
+hint "export the model as .glb or .obj" mesh a.fbx -- mesh ball.obj
 for option in --port --host --open; do
     "$CASCADE" view s.cascade $option 8080 >out 2>err && fail "no fault: view $option"
     grep -qE "there is no option $option; the (page|browser)" err || fail "view $option: $(cat err)"

@@ -77,7 +77,7 @@ assert 0 < value("x_") < 4, value("x_")' || fail "other numbers of enzyme.xml"
     sed 's|?>|?><!DOCTYPE sbml>|' "$models/enzyme.xml" >type.xml
     head -30 "$models/enzyme.xml" >half.xml
     sbml_refusals=(event.xml "have no counterpart" norate.xml "has no rate" factorial.xml "factorial"
-        type.xml "document types and entities of XML are not read" half.xml "this is not valid XML")
+        type.xml "document types and entities of XML cannot be read" half.xml "this is not valid XML")
 fi
 
 # The name that -o gives, and no file is replaced.
@@ -201,7 +201,7 @@ refuses fewer.vti "does not have 32 numbers"
 refuses huge.vti "a domain of 1 to 67108864 cells is expected"
 refuses none.vti "a domain of 1 to 67108864 cells is expected"
 refuses beyond.vti "begins beyond the end of the file"
-refuses entity.vti "document types and entities of XML are not read"
+refuses entity.vti "document types and entities of XML cannot be read"
 refuses deep.vti "nested more than 100 deep"
 refuses open.vti "this is not valid XML"
 refuses loop.vti "'while' of OpenCL has no counterpart"
@@ -222,7 +222,7 @@ done
 
 # Meshes are not listed among the formats, and refused by name.
 sed 's/ImageData/UnstructuredGrid/g' "$models/spots.vti" >mesh.vtu
-refuses mesh.vtu "on meshes (.vtu) are not imported"
+refuses mesh.vtu "on meshes (.vtu) cannot be imported"
 
 # VisualPDE and XPPAUT.
 border='"numSpecies": 1, "reactionStr_1": "0", "domainViaIndicatorFun": true, "domainIndicatorFun": "x > t"'
@@ -231,7 +231,7 @@ refuses mask.json "a slope at a border that moves has no counterpart"
 printf '{%s, "boundaryConditions_1": "neumann", "diffusionStr_1_1": "1; 2"}' "$border" >tensor.json
 refuses tensor.json "two coefficients of diffusion in a domain that changes have no counterpart"
 printf '{"initCond_1": "I_S(x^2, y)"}' >bent.json
-refuses bent.json "at places that grow evenly with x and y only"
+refuses bent.json "only at positions that are linear in x and y"
 printf '{"initialState": "state.bin"}' >state.json
 refuses state.json "a state that VisualPDE reads from a file has no counterpart"
 refuses "$models/presets.js" "the file has 8 presets"
@@ -246,7 +246,7 @@ printf '{"parent": "Turing"}' >child.json
 refuses child.json "that is not here"
 echo "let nothing = {};" >nothing.js
 refuses_with child.json "this file has no presets of VisualPDE" --presets nothing.js
-refuses "https://visualpde.com/sim/?preset=Kept" "does not have its options"
+refuses "https://visualpde.com/sim/?preset=Kept" "does not contain its options"
 sed 's/};$/}}/; s/"Growing"] = {/"Growing"] = {{/' "$models/presets.js" >broken.js
 refuses_with broken.js "this preset cannot be read" --preset Growing
 says err 'presets["Growing"] = {{'

@@ -142,7 +142,7 @@ grep -q "^v 1 0 0 0.00392157 0.00784314 0.0117647" colours.obj || fail "colours 
 # A model far from the origin is moved in an STL file, which is reported.
 sed 's/^v \([01]\) \([01]\) /v 40300\1.0\1 -360490\2.7\2 /' cube.obj > far.obj
 run 0 mesh far.obj -o far.stl
-says out "'far.stl' has the model moved by -403000"
+says out "in 'far.stl' the model is moved by -403000"
 run 0 mesh far.stl
 says out "8 points, 12 triangles, 1 connected component"
 run 0 mesh far.obj -o far.ply
@@ -177,7 +177,7 @@ says err "1,000,000,000 cells need about 900 GB, but"
 sed 's/^f 5 6 7 8$//; s/^f 1 2 6 5$//; s/^f 2 3 7 6$//; s/^f 3 4 8 7$//; s/^f 4 1 5 8$//' cube.obj > parts.obj
 printf 'v 9 0 0\nv 9 1 0\nv 9 0 1\nf 9 10 11\n' >> parts.obj
 run 3 mesh parts.obj --cells 1
-says err "'parts.obj': 1 cell cannot cover a surface of 2 connected components"
+says err "'parts.obj': 1 cell cannot cover a surface of 2 separate parts"
 
 # Several models: a broken one does not prevent the output for the others.
 head -n 12 cube.obj > open.obj

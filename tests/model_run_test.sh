@@ -122,13 +122,13 @@ f 1/1 2/2 3/3 4/4
 END
 run 0 run spots.cascade --mesh tiles.obj --cells 300 --bake 64 -o tiles.glb
 says err "100.0 % of the texture belongs to several parts of the model, over which the picture repeats"
-says err "--unwrap gives each a place of its own"
+says err "--unwrap gives each part another place in the texture"
 run 0 run spots.cascade --mesh tiles.obj --cells 300 --bake 64 --unwrap -o tiles.glb
 grep -q "several parts" err && fail "coordinates of ours overlap"
 # A model far from the origin is moved in an STL file, by the same distance in all levels.
 sed 's/^v \([01]\) \([01]\) /v 40300\1.0\1 360490\2.7\2 /' square.obj > far.obj
 run 0 run spots.cascade --mesh far.obj --cells 300 -o far.stl --lods 2
-says err "'far.stl' has the model moved by -403000"
+says err "in 'far.stl' the model is moved by -403000"
 run 0 mesh far.stl
 says out "1 boundary, Euler characteristic 1"
 run 0 run spots.cascade --mesh far.obj --cells 300 -o far.ply
@@ -140,7 +140,7 @@ for spot in 0 0.0001; do
     sed "s/^vt 2 0/vt $spot 0/; s/^vt 2 1/vt $spot $spot/; s/^vt 0 1/vt 0 $spot/" tiles.obj > spot.obj
     run 3 run long.cascade --mesh spot.obj --cells 300 --bake 64 -o spot.glb
     says err "the model's texture coordinates have no area in the texture"
-    says err "--unwrap makes new ones"
+    says err "use --unwrap to make new ones"
     run 0 run -q spots.cascade --mesh spot.obj --cells 300 --bake 64 --unwrap -o spot.glb
 done
 

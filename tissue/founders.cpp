@@ -72,7 +72,7 @@ Result<std::vector<NearPlace>> random_founders(const Surroundings& surroundings,
             return failure(
                 fmt::format("of {} random positions only {} {} accepted as founders of {}", tried,
                             founders.size(), founders.size() == 1 ? "is" : "are", count),
-                "the chance, from 0 to 1, must be larger somewhere");
+                "make the chance, from 0 to 1, larger somewhere");
         }
         const std::size_t batch = std::max<std::size_t>(count - founders.size(), 1024);
         std::vector<NearPlace> candidates;

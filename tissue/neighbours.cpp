@@ -89,10 +89,10 @@ void add_pairs(std::span<const Pair> pairs, std::span<const std::uint32_t> ranks
 
 tl::unexpected<Failure> too_many(std::size_t cells, double links, double most_links) {
     return failure(
-        fmt::format("{} cells would have about {:.0f} neighbours each: {:.2g} links, and "
-                    "there is memory for {:.2g}",
+        fmt::format("{} cells would have about {:.0f} neighbours each: {:.2g} pairs of cells, "
+                    "but there is memory only for {:.2g}",
                     cells, links / static_cast<double>(cells), links, most_links),
-        "smaller radii, or a smaller distance in near(…), make fewer neighbours");
+        "use smaller radii or a smaller distance in near(…)");
 }
 
 }  // namespace

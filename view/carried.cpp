@@ -17,9 +17,10 @@ namespace cascade {
 Result<Carried> carried_by(const Script& script, const Simulation& simulation) {
     for (const Stage& stage : script.program->stages) {
         if (stage.body.nodes.empty()) continue;
-        return failure(fmt::format("a page without the program cannot make the body of stage '{}'",
+        return failure(fmt::format("a page that runs without the program cannot make the body of "
+                                   "stage '{}'",
                                    stage.name),
-                       "'cascade view' can");
+                       "use 'cascade view'");
     }
     Carried carried{
         shown_name(script), script.text, false, overrides_to_json(script.overrides), {}};

@@ -57,15 +57,15 @@ Result<std::string> LoadedModels::add(const LoadPart& part) {
     if (part.name != name_ || part.size != size_ || part.at > bytes_.size()) {
         if (!kept_as_.empty() && part.name == name_ && part.size == size_) return kept_as_;
         return failure(fmt::format("parts of '{}' are missing", short_name(part.name)),
-                       "load it again; only one file can be loaded at a time");
+                       "load the file again, one file at a time");
     }
     const bool is_large = size_ > limits_.model;
     if (is_large || kept_ + size_ > limits_.session) {
         return failure(
             is_large
                 ? fmt::format("'{}' has more than {} bytes", short_name(name_), limits_.model)
-                : fmt::format("the models of a session have at most {} bytes", limits_.session),
-            "save it beside the script, which can name it");
+                : fmt::format("the models of a session can have at most {} bytes", limits_.session),
+            "save the model beside the script and name it in the script");
     }
     if (part.at < bytes_.size()) return std::string();
     bytes_ += part.bytes;

@@ -63,7 +63,7 @@ Result<void> simplify_model(SurfaceMesh& mesh, std::size_t triangles,
     if (mesh.triangles.size() > triangles) {
         line += ", fewer would change its connections or fold it";
     }
-    if (loses_texture) line += ", without its texture coordinates (--unwrap makes new ones)";
+    if (loses_texture) line += ", without its texture coordinates (use --unwrap to make new ones)";
     lines.push_back(std::move(line));
     return {};
 }

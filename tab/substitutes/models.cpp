@@ -16,8 +16,8 @@ namespace cascade {
 namespace {
 
 tl::unexpected<Failure> needs_program(std::string_view what) {
-    return failure(fmt::format("a page without the program cannot make {}", what),
-                   "'cascade view' can");
+    return failure(fmt::format("a page that runs without the program cannot make {}", what),
+                   "use 'cascade view'");
 }
 
 constexpr std::string_view cells = "the cells of this model";

@@ -33,7 +33,8 @@ Result<GreyPicture> parse_grey_picture(std::string_view bytes, PictureChannel ch
 }
 
 Result<PngTexts> parse_png_texts(std::string_view) {
-    return failure("a page without the program cannot read pictures", "'cascade view' can");
+    return failure("a page that runs without the program cannot read pictures",
+                   "use 'cascade view'");
 }
 
 /// Stores the bytes in uncompressed blocks (RFC 1951, section 3.2.4).

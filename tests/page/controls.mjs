@@ -186,7 +186,7 @@ async function save() {
     }
     for (const [id, end] of [["model", ".glb"], ["maps", "_maps.zip"]]) {
         await click(`#${id}`);
-        if (exported) await browser.until(`document.getElementById("notice").textContent.startsWith("a page without the program writes no models")`);
+        if (exported) await browser.until(`document.getElementById("notice").textContent.startsWith("a page that runs without the program cannot write models")`);
         else await browser.file(join(folder, name + end));
         await browser.evaluate(`document.getElementById("notice").textContent = ""`);
     }

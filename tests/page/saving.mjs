@@ -87,7 +87,7 @@ async function save() {
         for (const button of ["model", "maps"]) {
             await browser.evaluate(`document.getElementById("notice").textContent = ""`);
             await click(button);
-            await browser.until(`${notice}.startsWith("a page without the program writes no models and maps")`);
+            await browser.until(`${notice}.startsWith("a page that runs without the program cannot write models and maps")`);
         }
         writeFileSync("saving_exported.png", await browser.screenshot());
     }

@@ -182,7 +182,7 @@ TEST(Unwrap, RefusesMorePartsThanFit) {
     const auto made = test::unwrapped(separate_triangles(3000), 32);
     ASSERT_FALSE(made);
     EXPECT_THAT(made.error().message,
-                HasSubstr("the model falls into 3,000 separate parts, too many for a texture of "
+                HasSubstr("the model consists of 3,000 separate parts, too many for a texture of "
                           "32 × 32"));
     EXPECT_TRUE(test::unwrapped(separate_triangles(3000), 256));
 }

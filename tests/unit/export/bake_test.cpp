@@ -350,8 +350,8 @@ TEST(Bake, SaysHowMuchOverlaps) {
     EXPECT_THAT(result.warnings,
                 ElementsAre("50.0 % of the texture belongs to several parts of the model, one of "
                             "them mirrored, as the two halves of a body may be: 50.0 % of the "
-                            "model shows the pattern of another part; --unwrap gives each a place "
-                            "of its own"));
+                            "model shows the pattern of another part; --unwrap gives each part "
+                            "another place in the texture"));
 }
 
 TEST(Bake, RefusesWhatCannotBePainted) {
@@ -370,7 +370,7 @@ TEST(Bake, RefusesWhatCannotBePainted) {
     mesh.texture.clear();
     EXPECT_THAT(message(), HasSubstr("no texture coordinates to paint by: --unwrap"));
     mesh.texture.assign(mesh.triangles.size(), {});
-    EXPECT_THAT(message(), HasSubstr("have no area in the texture: --unwrap makes new ones"));
+    EXPECT_THAT(message(), HasSubstr("have no area in the texture: use --unwrap to make new ones"));
     mesh.texture = texture;
     for (auto& corners : mesh.texture) {
         for (TexturePlace& place : corners) place = {place[0] * 0.01F, place[1] * 0.01F};

@@ -202,8 +202,8 @@ TEST(InstancedModel, TooManyTrianglesAreNotMerged) {
     const Result<MergedCopies> merged = merge_copies(copies);
     ASSERT_FALSE(merged);
     EXPECT_EQ(merged.error().message,
-              "17 copies have 17,825,792 triangles together, and at most 16,777,216 are merged");
-    EXPECT_EQ(merged.error().hint, "write them as instances, or with coarser shapes");
+              "17 copies have 17,825,792 triangles in total, but at most 16,777,216 can be merged");
+    EXPECT_EQ(merged.error().hint, "leave --merge out, or use coarser shapes");
 }
 
 TEST(InstancedModel, Binary32MustHoldIt) {

@@ -182,7 +182,7 @@ TEST(ModelWriter, StlFilesOfModelsFarAwayAreMoved) {
     EXPECT_EQ(stl_origin(square), Vector3d{});
     EXPECT_TRUE(remarks_of_origin("a.stl", {}).empty());
     EXPECT_THAT(remarks_of_origin("x/a.stl", {1, -2, 0.5}).at(0),
-                HasSubstr("'a.stl' has the model moved by -1, 2, -0.5, to the origin"));
+                HasSubstr("in 'a.stl' the model is moved by -1, 2, -0.5, to the origin"));
     EXPECT_EQ(origin_of_file("a.ply", moved({1e6, 0, 0}, 0.05)), Vector3d{});
 }
 

@@ -178,7 +178,7 @@ TEST(GltfTexture, TheSetThatTheMaterialNames) {
 TEST(GltfRequirements, OtherVersionsAreNamed) {
     BuiltGltf file;
     file.json["asset"]["version"] = "1.0";
-    EXPECT_EQ(file.fault(), "this is a glTF file of version 1, and only version 2 is read");
+    EXPECT_EQ(file.fault(), "this is a glTF file of version 1, but only version 2 can be read");
     const auto fault = [](const std::string& text) { return read_gltf(text).error().message; };
     EXPECT_THAT(fault(R"({"asset":{"generator":"x"},"meshes":{"m":{"primitives":[]}}})"),
                 HasSubstr("version 1"));
@@ -189,7 +189,7 @@ TEST(GltfRequirements, OtherVersionsAreNamed) {
     file.json["asset"]["minVersion"] = "2.0";
     EXPECT_EQ(file.fault(), "read");
     file.json["asset"]["minVersion"] = "2.1";
-    EXPECT_EQ(file.fault(), "the glTF file requires version 2.1, and version 2.0 is read");
+    EXPECT_EQ(file.fault(), "the glTF file requires version 2.1, but only version 2.0 can be read");
 }
 
 TEST(GltfRequirements, UnknownExtensionsAreNamedIfTheyAreRequired) {
@@ -202,7 +202,9 @@ TEST(GltfRequirements, UnknownExtensionsAreNamedIfTheyAreRequired) {
         EXPECT_EQ(file.fault(), "read") << known;
     }
     file.json["extensionsRequired"] = {"KHR_materials_unlit", "CESIUM_RTC"};
-    EXPECT_EQ(file.fault(), "the glTF file requires the extension 'CESIUM_RTC', which is not read");
+    EXPECT_EQ(file.fault(),
+              "the glTF file requires the extension 'CESIUM_RTC', which Cascade "
+              "cannot read");
     file.json["extensionsRequired"] = {17};
     EXPECT_EQ(file.fault(), "read");
 }
@@ -239,7 +241,7 @@ TEST(GltfRequirements, CompressedDataAreNamedUnlessThereArePlainOnes) {
         const auto soup = read_gltf(text);
         ASSERT_FALSE(soup.has_value());
         EXPECT_EQ(soup.error().message, "the glTF file is compressed by Meshopt (" +
-                                            std::string(name) + "), which is not read");
+                                            std::string(name) + "), which Cascade cannot read");
     }
 }
 

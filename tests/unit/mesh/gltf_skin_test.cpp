@@ -162,7 +162,9 @@ TEST(GltfMorph, TheSameTargetAgainAndAgainIsBounded) {
     }
     file.json["nodes"] = nodes;
     file.json["scenes"][0]["nodes"] = roots;
-    EXPECT_EQ(file.fault(), "the glTF file uses its data too often for its size");
+    EXPECT_EQ(file.fault(),
+              "the glTF file reads its data more often than a file of this size "
+              "should");
 }
 
 }  // namespace

@@ -182,8 +182,10 @@ TEST(ImplicitSurface, CellsOfAnyFormClose) {
 TEST(ImplicitSurface, WhatCannotBeDoneIsSaid) {
     EXPECT_THAT(fault([](Vector3d p) { return 1.2 - length(p); }),
                 HasSubstr("the surface leaves the box: its function is "));
-    EXPECT_THAT(fault([](Vector3d) { return -1.0; }), HasSubstr("nowhere above 0 in the box"));
-    EXPECT_THAT(fault([](Vector3d) { return 0.0; }), HasSubstr("nowhere above 0 in the box"));
+    EXPECT_THAT(fault([](Vector3d) { return -1.0; }),
+                HasSubstr("is not above 0 at any sampled point"));
+    EXPECT_THAT(fault([](Vector3d) { return 0.0; }),
+                HasSubstr("is not above 0 at any sampled point"));
     EXPECT_THAT(fault([](Vector3d) { return 1.0; }), HasSubstr("leaves the box"));
     EXPECT_THAT(fault([](Vector3d p) { return std::sqrt(0.3 - p.x); }), HasSubstr("nan at (0.3"));
     EXPECT_THAT(fault([](Vector3d p) { return 1 / dot(p, p) - 4; }, {{-1, -1, -1}, {1, 1, 1}, 0.1}),

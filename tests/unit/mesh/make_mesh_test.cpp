@@ -159,7 +159,7 @@ TEST(MakeMesh, AMoebiusStripIsCutOnce) {
     EXPECT_EQ(facts.boundaries, 1u);
     EXPECT_EQ(facts.euler_characteristic, 1);
     EXPECT_THAT(cut.repairs,
-                testing::Contains("the surface had one side only and was cut along 1 edge"));
+                testing::Contains("the surface had only one side and was cut along 1 edge"));
 }
 
 TEST(MakeMesh, WhatIsThereTwiceOrHasNoAreaIsLeftOut) {

@@ -47,9 +47,11 @@ TEST(OddFiles, WhatIsNoModelIsNamed) {
                   "the file is a ZIP archive | unpack it first");
     }
     EXPECT_EQ(answer_to(ply_of_a_triangle, "obj"),
-              "this is a PLY file, and its name ends in .obj | let its name end in .ply");
+              "this is a PLY file, but its name ends in .obj | rename the file so that its name "
+              "ends in .ply");
     EXPECT_EQ(answer_to(BuiltGltf().bytes(), "stl"),
-              "this is a GLB file, and its name ends in .stl | let its name end in .glb");
+              "this is a GLB file, but its name ends in .stl | rename the file so that its name "
+              "ends in .glb");
     EXPECT_EQ(answer_to(BuiltGltf().bytes(), "gltf"), "read");
 }
 
@@ -79,8 +81,8 @@ TEST(OddFiles, MessagesAboutGltfQuoteNoData) {
     file.json["buffers"][0]["uri"] = "https://example.org/a.bin";
     EXPECT_EQ(
         answer_to(file.json.dump(), "gltf"),
-        "the glTF file has its data at 'https://example.org/a.bin' | only files beside it are "
-        "read: download it, and name it in 'uri'");
+        "the glTF file has its data at 'https://example.org/a.bin' | only files beside the glTF "
+        "file can be read: download this file and name it in 'uri'");
 }
 
 TEST(OddFiles, GltfFilesOfPointsOrLines) {
@@ -88,7 +90,7 @@ TEST(OddFiles, GltfFilesOfPointsOrLines) {
         BuiltGltf file;
         file.primitive()["mode"] = mode;
         EXPECT_EQ(answer(file.read()),
-                  "the glTF file has points or lines only | a model is a surface");
+                  "the glTF file contains only points or lines | export a surface of triangles");
     }
     for (const int mode : {4, 5, 6}) {
         BuiltGltf file;
@@ -131,12 +133,13 @@ TEST(OddFiles, ObjFilesOfOtherHabits) {
               "line 4 of the OBJ file is not a face of points | points are counted from 1");
     EXPECT_EQ(answer_to("v 0,5 0,0 0,0\n", "obj"),
               "line 1 of the OBJ file is not the position of a point | "
-              "numbers are written with a point, not a comma");
+              "write numbers with a point, not with a comma");
     EXPECT_EQ(answer_to("v 0 0\n", "obj"),
               "line 1 of the OBJ file is not the position of a point | "
-              "a point has three coordinates");
+              "write three coordinates for each point");
     EXPECT_EQ(answer_to(points + "cstype bezier\ndeg 1 1\nsurf 0 1 0 1 1 2 3 3\nend\n", "obj"),
-              "the OBJ file has curved surfaces only, which are not read | export it as triangles");
+              "the OBJ file contains only curved surfaces, which Cascade cannot read | export it "
+              "as triangles");
     EXPECT_EQ(answer_to(points + "l 1 2\np 1\nf 1 2 3\n", "obj"), "read");
 }
 

@@ -129,8 +129,8 @@ TEST(HardCells, EveryPieceHasACell) {
     expect_fine(mesh, 600);
     const auto few = made_cells(mesh, 40);
     ASSERT_FALSE(few);
-    EXPECT_EQ(few.error().message, "40 cells cannot cover a surface of 41 connected components");
-    EXPECT_EQ(few.error().hint, "use 41 cells or more, or join components");
+    EXPECT_EQ(few.error().message, "40 cells cannot cover a surface of 41 separate parts");
+    EXPECT_EQ(few.error().hint, "use 41 cells or more, or join the parts");
 }
 
 TEST(HardCells, RefusesWhatCannotBe) {

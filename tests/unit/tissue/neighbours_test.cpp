@@ -135,8 +135,8 @@ TEST(Neighbours, AreRefusedIfThereWouldBeTooMany) {
     ASSERT_FALSE(refused);
     EXPECT_EQ(
         refused.error().message,
-        "20000 cells would have about 19999 neighbours each: 4e+08 links, and there is memory "
-        "for 1e+07");
+        "20000 cells would have about 19999 neighbours each: 4e+08 pairs of cells, but there is "
+        "memory only for 1e+07");
     EXPECT_TRUE(find_neighbours(cells.view(), {1.2, 0, {}}, 0.1, 1e7, team));
 }
 
