@@ -126,8 +126,8 @@ private:
             // The constraint of a solved field reads the field.
             if (!solved_constraint(root) && !is_read_beside(system(), sides.definition)) {
                 return report(setting.span,
-                              fmt::format("the side of '{}' has no effect, because no operator "
-                                          "reads '{}'",
+                              fmt::format("the side of '{0}' has no effect, because no operator "
+                                          "reads '{0}'",
                                           definition.name),
                               "");
             }
