@@ -89,7 +89,8 @@ private:
             if (mentions(*value, u)) {
                 names_.fail(
                     span,
-                    "a value beyond a side that depends on the species itself has no counterpart in Cascade");
+                    "a value beyond a side that depends on the species itself has no counterpart "
+                    "in Cascade");
                 return false;
             }
             const Expression slope =

@@ -186,7 +186,7 @@ private:
             work_.diagnostics.error(value.span, "'mesh' takes the name of a file in quotes",
                                     shape_of(word_of(value))
                                         ? fmt::format("write surface: {}", word_of(value))
-                                        : "mesh: \"horse.ply\"");
+                                        : "for example, mesh: \"horse.ply\"");
             return;
         }
         model_.emplace();
@@ -211,7 +211,7 @@ private:
                 work_.diagnostics.error(value.span,
                                         fmt::format("{} takes {} in brackets", word_of(shape),
                                                     sizes->arguments),
-                                        fmt::format("surface: {}", sizes->example));
+                                        fmt::format("for example, surface: {}", sizes->example));
             }
             return;
         }
@@ -239,12 +239,12 @@ private:
         if (model.shape == ModelShape::torus && !model.sizes.empty() &&
             model.sizes[1] >= model.sizes[0]) {
             work_.diagnostics.error(value.span, "the tube of a torus must be thinner than its ring",
-                                    "surface: torus(1, 0.4)");
+                                    "for example, surface: torus(1, 0.4)");
             return;
         }
         if (model.shape == ModelShape::knot && !model.sizes.empty() && model.sizes[0] > 0.55) {
             work_.diagnostics.error(value.span, "the radius of a knot's tube must be at most 0.55",
-                                    "surface: knot(0.4)");
+                                    "for example, surface: knot(0.4)");
             return;
         }
         model_ = std::move(model);
@@ -302,14 +302,14 @@ private:
         if (model_->directions && model_->cells != ModelCellKind::spread) {
             work_.diagnostics.error(model_->directions->span,
                                     "only cells that are spread over a model can be stretched",
-                                    "cells: 20000, or --cells 20000");
+                                    "for example, cells: 20000, or --cells 20000");
         }
         if (stretch == nullptr) return;
         if (directions == nullptr) {
             work_.diagnostics.error(stretch->name.span,
                                     "'stretch' needs 'directions', along "
                                     "which it stretches the cells",
-                                    "directions: axis(0, 1, 0)");
+                                    "for example, directions: axis(0, 1, 0)");
             return;
         }
         put(model_->stretch, read_number(work_, script_, *stretch));

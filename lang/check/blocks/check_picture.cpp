@@ -86,7 +86,7 @@ private:
         const DomainSettings& domain = work_.program.domain;
         if (domain.grid.depth == 1 && !domain.model) {
             work_.diagnostics.error(statement.name.span, "'body' needs a grid with slices",
-                                    "domain { grid: 64, 64, 64 }");
+                                    "for example, domain { grid: 64, 64, 64 }");
             return;
         }
         check_type(statement, ValueType::number);
@@ -150,7 +150,7 @@ private:
             work_.diagnostics.error(script_.expressions[statement.values[0].root].span,
                                     fmt::format("{} must be {}", statement.name.text,
                                                 words_of(type, true).name),
-                                    is_colour ? "rgb(…) and palette(…) make colours" : "");
+                                    is_colour ? "use rgb(…) or palette(…)" : "");
             return;
         }
         if (scope.stage) can_grow(work_.program, *scope.stage, checked->formula, work_.diagnostics);

@@ -30,7 +30,7 @@ void check_position(Workspace& work, const ast::Script& script, const ast::State
                                "'surface' takes three expressions, for x, y and z in space",
                                is_name   ? fmt::format("write surface: {}", text->value)
                                : is_file ? "write mesh: \"model.obj\" for a model in a file"
-                                         : "surface: sx, sy, 0.1 * sin(2 * pi * sx)");
+                                         : "for example, surface: sx, sy, 0.1 * sin(2 * pi * sx)");
         return;
     }
     Scope scope;
@@ -63,7 +63,7 @@ void check_surface(Workspace& work, const ast::Script& script, const ast::Block&
         for (const ast::Statement* lonely : {metric, unit}) {
             if (lonely == nullptr) continue;
             work.diagnostics.error(lonely->name.span, "this setting needs a domain with a surface",
-                                   "surface: x, y, z");
+                                   "for example, surface: x, y, z");
         }
         return;
     }
@@ -72,7 +72,7 @@ void check_surface(Workspace& work, const ast::Script& script, const ast::Block&
     const Grid& grid = work.program.domain.grid;
     if (grid.width < 2 || grid.height < 2 || grid.depth > 1) {
         work.diagnostics.error(surface->name.span, "a surface needs a grid with two sides",
-                               "grid: 128, 128");
+                               "for example, grid: 128, 128");
     }
     if (grid.spacing != 1) {
         work.diagnostics.error(surface->name.span,

@@ -144,7 +144,7 @@ std::optional<DirectionSettings> check_directions(Workspace& work, const ast::Sc
     }
     const auto numbers = numbers_of(work, script, arguments);
     if (!numbers) return std::nullopt;
-    return direction_of(work, word, *numbers, value.span, "directions: {}");
+    return direction_of(work, word, *numbers, value.span, "for example, directions: {}");
 }
 
 /// Registers a direction of the model that `along` takes in place of a vector.
@@ -163,7 +163,7 @@ void ExpressionChecker::take_direction(std::string_view word,
         }
         numbers.push_back({parts_[part].value, formula_.nodes[part].span});
     }
-    const auto read = direction_of(work_, word, numbers, span, "along({})");
+    const auto read = direction_of(work_, word, numbers, span, "for example, along({})");
     if (!read) {
         parts_.back().has_error = true;
         return;
