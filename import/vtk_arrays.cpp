@@ -79,14 +79,14 @@ std::optional<VtkFile> VtkFile::read(Import& import, pugi::xml_document& documen
     if (!file.root_) return refuse("this is not an XML file of VTK");
     if (std::string_view(file.root_.attribute("byte_order").as_string("LittleEndian")) !=
         "LittleEndian") {
-        return refuse("only byte_order=\"LittleEndian\" is read");
+        return refuse("only byte_order=\"LittleEndian\" can be read");
     }
     const std::string_view words = file.root_.attribute("header_type").as_string("UInt32");
     if (words != "UInt32" && words != "UInt64") return refuse("the header_type is unknown");
     file.word_size_ = words == "UInt64" ? 8 : 4;
     const std::string_view compressor = file.root_.attribute("compressor").value();
     if (!compressor.empty() && compressor != "vtkZLibDataCompressor") {
-        return refuse("only vtkZLibDataCompressor is read as a compressor");
+        return refuse("only the compressor vtkZLibDataCompressor can be read");
     }
     file.is_compressed_ = !compressor.empty();
     if (appended == std::string_view::npos) return file;

@@ -72,7 +72,7 @@ fi
 
 "$CASCADE" sweep spots.cascade --vary ka=1/80,1/40 --fps 5 >/dev/null 2>err && fail "a sweep takes --fps"
 grep -q -- "add --film NAME.gif" err || fail "sweep: $(cat err)"
-refused "a plane has no slices" -o bad.gif --slices 4
+refused "this domain is a plane, which has no slices" -o bad.gif --slices 4
 refused "--label needs frames or a film, but none is written" -o bad.png --label step
 refused "no room for a label" -o bad.gif --label step
 refused "this value differs from cell to cell" -o bad.gif --label b

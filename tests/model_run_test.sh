@@ -298,7 +298,7 @@ refused "the domain is not a surface" run -q spots.cascade -o refused.png --turn
 refused "--retile needs a model, but no model is written" $model -o refused.png --retile
 refused "--retile needs a model, but no model is written" $model -o refused.npz --retile
 refused "this option writes maps of a model, but no such model is written" $model -o refused.ply --bake 64
-refused "no picture is drawn" $model -o refused.ply --turntable 4
+refused "--turntable needs a picture or a film, but none is requested" $model -o refused.ply --turntable 4
 refused "the cells of a model have no rows and columns" $model -o refused.png --flat
 refused "the cells of a model have no rows and columns" $model -o refused.png --sheet refused.s.png
 refused "the cells of a model have no rows and columns" $model -o refused.png --volume refused.vti

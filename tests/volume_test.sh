@@ -106,7 +106,7 @@ echo 'system_name: turing_spots' > plane.cascade
 for option in '--slice z=0.2' --flat '--view 10,20' '--quality fine' '--light studio' '--fov 40' '--ground no' '--background none'; do
     # shellcheck disable=SC2086
     "$CASCADE" run -q plane.cascade $option 2>err && fail "$option is taken for a plane"
-    grep -qE "a plane has no slices|the domain is not a surface" err || fail "$option: $(cat err)"
+    grep -qE "this domain is a plane, which has no slices|the domain is not a surface" err || fail "$option: $(cat err)"
     [ ! -e plane.png ] || fail "$option left a picture"
 done
 # The picture of a plane fits into the size of `--size`.

@@ -19,7 +19,7 @@ constexpr std::array<std::string_view, 1> ends_of_step{"after"};
 void ScriptParser::parse_end_of_index(ast::Statement& statement) {
     const Token dots = cursor_.take();
     if (statement.kind != ast::StatementKind::value || !statement.index.empty()) {
-        cursor_.error(dots.span, "a range declares an index", "write i: 1..3");
+        cursor_.error(dots.span, "a range '..' can only declare an index", "write i: 1..3");
         cursor_.skip_statement();
         return;
     }

@@ -175,7 +175,7 @@ Result<std::size_t> FollowTable::find_number(std::string_view name) const {
         if (name == numbers_[k] || (k < measures.size() && name == measures[k])) return k;
     }
     return failure(fmt::format("there is no number '{}' of a state", name),
-                   fmt::format("numbers of states are {}", fmt::join(numbers_, ", ")));
+                   fmt::format("the numbers of a state are {}", fmt::join(numbers_, ", ")));
 }
 
 std::vector<double> FollowTable::measured(const continuation::Vector& state) const {

@@ -119,12 +119,13 @@ private:
                    "add --series NAME.npy or NAME.h5, or for a line of cells NAME.csv");
         }
         if (!is_volume)
-            refuse({slice, slices}, "a plane has no slices", "grid: W, H, D makes a volume");
+            refuse({slice, slices}, "this domain is a plane, which has no slices",
+                   "write grid: W, H, D for a volume");
         if (!is_volume && !domain_.model && !can_hold(request_.volume, FormatTrait::planes)) {
             refuse({volume},
                    fmt::format("a {} file can hold only a volume, but this grid is a plane",
                                lower_ending(request_.volume)),
-                   fmt::format("use --volume NAME{} for a plane; grid: W, H, D makes a volume",
+                   fmt::format("use --volume NAME{} for a plane; write grid: W, H, D for a volume",
                                endings_of(FormatTrait::planes, "or")));
         }
     }
@@ -192,7 +193,8 @@ private:
 
     void check_levels() {
         if (has_output_of(FormatKind::model)) return;
-        refuse({lods}, "no model is written", how_to_write(FormatKind::model));
+        refuse({lods}, "--lods needs a model, but no model is written",
+               how_to_write(FormatKind::model));
     }
 
     /// Checks the options for models that show how the pattern grew.
@@ -245,7 +247,7 @@ private:
         }
         check_animated();
         if (has_picture) return;
-        refuse({turntable}, "no picture is drawn",
+        refuse({turntable}, "--turntable needs a picture or a film, but none is requested",
                "add -o NAME.png for pictures NAME-001.png, …, or -o NAME.gif for a film");
     }
 

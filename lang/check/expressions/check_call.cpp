@@ -105,7 +105,7 @@ void ExpressionChecker::visit(const ast::Over& over) {
     if (!belongs_here(*function, over.function.span)) return;
     if (over.index.text == "near" && !over.distance) {
         return error(over.index.span, "'near' takes a distance",
-                     fmt::format("{}(e over near(0.1))", over.function.text));
+                     fmt::format("for example, {}(e over near(0.1))", over.function.text));
     }
     const NodeId operand = part_of(over.operand);
     if (!over.distance) return apply(*function, {operand}, 1);

@@ -118,7 +118,7 @@ void ExpressionChecker::visit(const ast::Text& text) {
         std::string hint(advice_about(text.value, WordContext::value));
         if (hint.empty()) hint = advice_about_hex_colour(text.value);
         if (text.value.ends_with(".png")) hint = fmt::format("write image(\"{}\")", text.value);
-        if (hint.empty()) hint = "palette(v, low, high, \"grey\"), field(\"a.npy\")";
+        if (hint.empty()) hint = "for example, palette(v, low, high, \"grey\") or field(\"a.npy\")";
         return error(node.span, "a text in quotes can only name a palette or a file",
                      std::move(hint));
     }

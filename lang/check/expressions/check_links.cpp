@@ -66,7 +66,7 @@ bool ExpressionChecker::has_places(NodeId root) {
                    fmt::format("'{}' belongs to a pair of cells, so it can be used only in "
                                "sums over neighbours",
                                name),
-                   fmt::format("sum({} over touching)", name));
+                   fmt::format("for example, sum({} over touching)", name));
         }
         const bool is_own = node.calls(Function::own);
         if (is_own && read.by_cell) {

@@ -218,7 +218,7 @@ void ExpressionChecker::check_operator(const Node& node) {
     if (parts_.back().has_error) return;
     if (node.function == Function::symmetric && work_.on_surface && node.operand_count == 6) {
         return error(node.span, "on a surface, a tensor has three entries",
-                     "symmetric(axx, axy, ayy)");
+                     "use symmetric(axx, axy, ayy)");
     }
     if (node.function == Function::shifted) return check_shift(node);
     const bool is_derivative = info(node.function).lengths > 0;

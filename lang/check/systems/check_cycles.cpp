@@ -15,8 +15,8 @@ namespace {
 void report_cycle(Workspace& work, Span span, const char* what,
                   const std::vector<std::string>& names) {
     if (names.size() == 1) {
-        work.diagnostics.error(span,
-                               fmt::format("{} needs itself: {}", names[0], describe_cycle(names)));
+        work.diagnostics.error(span, fmt::format("{} needs its own value: {}", names[0],
+                                                 describe_cycle(names)));
         return;
     }
     work.diagnostics.error(span, fmt::format("{} need each other in a cycle: {}", what,

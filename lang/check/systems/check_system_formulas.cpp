@@ -63,7 +63,7 @@ void SystemChecker::check_values() {
         // range written with its starting value.
         const bool is_radius = is_cells() && id == system().cells->radius;
         if (quantity.is_species && !is_radius) {
-            work_.diagnostics.error(values_[id]->range->span, "a range belongs to a parameter",
+            work_.diagnostics.error(values_[id]->range->span, "only a parameter can have a range",
                                     fmt::format("'{}' is a species", quantity.name));
         } else {
             check_range(work_, *values_[id], quantity, checked ? checked->constant : std::nullopt);

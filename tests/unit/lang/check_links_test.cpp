@@ -41,24 +41,25 @@ TEST(CheckLinks, ValuesOfTwoCellsAreKnownInside) {
     EXPECT_EQ(
         fault_of("contact"),
         "'contact' belongs to a pair of cells, so it can be used only in sums over neighbours | "
-        "sum(contact over touching)");
+        "for example, sum(contact over touching)");
     EXPECT_EQ(
         fault_of("sum(own(contact) over touching)"),
         "'contact' belongs to a pair of cells, so it can be used only in sums over neighbours | "
-        "sum(contact over touching)");
+        "for example, sum(contact over touching)");
     EXPECT_EQ(fault_of("own(q)"),
               "own(e) can be used only in sums over neighbours | leave own(…) out: outside of "
               "such sums, names already belong to the cell itself");
     EXPECT_EQ(
         fault_of("both(overlap)", "fn both(a) = a + sum(a over touching)\n"),
         "'overlap' belongs to a pair of cells, so it can be used only in sums over neighbours | "
-        "sum(overlap over touching)");
+        "for example, sum(overlap over touching)");
     EXPECT_EQ(fault_of("both(q)", "fn both(a) = a + sum(a * gap over touching)\n"), "");
     EXPECT_EQ(fault_of("sum(sum(distance over touching) over near(k))"), "");
 }
 
 TEST(CheckLinks, NearTakesOneDistance) {
-    EXPECT_EQ(fault_of("sum(q over near)"), "'near' takes a distance | sum(e over near(0.1))");
+    EXPECT_EQ(fault_of("sum(q over near)"),
+              "'near' takes a distance | for example, sum(e over near(0.1))");
     EXPECT_EQ(fault_of("sum(q over near(1, 2))"),
               "'near' takes one distance | such as sum(e over near(0.1))");
     EXPECT_EQ(
