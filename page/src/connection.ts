@@ -145,7 +145,7 @@ export class Connection {
         socket.onmessage = ({ data }) => this.take(data);
         socket.onclose = ({ code, reason }) => {
             if (EngineLine.is_carried) return this.listener.lost(`The engine has ended: ${reason}. Reload the page to begin anew.`);
-            this.listener.lost(code === 1001 ? "Cascade has ended." : "The connection is lost; trying again. What is done now is kept.");
+            this.listener.lost(code === 1001 ? "Cascade has ended." : "The connection is lost; trying again. Changes that you make now are kept.");
             setTimeout(() => this.open(), 1000);
         };
         this.socket = socket;

@@ -2,7 +2,7 @@
 import { keys } from "./keys";
 
 const steps: [string, string][] = [
-    ["text", "The script of the pattern. What you type takes effect as soon as it is correct. Ctrl+Space completes, the pointer on a name explains it, and Escape leaves the text."],
+    ["text", "The script of the pattern. A change takes effect as soon as it is correct. Ctrl+Space completes a name, the pointer on a name explains it, and Escape leaves the text."],
     ["controls", "Sliders change numbers while the pattern grows."],
     ["frame", "Paint on the pattern. The wheel zooms, the middle button moves it."],
     ["stages", "A click on a stage goes to its start. Space runs and pauses, Ctrl+Z undoes anything, and ? shows all keys."],

@@ -37,8 +37,8 @@ export class LinkDialog {
     /// Shows the QR code, or says why there is none.
     private show_code() {
         this.code.hidden = true;
-        if (!EngineLine.is_carried) return "It opens on this machine, while Cascade runs. A page that 'cascade export' writes gives links for everybody.";
-        if (!/^https?:$/.test(location.protocol)) return "It opens where this file lies. On a server the page gives links for everybody.";
+        if (!EngineLine.is_carried) return "The link opens on this machine while Cascade runs. A page that 'cascade export' writes gives links for everybody.";
+        if (!/^https?:$/.test(location.protocol)) return "The link opens where this file is. On a server, the page gives links for everybody.";
         try {
             draw_code(this.field.value, this.code);
         } catch {
