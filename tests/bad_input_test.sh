@@ -95,7 +95,7 @@ refused 64 'would both be written to' compile good.cascade -o a.h
 refused 64 'a script is missing' compile
 refused 64 'is not an odd number' compile good.cascade --stages 4
 refused 64 'euler has no stages to choose' compile good.cascade --stages 5
-refused 64 '--stages N says how many' compile good.cascade --set solver=rkl1
+refused 64 'use --stages N with an odd number' compile good.cascade --set solver=rkl1
 refused 64 'solver=rkl1, which keeps the speed' compile good.cascade --solver rkl1
 
 # Outputs that cannot be written are refused before the first step.

@@ -83,7 +83,7 @@ hint "write surface: x, y, z in the domain for a surface" run s.cascade --flat -
 
 # Finer cells.
 sed 's/cells: 100/cells: faces/' ball.cascade >faces.cascade
-hint "--cells 20000 spreads cells" run faces.cascade -q --detail 2 -- run faces.cascade -q --cells 100 --detail 2
+hint "use --cells 20000 to spread cells" run faces.cascade -q --detail 2 -- run faces.cascade -q --cells 100 --detail 2
 sed 's/grid: 8, 8/grid: 8, 8; mask: random(1, 2) > 0/' s.cascade >drawn.cascade
 sed 's/grid: 8, 8/grid: 8, 8; mask: noise(0.3) > -1/' s.cascade >noise.cascade
 hint "use noise(…), whose outlines stay the same" run drawn.cascade -q --detail 2 -- run noise.cascade -q --detail 2

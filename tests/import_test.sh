@@ -241,7 +241,7 @@ refuses_with() {
     [ ! -e refused.cascade ] || fail "$1 was refused, but something was written"
 }
 refuses_with "$models/presets.js" "did you mean 'Painted'?" --preset Paintd
-refuses_with "$models/presets.js" "has too many parents" --preset Round
+refuses_with "$models/presets.js" "is based on too many other presets" --preset Round
 printf '{"parent": "Turing"}' >child.json
 refuses child.json "that is not here"
 echo "let nothing = {};" >nothing.js
@@ -260,7 +260,7 @@ refuses nine.json "1 to 4 species are expected"
 printf '{"numSpecies": ' >cut.json
 refuses cut.json "this is not the JSON of a simulation"
 refuses "https://visualpde.com/sim/?options=N4IgDiBcIMIK4" "damaged or incomplete"
-refuses "https://visualpde.com/sim/" "has no 'options='"
+refuses "https://visualpde.com/sim/" "lacks 'options=…'"
 printf "u'=-u\ntable f f.dat\n" >table.ode
 refuses table.ode "'table' has no counterpart"
 printf "u'=-u+erf(u)\n" >erf.ode

@@ -86,7 +86,7 @@ run 0 run model.png --mesh moved/tetra.obj -q -o again.png
 run 0 run --resume model --allow-read moved -q -o again.png
 run 0 run --resume model --mesh moved/tetra.obj -q -o again.png
 run 2 run --resume model --mesh sphere -q -o again.png
-says err 'keeps its model'
+says err 'cannot change its model'
 
 # No escape sequence of a file reaches the terminal.
 escape=$'\x1b]0;title\x07\x1b[2J'

@@ -99,7 +99,7 @@ $sphere
 stage a: c { founders: 2; duration: 1 }"
 refused "takes all cells" "$sphere
 stage a: scales { founders: 5; remove: 1; duration: 1 }"
-refused "there is memory for" "$sphere
+refused "there is memory only for" "$sphere
 stage a: scales { founders: 100000000; duration: 1 }"
 refused "neighbours each" "cells c: scales { n: 0; n' = sum(1 over near(5)) - n }
 $sphere

@@ -154,7 +154,7 @@ TEST_F(Vdb, SaysWhyItCannotBeWritten) {
         load("domain { grid: 3, 2 }\nsystem s { u: 1; u' = 0 }\nstage only: s { iterations: 1 }");
     wanted.volume = path("plane.vdb");
     run_badly(plane, wanted);
-    EXPECT_THAT(plane.messages(false), HasSubstr("a .vdb file holds a volume"));
+    EXPECT_THAT(plane.messages(false), HasSubstr("a .vdb file can hold only a volume"));
     EXPECT_FALSE(std::filesystem::exists(path("plane.vdb")));
 }
 

@@ -88,7 +88,7 @@ TEST(FailingDevice, WithTooLittleMemoryIsRefusedBeforeTheFirstStep) {
     small.facts.memory = 4000;
     const Outcome outcome = run_on(api, small);
     EXPECT_THAT(outcome.failure, HasSubstr("the steps need "));
-    EXPECT_THAT(outcome.failure, HasSubstr("cells would fit"));
+    EXPECT_THAT(outcome.failure, HasSubstr("cells, or leave --device out"));
 }
 
 TEST(FailingDevice, WithoutDoublePrecisionTakesNoAdaptiveSteps) {

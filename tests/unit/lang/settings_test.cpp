@@ -108,7 +108,7 @@ TEST(Settings, TakeTheirWords) {
     };
     for (const std::string& word : words_taken_by(Setting::directions)) {
         for (const std::string& fault : faults_of("directions", word)) {
-            EXPECT_EQ(fault.find("directions are axis"), std::string::npos) << fault;
+            EXPECT_EQ(fault.find("'directions' must be axis"), std::string::npos) << fault;
         }
     }
     for (const Setting setting :

@@ -157,7 +157,7 @@ TEST_F(ArraySeriesTest, IsRefusedBeforeTheFirstStep) {
         EXPECT_FALSE(std::filesystem::exists(path("picture.png")));
         return why + script.messages(false);
     };
-    EXPECT_THAT(refusal(of("grown.csv")), HasSubstr("--series NAME.npy has planes"));
+    EXPECT_THAT(refusal(of("grown.csv")), HasSubstr("use --series NAME.npy for planes"));
     EXPECT_THAT(refusal(of("grown.pvd", {"u"})), HasSubstr("--field needs a series in an .npy, "
                                                            ".h5 or .csv file"));
     EXPECT_THAT(refusal(of("grown.npy", {"rgb(u, v, 0)"})), HasSubstr("--field takes numbers"));

@@ -145,10 +145,10 @@ TEST_F(DetailedRunTest, WhatHasNoFinerCellsIsRefused) {
     expect("domain { grid: 16384, 16384 }\nstage one: turing_spots { iterations: 1 }",
            detailed("a.png", 8), "the domain would have 17179869184 cells");
     RunRequest film = detailed("film.gif");
-    expect(two_sizes_of_spots, film, "only the end is carried to finer cells");
+    expect(two_sizes_of_spots, film, "--detail computes finer cells only at the end");
     RunRequest frames = detailed("a.png");
     frames.frames = path("frames");
-    expect(two_sizes_of_spots, frames, "only the end is carried to finer cells");
+    expect(two_sizes_of_spots, frames, "--detail computes finer cells only at the end");
     EXPECT_FALSE(std::filesystem::exists(path("a.png")));
     EXPECT_FALSE(std::filesystem::exists(path("frames")));
 }

@@ -78,7 +78,7 @@ TEST(Ensemble, SeedsAreARangeOrAList) {
     EXPECT_THAT(parse_seeds("4294967295..4294967295")->values, ElementsAre("4294967295"));
     for (const char* wrong : {"", "x", "1..", "..3", "-1..3", "1.5", "1..4294967296", "1,,2"}) {
         ASSERT_FALSE(parse_seeds(wrong)) << wrong;
-        EXPECT_THAT(parse_seeds(wrong).error().message, HasSubstr("seeds are whole numbers"));
+        EXPECT_THAT(parse_seeds(wrong).error().message, HasSubstr("a seed must be a whole number"));
     }
     EXPECT_THAT(parse_seeds("5..1").error().message, HasSubstr("the first seed is above the last"));
     EXPECT_THAT(parse_seeds("0..10000").error().message, HasSubstr("more than 10000 runs"));

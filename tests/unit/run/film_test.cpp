@@ -287,7 +287,7 @@ TEST_F(FilmRun, IsRefusedBeforeTheFirstStep) {
     EXPECT_THAT(refused(none), HasSubstr("no film is written"));
     RunRequest rows = film("a.gif");
     rows.picture.space_time = true;
-    EXPECT_THAT(refused(rows), HasSubstr("a space-time picture is one picture"));
+    EXPECT_THAT(refused(rows), HasSubstr("a space-time picture cannot be written as a film"));
 }
 
 TEST_F(FilmRun, LeavesNothingOnAFullDisk) {

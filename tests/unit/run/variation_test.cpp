@@ -42,9 +42,9 @@ TEST(Variation, RangesOfEqualRatios) {
     EXPECT_THAT(values_of("F = -8 .. -1 : 4 : log"), ElementsAre("-8", "-4", "-2", "-1"));
     EXPECT_THAT(values_of("F=1/3..27:1:log"), ElementsAre("0.3333333333"));
     for (const char* text : {"F=0..1:3:log", "F=-1..1:3:log", "F=1..0:3:log"}) {
-        EXPECT_THAT(fault_of(text), HasSubstr("have one sign")) << text;
+        EXPECT_THAT(fault_of(text), HasSubstr("both above 0 or both below 0")) << text;
     }
-    EXPECT_THAT(fault_of("F=1..10:log"), HasSubstr("followed by ':' and the number of values"));
+    EXPECT_THAT(fault_of("F=1..10:log"), HasSubstr("':' and the number of values are missing"));
 }
 
 TEST(Variation, NamesMayVaryTogether) {
