@@ -77,7 +77,7 @@ std::string work_lines(const StageBench& bench) {
                                       with_unit(bench.stepping.bytes_in_use, "B")));
     }
     if (work.has_waves) {
-        lines += line("", "waves are filtered besides, which is not counted");
+        lines += line("", "the filtering of waves is not counted");
     }
     return lines;
 }

@@ -102,8 +102,8 @@ void compile(CLI::App& command, Options& options) {
 void systems(CLI::App& command, Options& options) {
     command
         .add_option("WORDS", options.words,
-                    "The name of a system, or words that its description has; before it a\n"
-                    "script whose systems are shown instead of the library's")
+                    "The name of a system, or words of its description; a script before "
+                    "it\nshows the systems of the script instead of the library's")
         ->type_name("");
     groups::add_json(command, options);
 }
@@ -111,8 +111,8 @@ void systems(CLI::App& command, Options& options) {
 void examples(CLI::App& command, Options& options) {
     command
         .add_option("WORDS", options.words,
-                    "The name of an example, such as leopard or cells/fur, or words that its\n"
-                    "name or description has")
+                    "The name of an example, such as leopard or cells/fur, or words of its\nname "
+                    "or description")
         ->type_name("");
     add_output(command, options.new_script,
                "Copy the example to a new file, and the pictures that it\nreads beside it");

@@ -21,8 +21,8 @@ void add_analyze(CLI::App& app, Options& options) {
     };
     app.add_option_function<std::vector<std::string>>(
            "--vary", read_all,
-           "A parameter and its range, feed=0.02..0.06: its critical\nvalues; given twice: a map "
-           "over both. Without it every\nparameter that has a range in the script")
+           "Find the critical values of a parameter in a range, as in\nfeed=0.02..0.06; given "
+           "twice, draw a map over both. By\ndefault every parameter with a range in the script")
         ->allow_extra_args(false)
         ->type_name("NAME=RANGE")
         ->group(what);

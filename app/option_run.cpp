@@ -192,7 +192,8 @@ void add_files(CLI::App& app, RunRequest& run) {
                }
            },
            help::in_lines(fmt::format(
-               "The picture, {}; by default SCRIPT.png in this folder; a figure, {}; a film, {}; of a "
+               "The picture, {}; by default SCRIPT.png in this folder; a figure, {}; a film, {}; "
+               "of a "
                "model also {}, and its cells, {}; may be given again",
                endings_of(FormatKind::picture), endings_of(FormatKind::figure),
                endings_of(FormatKind::film), endings_of(FormatKind::model),
@@ -250,7 +251,8 @@ void add_overrides(CLI::App& app, Overrides& overrides) {
     add_rows(true);
     app.add_flag(
            "--fast", overrides.fast,
-           "Steps with fewer roundings: a * b + c in one operation;\nother bits than without it")
+           "Round less often: compute a * b + c in one operation; the\nbits of results differ "
+           "from runs without it")
         ->group(group);
     app.add_option("--set", overrides.sets,
                    "A parameter or setting: ka=1/400, large.ka=1/400;\nmay be given again")

@@ -18,10 +18,9 @@ void add_varied(CLI::App& app, Options& options) {
     };
     app.add_option_function<std::vector<std::string>>(
            "--vary", read_all,
-           "A parameter or setting and its values: a range and their\nnumber, feed=0.02..0.06:9, "
-           "or a list, ka=1/400,1/200; with\n:log at equal ratios, 0.001..1:7:log; may be given "
-           "again:\nthe first "
-           "runs across, the second up")
+           "A parameter or setting and its values: a range with a number\nof values, "
+           "feed=0.02..0.06:9, or a list, ka=1/400,1/200;\nwith :log in equal ratios, "
+           "0.001..1:7:log; may be given\nagain: the first runs across, the second up")
         ->allow_extra_args(false)
         ->type_name("NAME=VALUES")
         ->group(varied);
@@ -51,8 +50,8 @@ void add_sweep_files(CLI::App& app, Options& options) {
         ->group(files);
     add_value(app, "--film", "FILE",
               help::in_lines(
-                  fmt::format("A film of the ends of all runs, {}; its pictures as large as "
-                              "--tile says",
+                  fmt::format("A film of the ends of all runs, {}; --tile sets the size of its "
+                              "pictures",
                               endings_of(FormatKind::film, "or"))),
               path_of(FormatKind::film), [&](auto path) { sweep.film = path; })
         ->group(files);
@@ -81,7 +80,7 @@ void add_sweep_processes(CLI::App& app, SweepRequest& sweep) {
            [&](const std::vector<std::string>& folders) {
                sweep.gathered.assign(folders.begin(), folders.end());
            },
-           "Copy the results that this folder of another sweep holds;\nmay be given again")
+           "Copy the results in this folder of another sweep;\nmay be given again")
         ->allow_extra_args(false)
         ->type_name("FOLDER")
         ->group(divided);

@@ -68,8 +68,8 @@ std::optional<LoadedFile> load_for_run(const Options& options, const Console& co
     const auto edited = find_edited_script(options.run.resume, saved->name, saved->text);
     if (!given && edited) {
         console.warn(fmt::format(
-            "{} differs from the script of the saved run, which continues with its own script; "
-            "files are looked for in {} and where --allow-read says",
+            "{} differs from the script of the saved run, so the run continues with its own "
+            "script; files are read from {} and the folders of --allow-read",
             edited->string(), options.run.resume.string()));
     }
     return LoadedFile{std::move(*saved), ""};
@@ -177,8 +177,8 @@ Result<std::optional<SessionLog>> session_to_play(const LoadedFile& file, Overri
         console.note(is_same ? fmt::format("{}: playing its session, up to step {} of stage {}",
                                            file.script.file.string(),
                                            with_commas((*log)->end.steps), (*log)->end.stage + 1)
-                             : fmt::format("{}: its session is not played, because options change "
-                                           "the script; this runs the script alone",
+                             : fmt::format("{}: its session is not played, because options "
+                                           "change the script; only the script runs",
                                            file.script.file.string()));
     }
     if (!is_same) return std::nullopt;

@@ -14,7 +14,7 @@ int tell_of_exception(const Console& console) {
         throw;
     } catch (const std::bad_alloc&) {
         console.fail({"there is not enough memory",
-                      "a smaller grid, or fewer cells, need less; --limit-memory may allow more"});
+                      "use a smaller grid or fewer cells, or allow more with --limit-memory"});
         return exit_status::failed_run;
     } catch (const std::exception& error) {
         console.fail(

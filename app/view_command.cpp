@@ -141,8 +141,8 @@ int view_command(const Options& options, Console& console) {
     }
     console.print((*server)->address() + "\n");
     console.note(
-        fmt::format("the page is open to this machine only; from another one, first "
-                    "'ssh -L {0}:127.0.0.1:{0} HOST'; Ctrl-C ends it",
+        fmt::format("only this machine can open the page; on another machine, first run 'ssh -L "
+                    "{0}:127.0.0.1:{0} HOST'; Ctrl-C ends Cascade",
                     (*server)->port()));
     const LeadingPage page((*server)->address());
     if (!options.no_browser && has_screen() && !page.path().empty()) open_in_browser(page.path());

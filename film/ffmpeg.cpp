@@ -162,8 +162,8 @@ Result<void> find_ffmpeg(const std::filesystem::path& film) {
     if (!program_named("ffmpeg").empty()) return {};
     return failure(fmt::format("'{}' needs the program ffmpeg, which is not installed",
                                film.string()),
-                   "on Debian: apt-get install ffmpeg; the endings .gif, .webp and .apng do "
-                   "without it");
+                   "on Debian: apt-get install ffmpeg; the endings .gif, .webp and .apng do not "
+                   "need it");
 }
 
 Result<void> try_ffmpeg(const std::filesystem::path& film, std::int64_t width, std::int64_t height,

@@ -42,7 +42,7 @@ printf 'stage s: turing_spots { ka: \xff }\n' >bytes.cascade
 refused 2 'empty.cascade:1:1: error: this script is empty' run empty.cascade
 refused 2 "cannot read 'folder.cascade': Is a directory" run folder.cascade
 refused 2 "cannot read 'missing.cascade': No such file or directory" run missing.cascade
-refused 2 'this script has 20000000 bytes; the largest allowed has' run large.cascade
+refused 2 'this script has 20000000 bytes, but at most' run large.cascade
 refused 2 'nul.cascade:1:30: error: a NUL byte' run nul.cascade
 refused 2 'bytes.cascade:1:29: error: byte 0xff is not valid UTF-8' run bytes.cascade
 if [ "$(id -u)" != 0 ]; then

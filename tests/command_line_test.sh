@@ -61,7 +61,7 @@ run 0 run --resume half -o resumed.png
 grep -q 'another text' err && fail "the script of the saved run is as it was"
 mkdir edited && cp -r half edited/half && sed 's/^/ /' spots.cascade >edited/spots.cascade
 (cd edited && "$CASCADE" run --resume half -o resumed.png >../out 2>../err) || fail "an edited script stops the resumed run"
-says err 'spots.cascade differs from the script of the saved run, which continues with its own script'
+says err 'spots.cascade differs from the script of the saved run, so the run continues with its own script'
 cmp -s edited/resumed.png resumed.png || fail "an edited script changes the resumed run"
 
 # Scripts with errors: status 2, and nothing is written.

@@ -91,7 +91,7 @@ bad 'zeit,bad,bad\n1,2,3\n2,3,4\n' 1:10 "there are two functions 'bad'"
 bad 't,bad,sin\n1,2,3\n2,3,4\n' 1:7 "'sin' is a function of the language"
 seq 1001 | sed 's/$/,1/' >bad.csv
 run 2 check bad.cascade
-says err 'bad.csv:1001:1: error: this table has 1001 rows of numbers; at most 1000 can be read'
+says err 'bad.csv:1001:1: error: this table has 1001 rows of numbers, but at most 1000 can be read'
 yes 0123456789 | head -c 1100000 >bad.csv
 run 2 check bad.cascade
 says err 'bad.csv'

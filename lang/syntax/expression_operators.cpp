@@ -291,7 +291,7 @@ ExpressionParser::Progress ExpressionParser::read_comma() {
     }
     if (open.kind == PendingKind::group) {
         return fail(cursor_.peek().span, "',' can separate only the arguments of a function",
-                    "lists have no brackets; a vector is vector(1, 0)");
+                    "write a list without brackets, or a vector as vector(1, 0)");
     }
     cursor_.take();
     arguments_.push_back(operands_.back().id);

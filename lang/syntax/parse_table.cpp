@@ -143,8 +143,8 @@ bool TableParser::refuse_text(const Failure& failure) {
 bool TableParser::read() {
     if (text_.size() > largest_table_text) {
         return refuse({source_, 0, 0},
-                      fmt::format("this table has {} bytes; at most {} can be read", text_.size(),
-                                  largest_table_text));
+                      fmt::format("this table has {} bytes, but at most {} can be read",
+                                  text_.size(), largest_table_text));
     }
     auto rows = read_csv(text_);
     if (!rows) return refuse_text(rows.error());
@@ -217,7 +217,7 @@ bool TableParser::take_numbers() {
     }
     if (count > most_table_rows) {
         return refuse(span_of(rows_[first_row_ + most_table_rows].front()),
-                      fmt::format("this table has {} rows of numbers; at most {} can be read",
+                      fmt::format("this table has {} rows of numbers, but at most {} can be read",
                                   count, most_table_rows),
                       "leave out rows between which the values are nearly linear");
     }

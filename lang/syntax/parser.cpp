@@ -16,7 +16,7 @@ bool has_sane_size(SourceId source, const Sources& sources, Diagnostics& diagnos
     const std::size_t size = sources[source].text().size();
     if (size <= largest_script) return true;
     diagnostics.error({source, 0, 0},
-                      fmt::format("this script has {} bytes; at most {} can be read", size,
+                      fmt::format("this script has {} bytes, but at most {} can be read", size,
                                   largest_script));
     return false;
 }

@@ -313,7 +313,8 @@ void ScriptParser::parse_outside_statement() {
                   : is_number ? fmt::format("write 'let {} = …' for a number of the whole script",
                                             shortened(statement->name.text))
                   : is_of_domain
-                      ? fmt::format("it is a setting of the domain; write {}: … in its block",
+                      ? fmt::format("write {}: … in the domain block, because it is a setting of "
+                                    "the domain",
                                     statement->name.text)
                       : "a stage begins with 'system_name: SYSTEM'");
 }

@@ -315,7 +315,7 @@ Result<LoadedFile> load_script_file(const std::filesystem::path& path, Overrides
     if (!bytes) {
         const auto size = size_of_file(path);
         if (!size || is_picture || *size <= largest_script) return tl::unexpected(bytes.error());
-        return failure(fmt::format("{}: this script has {} bytes; the largest allowed has {}",
+        return failure(fmt::format("{}: this script has {} bytes, but at most {} can be read",
                                    path.string(), *size, largest_script),
                        "is it really a Cascade script?");
     }

@@ -122,7 +122,8 @@ bool is_known_along_side(Workspace& work, const System& system, const Formula& v
     work.diagnostics.error(
         node->span,
         fmt::format("in the rule of a side, {} cannot depend on species, t or step", function),
-        "it is computed once, when the stage starts; move species, t and step out of its brackets");
+        "move species, t and step out of the brackets, which are computed once, when the stage "
+        "starts");
     return false;
 }
 

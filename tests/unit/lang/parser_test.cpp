@@ -251,7 +251,8 @@ TEST(LargeScripts, DeepTreesCanBePrinted) {
 
 TEST(LargeScripts, AreRefusedAboveALimit) {
     EXPECT_THAT(parse_text(std::string(largest_script + 1, ' ')).faults,
-                ElementsAre("1:1 this script has 16777217 bytes; at most 16777216 can be read"));
+                ElementsAre(
+                    "1:1 this script has 16777217 bytes, but at most 16777216 can be read"));
     EXPECT_THAT(parse_text(std::string(most_tokens + 1, '(')).faults,
                 ElementsAre("1:1 this script has more than 4194304 words"));
 }
