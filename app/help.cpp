@@ -121,7 +121,7 @@ const std::string_view palettes = "Shows palettes: their colours, names and desc
 const std::string_view palettes_examples = R"(Examples:
   cascade palettes                                   all of them, a line each
   cascade palettes -o palettes.svg                   as a sheet
-  cascade palettes "#1b2a49 #f08a5d #fff3d6"         colours of one's own)";
+  cascade palettes "#1b2a49 #f08a5d #fff3d6"         your own colours)";
 
 const std::string_view new_script = "Prints a script to start from: a system of the library.";
 const std::string_view new_script_examples = R"(Examples:

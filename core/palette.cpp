@@ -94,7 +94,7 @@ const Palette* find_own(std::string_view name) {
         at = end + 1;
     }
     if (made->stops.size() < 2) return nullptr;
-    made->palette = {made->name, "colours of one's own", made->stops};
+    made->palette = {made->name, "your own colours", made->stops};
     made->next = newest;
     while (!newest.compare_exchange_weak(made->next, made.get())) {
     }
