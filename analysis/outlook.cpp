@@ -106,7 +106,7 @@ std::string remedy(const LinearModel& model, const Matrices& matrices) {
         name = model.system().item_name(model.species[static_cast<std::size_t>(s)]);
     }
     if (name.empty()) return "";
-    return fmt::format("; if {} diffused {:.3g} times as fast, one would", name,
+    return fmt::format("; one would grow if {} diffused {:.3g} times as fast", name,
                        std::ceil(least * 100) / 100);
 }
 
@@ -153,8 +153,8 @@ std::optional<std::string> why_nothing_grows(const Program& program, std::uint32
     if (const auto fitting = fastest_fitting_wave(*model, matrices);
         fitting && fitting->rate.real() < -1e3 * relation.resolution) {
         return fmt::format(
-            "no wave that grows from its flat state {} fits the domain: those are {} long", where,
-            lengths(relation));
+            "no wave that grows from its flat state {} fits the domain: such waves are {} long",
+            where, lengths(relation));
     }
     if (relation.fastest.cells() < 3) {
         return fmt::format(
@@ -164,8 +164,8 @@ std::optional<std::string> why_nothing_grows(const Program& program, std::uint32
     if (const auto duration = duration_of(*model);
         duration && *duration * relation.fastest.rate.real() < 1) {
         return fmt::format(
-            "it ends before anything can grow from its flat state {}: the fastest wave grows "
-            "e-fold in {:.3g}, and it lasts {:.3g}",
+            "it ends before anything can grow from its flat state {}: the fastest wave needs "
+            "{:.3g} to grow e-fold, but the stage lasts {:.3g}",
             where, 1 / relation.fastest.rate.real(), *duration);
     }
     return std::nullopt;

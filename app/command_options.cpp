@@ -205,7 +205,7 @@ void lsp(CLI::App& command, Options& options) {
     command.add_flag("--words", options.prints_words,
                      "Print the words of the language as JSON, and end");
     command.add_flag_callback(
-        "--stdio", [] {}, "Has no effect: for editors that give it to every server");
+        "--stdio", [] {}, "Has no effect; some editors give this option to every server");
 }
 
 }  // namespace cascade::command_options

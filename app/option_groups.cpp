@@ -50,7 +50,7 @@ void add_simulation(CLI::App& app, Options& options, const std::string& threads)
         ->group("");
     app.add_flag_callback(
            "--no-kernel-cache", [&simulation] { simulation.kernel_cache.clear(); },
-           "Compile all native code again, and keep none of it")
+           "Compile all native code again, and do not keep it")
         ->group(group);
 }
 

@@ -106,8 +106,10 @@ void Runner::remark_on_resumed() {
         const bool is_short = state.done && !state.condition_met &&
                               !stages[k].time.has_duration() && state.steps < stages[k].iterations;
         if (!is_short || !simulation_->state(k + 1).started) continue;
-        remark(fmt::format("stage '{}' stays at step {}: stage '{}' has begun from it",
-                           stages[k].name, with_commas(state.steps), stages[k + 1].name));
+        remark(
+            fmt::format("stage '{}' stays at step {}, because stage '{}' has already begun "
+                        "from it",
+                        stages[k].name, with_commas(state.steps), stages[k + 1].name));
     }
     if (report_.steps > 0 || report_.status != RunStatus::finished) return;
     remark(fmt::format("the saved run was complete already, so no steps were taken: {}", place()));

@@ -94,7 +94,8 @@ void Runner::keep_while_running() {
             const auto written = save_run(request_.save, script_, *simulation_);
             if (!written && control_.warn) {
                 control_.warn(
-                    fmt::format("the run continues, although it could not be saved at {}: {}",
+                    fmt::format("the run continues, although its state could not be saved at {}: "
+                                "{}",
                                 place(), written.error().message));
             }
             *kept_at = Clock::now();

@@ -145,9 +145,10 @@ TEST_F(CheckpointTest, WhatCannotBeKeptDoesNotEndTheRun) {
     };
     ASSERT_TRUE(run(script, wanted, control));
     ASSERT_EQ(warnings.size(), 1u);
-    EXPECT_THAT(warnings[0],
-                HasSubstr(
-                    "the run continues, although it could not be saved at stage 'large', step "));
+    EXPECT_THAT(
+        warnings[0],
+        HasSubstr(
+            "the run continues, although its state could not be saved at stage 'large', step "));
     EXPECT_THAT(warnings[0], HasSubstr(": '"));
     EXPECT_TRUE(fs::exists(path("saved/small.b.npy")));
 }

@@ -165,8 +165,9 @@ TEST_F(SilentResults, WhatALaterStageBeganFromStays) {
     on.resume = path("half");
     warnings_.clear();
     EXPECT_EQ(run_well(*saved, on).steps, 50);
-    EXPECT_THAT(warnings_, testing::Contains(
-                               "stage 'large' stays at step 100: stage 'small' has begun from it"));
+    EXPECT_THAT(warnings_,
+                testing::Contains("stage 'large' stays at step 100, because stage 'small' has "
+                                  "already begun from it"));
 }
 
 TEST_F(SilentResults, APaletteForAPictureOfColours) {
