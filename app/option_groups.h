@@ -12,7 +12,7 @@
 namespace cascade::option_groups {
 
 inline constexpr const char* execution_group =
-    "How the run is computed (the results are the same, bit for bit)";
+    "How to compute (the results are the same, bit for bit)";
 
 void add_script(CLI::App& app, Options& options, const std::string& help);
 void add_allow_read(CLI::App& app, ReadAccess& reads, const std::string& about);
