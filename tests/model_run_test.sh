@@ -174,7 +174,7 @@ run 0 run -q spots.cascade --mesh creature --cells 600 --animate -o grows.glb --
 grep -qa '"animations"' grows.glb || fail "nothing moves"
 run 0 mesh grows.glb
 run 2 $model --animate -o grows.ply
-says err "no model is written that could move"
+says err "--animate needs a model that can be animated, but none is written"
 run 2 $model --animate -o grows.glb --bake 64
 says err "a model with maps cannot be animated"
 run 2 run -q spots.cascade --animate -o grows.glb

@@ -261,7 +261,7 @@ std::vector<std::size_t> NameIndex::meanings() const {
 
 Result<std::string> NameIndex::renamed(std::uint32_t byte, std::string_view name) const {
     const auto written = name_at(byte);
-    if (!written) return failure("there is no name that can be changed");
+    if (!written) return failure("this is not a name that can be changed");
     const std::string_view before = sources_.text(*written);
     if (name.empty() || end_of_word(name, 0) != name.size() || is_digit(name.front()))
         return failure(fmt::format("'{}' is not a name", name), "names are letters, digits and _");

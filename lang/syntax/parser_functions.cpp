@@ -108,7 +108,7 @@ bool ScriptParser::parse_parameters(ast::FunctionDefinition& function) {
         cursor_.skip_newlines_in_brackets();
     }
     return refuse(cursor_.at_statement_end() ? open.span : cursor_.peek().span,
-                  fmt::format("the parameters of {} are names with commas between them", name));
+                  fmt::format("the parameters of {} must be names with commas between them", name));
 }
 
 /// Parses use "file.cascade".

@@ -106,7 +106,7 @@ bool ScriptParser::parse_index(ast::Statement& statement) {
     }
     if (!cursor_.at(TokenKind::garbage)) {
         cursor_.error(join(statement.name.span, open.span),
-                      "the index that a statement sets is a name or a whole number",
+                      "the index in this statement must be a name or a whole number",
                       hint_of_index(shortened(statement.name.text)));
     }
     cursor_.skip_statement(1);

@@ -89,10 +89,10 @@ constexpr WordElsewhere rows[] = {
 
     {Context::function, "diff derivative deriv partial d",
      "write 'dx(u)' for du/dx, dxx(u) for its second derivative"},
-    {Context::function, "vec vec2 vec3 array list tuple", "vector(1, 0) is a vector"},
+    {Context::function, "vec vec2 vec3 array list tuple", "use vector(1, 0) for a vector"},
     {Context::function,
      "grey gray jet hot cool rainbow turbo parula viridis magma inferno plasma cividis",
-     "palette(u, 0, 1, \"viridis\") is a colour of a palette"},
+     "use palette(u, 0, 1, \"viridis\") for a colour of a palette"},
     {Context::function, "laplacian laplace del2 nabla2 lapl laplacien", "did you mean 'lap'?"},
     {Context::function, "divergence", "did you mean 'div'?"},
     {Context::function, "gradient nabla", "did you mean 'grad'?"},
@@ -155,8 +155,8 @@ constexpr WordElsewhere rows[] = {
     {Context::value, "dw", "white(s) is white noise of the deviation s"},
     {Context::value, "randn", "write 'normal(0, 1)'"},
     {Context::value, "rand rnd", "write 'random(0.5, 0.5)'"},
-    {Context::value, "dx2 d2x", "the second derivative of u along x is dxx(u)"},
-    {Context::value, "dy2 d2y", "the second derivative of u along y is dyy(u)"},
+    {Context::value, "dx2 d2x", "use dxx(u) for the second derivative of u along x"},
+    {Context::value, "dy2 d2y", "use dyy(u) for the second derivative of u along y"},
     {Context::value, "red green blue yellow orange black",
      "a colour is rgb(red, green, blue), each from 0 to 1"},
 };

@@ -201,7 +201,7 @@ private:
     void check_animated() {
         if (!files_.animate) return;
         refuse_if(!has_output([&](const auto& output) { return files_.is_animated(output); }),
-                  animate, "no model is written that could move",
+                  animate, "--animate needs a model that can be animated, but none is written",
                   how_to_write(FormatTrait::growth));
         refuse_if(files_.has_maps(), animate, "a model with maps cannot be animated",
                   fmt::format("leave out {}: colours of points can be animated",
