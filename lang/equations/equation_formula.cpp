@@ -3,6 +3,7 @@
 #include "lang/equations/equation_formula.h"
 
 #include "core/decimal.h"
+#include "core/overloaded.h"
 #include "core/utf8.h"
 #include "lang/equations/equation_marks.h"
 #include "lang/syntax/kept_spellings.h"
@@ -80,44 +81,35 @@ private:
         const ast::Expr& expression = script_.expressions[operand.id];
         const int least = operand.least;
         std::visit(
-            [&](const auto& node) {
-                using Node = std::decay_t<decltype(node)>;
-                if constexpr (std::is_same_v<Node, ast::Number>) {
+            Overloaded{
+                [&](const ast::Number& node) {
                     text_ += symbols_.number(digits(expression.span, node.value));
-                } else if constexpr (std::is_same_v<Node, ast::Text>) {
+                },
+                [&](const ast::Text& node) {
                     text_ +=
                         both("\"" + node.value + "\"", "\\texttt{" + tex_text(node.value) + "}");
-                } else if constexpr (std::is_same_v<Node, ast::Name>) {
-                    write_name(node.name, least);
-                } else if constexpr (std::is_same_v<Node, ast::Bracketed>) {
-                    text_ += symbols_.name(node.name.text);
-                } else if constexpr (std::is_same_v<Node, ast::Qualified>) {
-                    text_ += symbols_.name(node.name.text);
-                } else if constexpr (std::is_same_v<Node, ast::RateOf>) {
-                    write_rate(symbols_.name(node.name.text), least);
-                } else if constexpr (std::is_same_v<Node, ast::Unary>) {
-                    write_unary(node, least);
-                } else if constexpr (std::is_same_v<Node, ast::Binary>) {
-                    write_binary(node, least);
-                } else if constexpr (std::is_same_v<Node, ast::Call>) {
-                    write_call(node, least);
-                } else if constexpr (std::is_same_v<Node, ast::Over>) {
-                    write_over(node, least);
-                } else if constexpr (std::is_same_v<Node, ast::Component>) {
-                    const std::string axis(node.name.text);
-                    const auto* const vector = as<ast::Name>(node.operand);
-                    if (tex_ && vector != nullptr) {
-                        text_ += symbols_.family_in_tex(vector->name) + "_{" + axis + "}";
-                    } else {
-                        push({Operand{node.operand, an_atom}, both("_" + axis, "_{" + axis + "}")});
-                    }
-                } else if constexpr (std::is_same_v<Node, ast::Indexed>) {
-                    write_member(node, least);
-                }
+                },
+                [&](const ast::Name& node) { write_name(node.name, least); },
+                [&](const ast::Bracketed& node) { text_ += symbols_.name(node.name.text); },
+                [&](const ast::Qualified& node) { text_ += symbols_.name(node.name.text); },
+                [&](const ast::RateOf& node) { write_rate(symbols_.name(node.name.text), least); },
+                [&](const ast::Unary& node) { write_unary(node, least); },
+                [&](const ast::Binary& node) { write_binary(node, least); },
+                [&](const ast::Call& node) { write_call(node, least); },
+                [&](const ast::Over& node) { write_over(node, least); },
+                [&](const ast::Component& node) { write_component(node); },
+                [&](const ast::Indexed& node) { write_member(node, least); },
+                [](const ast::Garbage&) {},
             },
             expression.node);
     }
 
+    void write_component(const ast::Component& node) {
+        const std::string axis(node.name.text);
+        const auto* const vector = as<ast::Name>(node.operand);
+        if (tex_ && vector) text_ += symbols_.family_in_tex(vector->name) + "_{" + axis + "}";
+        else push({Operand{node.operand, an_atom}, both("_" + axis, "_{" + axis + "}")});
+    }
     void write_rate(const std::string& symbol, int least) {
         push_operator({both("∂" + symbol + "/∂t", "\\partial_t " + symbol)}, a_power,
                       std::min(least, an_atom));
@@ -167,17 +159,12 @@ private:
         const int own = info(node.op).precedence;
         const int left = is_comparison(node.op) ? own + 1 : own;
         int right = node.op == Function::add ? own : own + 1;
-        if (own == a_sum) right = right_of_sum(node.right, right);
+        // To the right of `+` or `−`, an operand that begins with a sign gets brackets.
+        if (own == a_sum && as<ast::Unary>(node.right)) right = a_power;
         push_operator({Operand{node.left, left}, both(infix.unicode, infix.tex),
                        Operand{node.right, right}},
                       own, least);
     }
-    /// The precedence needed to the right of `+` or `−`. An operand that begins with a sign gets
-    /// brackets.
-    int right_of_sum(ast::ExprId right, int least) const {
-        return as<ast::Unary>(right) != nullptr ? a_power : least;
-    }
-
     /// The precedence that a factor needs. Without brackets, a sum over an index would seem to
     /// include the factors after the sum.
     int factor(ast::ExprId id, int least) const {
@@ -302,14 +289,20 @@ private:
         if (function == "min" || function == "max") return "\\" + std::string(function);
         return "\\operatorname{" + tex_text(function) + "}";
     }
-    void write_arguments(const std::string& head, std::span<const ast::ExprId> operands) {
-        std::vector<Piece> pieces = {head + both("(", "\\left(")};
-        for (std::size_t k = 0; k < operands.size(); ++k) {
-            if (k > 0) pieces.emplace_back(", ");
-            pieces.emplace_back(Operand{operands[k], anything});
+    /// The operands with commas between them.
+    static std::vector<Piece> listed(std::span<const ast::ExprId> operands) {
+        std::vector<Piece> pieces;
+        for (const ast::ExprId id : operands) {
+            if (!pieces.empty()) pieces.emplace_back(", ");
+            pieces.emplace_back(Operand{id, anything});
         }
-        pieces.emplace_back(both(")", "\\right)"));
-        push(std::move(pieces));
+        return pieces;
+    }
+    void write_arguments(const std::string& head, std::span<const ast::ExprId> operands) {
+        // The pieces that are pushed last are written first.
+        push({both(")", "\\right)")});
+        push(listed(operands));
+        push({head + both("(", "\\left(")});
     }
     void write_choice(std::span<const ast::ExprId> operands) {
         if (tex_) {
@@ -322,19 +315,16 @@ private:
     }
     /// Writes advection: v · ∇e.
     void write_advection(std::span<const ast::ExprId> operands, int least) {
-        std::vector<Piece> pieces;
+        const Operand advected{operands.back(), an_atom};
         if (operands.size() == 2) {
-            pieces.emplace_back(Operand{operands[0], an_atom});
-            pieces.emplace_back(both("·∇", " \\cdot \\nabla "));
-        } else {
-            pieces.emplace_back(both("(", "\\left("));
-            for (std::size_t k = 0; k + 1 < operands.size(); ++k) {
-                if (k > 0) pieces.emplace_back(", ");
-                pieces.emplace_back(Operand{operands[k], anything});
-            }
-            pieces.emplace_back(both(")·∇", "\\right) \\cdot \\nabla "));
+            const Operand velocity{operands[0], an_atom};
+            return push_operator({velocity, both("·∇", " \\cdot \\nabla "), advected}, a_product,
+                                 least);
         }
-        pieces.emplace_back(Operand{operands.back(), an_atom});
+        std::vector<Piece> pieces = listed(operands.first(operands.size() - 1));
+        pieces.insert(pieces.begin(), both("(", "\\left("));
+        pieces.emplace_back(both(")·∇", "\\right) \\cdot \\nabla "));
+        pieces.emplace_back(advected);
         push_operator(std::move(pieces), a_product, least);
     }
     /// Writes a derivative. `axes` is x, xx, xy, …
