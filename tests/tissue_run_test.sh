@@ -49,6 +49,15 @@ cp kept/cover.r.npy kept/cover.p.x.npy
 "$CASCADE" run -q --resume kept -o resumed.npz 2>err && fail "a changed run is resumed"
 grep -q "damaged" err || fail "a changed run: $(cat err)"
 
+# Where a model is as thin as its cells, they cover it and still lie on its surface.
+cat >thin.cascade <<'END'
+domain { surface: torus(1, 0.06); cells: 1000 }
+stage cover: scales { founders: 6; duration: 20; r: 0.04 }
+END
+"$CASCADE" run -q thin.cascade -o thin.png --log 'n=sum(1 over domain)' --log 'far=max(abs(off) / r over domain)' \
+    --log-file thin.csv || fail "a thin torus"
+tail -n 1 thin.csv | awk -F, '$4 < 60 || $5 > 0.2 { exit 1 }' || fail "cells leave a thin torus: $(tail -n 1 thin.csv)"
+
 # A stage continues with the cells of the previous one, and cells may also crawl on a plane.
 cat >plane.cascade <<'END'
 cells dots: solid { p' += vector(0.002, 0, 0) }
