@@ -3,6 +3,7 @@
 
 #include "lang/program/models.h"
 
+#include "lang/check/check_dimensions.h"
 #include "lang/check/blocks/check_blocks.h"
 #include "lang/check/blocks/check_growth.h"
 #include "lang/check/systems/check_systems.h"
@@ -115,6 +116,8 @@ std::optional<Program> check(const ast::Script& script, Sources& sources, Diagno
     {
         Workspace work{program, own, {}, {}, {}, {}, {}, 0};
         work.draft = &program;
+        work.units = units_of(script);
+        work.measured = MeasuredSpans(script);
         work.uses = uses;
         const std::vector<LibraryScript> library = read_library(script, sources, own);
         ast::Script functions;
@@ -134,6 +137,7 @@ std::optional<Program> check(const ast::Script& script, Sources& sources, Diagno
         // Warnings about unread names would be wrong after errors, because expressions that read a
         // name may be missing from the program.
         if (!own.has_errors() && !diagnostics.has_errors()) {
+            check_dimensions(script, sources, program, own);
             checking::warn_unread(work);
             checking::check_growth(program, own);
         }
@@ -159,6 +163,8 @@ std::optional<Formula> check_view(const ast::Script& script, ast::Expression exp
                                   const Program& program, const Sources& sources,
                                   Diagnostics& diagnostics) {
     Workspace work = workspace_of(program, diagnostics);
+    work.units = units_of(script);
+    work.measured = MeasuredSpans(script);
     // The functions of cells are read only if there are cells, because reading them searches the
     // sources of all brush strokes of a session, which may be many.
     const bool has_cells = std::ranges::any_of(program.systems, [](const System& system) {

@@ -10,6 +10,7 @@
 #include "lang/syntax/paper_notation.h"
 #include "lang/vocabulary/functions.h"
 #include "lang/vocabulary/subscripts.h"
+#include "lang/vocabulary/units.h"
 
 #include <fmt/core.h>
 
@@ -236,6 +237,10 @@ private:
     void write_call(const ast::Call& call, int least) {
         const std::string_view function = call.function.text;
         const auto operands = arguments(call);
+        if (is_unit_call(function)) {
+            const std::string unit = symbols_.unit(text_of_unit_call(function));
+            return push_operator({Operand{operands[0], an_atom}, unit}, a_product, least);
+        }
         if (operands.size() == 1) {
             if (const Around* around = find(arounds, function)) {
                 return push({both(around->unicode_open, around->tex_open),

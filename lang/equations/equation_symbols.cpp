@@ -3,10 +3,14 @@
 
 #include "lang/vocabulary/greek_letters.h"
 #include "lang/vocabulary/subscripts.h"
+#include "lang/vocabulary/units.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstdlib>
 
 namespace cascade {
 
@@ -93,6 +97,23 @@ std::string tex_below(std::string_view words) {
 }
 
 }  // namespace
+
+std::string Symbols::unit(std::string_view text) const {
+    const bool tex = notation == Notation::tex;
+    std::string written, denominator;
+    for (const UnitFactor& factor : factors_of_unit(text)) {
+        const bool is_micro = factor.name.size() > 1 && factor.name.front() == 'u';
+        std::string name(factor.name.substr(is_micro ? 1 : 0));
+        if (is_micro) name = (tex ? "\\mu " : "µ") + name;
+        const int power = std::abs(factor.power);
+        if (power != 1 && tex) name += fmt::format("^{{{}}}", power);
+        if (power != 1 && !tex) name += superscript(std::to_string(power)).value_or("");
+        if (factor.power < 0) denominator += "/" + name;
+        else written += (written.empty() ? "" : tex ? " \\cdot " : "·") + name;
+    }
+    written = (written.empty() ? "1" : written) + denominator;
+    return tex ? "\\,\\mathrm{" + written + "}" : " " + written;
+}
 
 std::string tex_text(std::string_view text) {
     std::string result;

@@ -36,6 +36,8 @@ struct Symbols {
     /// A number in this notation: 1e-3 gives 10⁻³ or 10^{-3}. Numbers without an exponent are
     /// unchanged.
     std::string number(std::string_view digits) const;
+    /// The unit of a number with the space before it: ` µm²/s`, `\,\mathrm{\mu m^{2}/s}`.
+    std::string unit(std::string_view text) const;
 };
 
 /// Escapes a text for TeX's text mode.

@@ -3,6 +3,7 @@
 
 #include "core/utf8.h"
 #include "lang/syntax/paper_notation.h"
+#include "lang/syntax/unit_suffix.h"
 
 #include <algorithm>
 
@@ -23,6 +24,13 @@ public:
         pass_over_gap(token.span.begin);
         add(token.kind, text_.substr(token.span.begin, token.span.end - token.span.begin));
         words_.back().spelling = token.text;
+        words_.back().gap = next_gap_;
+        next_gap_.reset();
+    }
+    /// Sets the numbers of blanks before the last word and before the next one.
+    void set_gaps(std::size_t before, std::size_t after) {
+        words_.back().gap = before;
+        next_gap_ = after;
     }
     /// Adds the comments between the last word and `end`, and skips line breaks and blanks.
     void pass_over_gap(std::size_t end) {
@@ -72,6 +80,7 @@ private:
     std::size_t breaks_ = 0;
     std::size_t blanks_ = 0;
     std::size_t column_ = 0;
+    std::optional<std::size_t> next_gap_;
     std::vector<FormatWord> words_;
 };
 
@@ -127,10 +136,17 @@ std::vector<FormatWord> format_words(SourceId source, const Sources& sources) {
     Diagnostics already_reported;
     const std::string_view text = sources[source].text();
     WordList list(text);
-    for (const Token& token : lex(source, sources, already_reported)) {
+    const std::vector<Token> tokens = lex(source, sources, already_reported);
+    const auto declared = declared_names(tokens);
+    for (std::size_t k = 0; k < tokens.size(); ++k) {
+        const Token& token = tokens[k];
         if (token.kind == TokenKind::newline) continue;
         if (token.kind == TokenKind::end_of_text) list.pass_over_gap(text.size());
         else list.add_token(token);
+        const bool begins_unit = token.kind == TokenKind::slash && k > 0 &&
+                                 tokens[k - 1].kind == TokenKind::number &&
+                                 unit_suffix(tokens, k, declared).tokens > 0;
+        if (begins_unit) list.set_gaps(1, 0);
     }
     std::vector<FormatWord> words = list.take();
     find_roles(words);

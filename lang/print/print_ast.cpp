@@ -1,6 +1,7 @@
 // Prints the syntax tree for `--dump ast`. Blocks and statements are indented. Expressions are in
 // prefix form, `(+ a (* 2 b))`, which shows how operators bind.
 #include "lang/syntax/parse.h"
+#include "lang/vocabulary/units.h"
 
 #include <fmt/core.h>
 
@@ -73,7 +74,9 @@ private:
     }
     void print_head(const ast::Call& node) {
         const auto first = script_.arguments.begin() + node.first_argument;
-        begin(node.function.text, {first, first + node.argument_count});
+        const std::string_view name = node.function.text;
+        begin(is_unit_call(name) ? fmt::format("unit{}", name) : std::string(name),
+              {first, first + node.argument_count});
     }
     void print_head(const ast::Over& node) {
         std::vector<ast::ExprId> operands{node.operand};

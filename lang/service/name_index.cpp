@@ -9,6 +9,7 @@
 #include "lang/syntax/picture_expression.h"
 #include "lang/vocabulary/greek_letters.h"
 #include "lang/vocabulary/subscripts.h"
+#include "lang/vocabulary/units.h"
 
 #include <fmt/format.h>
 
@@ -36,7 +37,8 @@ public:
         for (const ast::FunctionDefinition& function : tree_.functions) find_parameters(function);
         for (ast::ExprId id = 0; id < tree_.expressions.size(); ++id) {
             const ast::Expr& expr = tree_.expressions[id];
-            if (const auto* call = std::get_if<ast::Call>(&expr.node)) use_function(call->function);
+            const auto* call = std::get_if<ast::Call>(&expr.node);
+            if (call && !is_unit_call(call->function.text)) use_function(call->function);
             const auto* name = std::get_if<ast::Name>(&expr.node);
             const bool is_free = name != nullptr && !parameters_.contains(id);
             if (is_free && constants_.contains(name->name)) use_function({expr.span, name->name});

@@ -2,11 +2,13 @@
 // strings, signs, brackets.
 #include "core/decimal.h"
 #include "lang/syntax/expression_parser.h"
+#include "lang/syntax/kept_spellings.h"
 #include "lang/syntax/second_rates.h"
 #include "lang/vocabulary/signs_elsewhere.h"
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace cascade {
@@ -85,6 +87,34 @@ ExpressionParser::Progress ExpressionParser::read_number() {
     } else {
         push_operand(token.span, ast::Number{value});
     }
+    return read_unit();
+}
+
+/// Reads the unit after a number, if there is one. An exponent has none.
+ExpressionParser::Progress ExpressionParser::read_unit() {
+    const auto applies = [&](std::size_t depth, Function op) {
+        return pending_.size() >= depth && !pending_[pending_.size() - depth].is_bracket() &&
+               pending_[pending_.size() - depth].op == op;
+    };
+    const bool is_exponent = applies(1, Function::power) ||
+                             (applies(1, Function::negate) && applies(2, Function::power));
+    const bool ends = std::ranges::any_of(ends_, [&](auto word) { return cursor_.at_name(word); });
+    if (is_exponent || ends) return Progress::going_on;
+    const UnitSuffix unit = cursor_.unit_here();
+    if (!unit.message.empty()) return fail(unit.span, unit.message, unit.hint);
+    if (unit.tokens == 0) return Progress::going_on;
+    const Token first = cursor_.peek();
+    for (std::size_t k = 0; k < unit.tokens; ++k) cursor_.take();
+    const ast::Word word{join(first.span, cursor_.previous().span), kept_spelling(" " + unit.text)};
+    const Operand number = operands_.back();
+    operands_.pop_back();
+    if (std::holds_alternative<ast::Garbage>(script_.expressions[number.id].node)) {
+        push_operand(join(number.outer, word.span), ast::Garbage{});
+        return Progress::going_on;
+    }
+    const auto argument = static_cast<std::uint32_t>(script_.arguments.size());
+    script_.arguments.push_back(number.id);
+    push_operand(join(number.outer, word.span), ast::Call{word, argument, 1});
     return Progress::going_on;
 }
 

@@ -383,8 +383,8 @@ ExpressionParser::Progress ExpressionParser::missing_operator(bool on_new_line) 
                                      cursor_.text(before), cursor_.text(here)));
     }
     if (before.kind == TokenKind::number && here.kind == TokenKind::name) {
-        const std::string_view word = cursor_.text(here);
-        std::string advice = word.size() > 1 ? advice_about_unit(cursor_.text(before), word) : "";
+        const std::string_view word = cursor_.text(here), number = cursor_.text(before);
+        std::string advice = cursor_.declares(word) ? "" : advice_about_unit(number, word);
         if (word == "to") advice = "a range is written 0 .. 1";
         if (!advice.empty()) return fail_here(std::move(advice));
     }

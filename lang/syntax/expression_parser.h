@@ -59,6 +59,7 @@ private:
     Progress read_operand();
     Progress read_name();
     Progress read_number();
+    Progress read_unit();
     Progress read_bracketed();
     Progress read_own_member();
     Progress read_not();

@@ -7,6 +7,7 @@
 #include "lang/syntax/operator_spellings.h"
 #include "lang/syntax/paper_notation.h"
 #include "lang/syntax/token.h"
+#include "lang/syntax/unit_suffix.h"
 #include "lang/syntax/unreadable_bytes.h"
 #include "lang/vocabulary/greek_letters.h"
 #include "lang/vocabulary/signs_elsewhere.h"
@@ -187,6 +188,7 @@ void Lexer::read_name() {
     }
     if (joins_a_name(end)) return read_bad_name(offset_);
     const std::string_view name = text_.substr(offset_, end - offset_);
+    if (name != spelling) spelling = spelling_in_unit(spelling, name, tokens_, offset_);
     if (name != spelling) return push(TokenKind::name, offset_, end, kept_spelling(spelling));
     TokenKind kind = TokenKind::name;
     if (name == "and") kind = TokenKind::keyword_and;

@@ -1,5 +1,6 @@
 // Parses the parts after a value: the end of an index, the range of a parameter, `after divide`.
 #include "lang/syntax/script_parser.h"
+#include "lang/syntax/script_units.h"
 
 #include <fmt/core.h>
 
@@ -49,7 +50,10 @@ void ScriptParser::parse_range(ast::Statement& statement) {
         return;
     }
     ast::Range range;
+    // A number without a unit has that of the value.
+    const std::string_view unit = unit_text_of(script_, statement.values[0]);
     range.low = expressions_.parse("the lower end of the range");
+    give_unit(script_, range.low, unit);
     if (!cursor_.at(TokenKind::dots)) {
         const auto& low = script_.expressions[range.low.root].node;
         if (!std::holds_alternative<ast::Garbage>(low)) {
@@ -60,9 +64,11 @@ void ScriptParser::parse_range(ast::Statement& statement) {
     }
     cursor_.take();
     range.high = expressions_.parse("the upper end of the range", ends_of_range);
+    give_unit(script_, range.high, unit);
     if (cursor_.at_name("step")) {
         cursor_.take();
         range.step = expressions_.parse("the step of the range", ends_of_step);
+        give_unit(script_, *range.step, unit);
     }
     range.span = join(word.span, cursor_.previous().span);
     statement.range = range;

@@ -115,6 +115,17 @@ bool TokenCursor::at_name(std::string_view name, std::size_t ahead) const {
     return kind(ahead) == TokenKind::name && text(peek(ahead)) == name;
 }
 
+bool TokenCursor::declares(std::string_view name) const {
+    if (!declared_) declared_ = declared_names(tokens_);
+    return declared_->contains(name);
+}
+
+UnitSuffix TokenCursor::unit_here() const {
+    if (!at(TokenKind::name) && !at(TokenKind::slash) && !at(TokenKind::number)) return {};
+    if (!declared_) declared_ = declared_names(tokens_);
+    return unit_suffix(tokens_, position_, *declared_);
+}
+
 bool TokenCursor::begins_block(std::size_t ahead) const {
     if (kind(ahead) != TokenKind::name) return false;
     const std::string_view word = text(peek(ahead));

@@ -4,9 +4,12 @@
 #include "core/diagnostics.h"
 #include "lang/syntax/ast.h"
 #include "lang/syntax/token.h"
+#include "lang/syntax/unit_suffix.h"
 
+#include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_set>
 #include <vector>
 
 namespace cascade {
@@ -72,6 +75,11 @@ public:
     /// Whether the token here is a name with this text.
     bool at_name(std::string_view name, std::size_t ahead = 0) const;
 
+    /// The unit that begins here, directly after a number.
+    UnitSuffix unit_here() const;
+    /// Whether the script declares this name (lang/syntax/unit_suffix.h).
+    bool declares(std::string_view name) const;
+
     /// Whether the text between `from` and here has an unclosed string that contains `swallowed`.
     /// If so, `swallowed` must not be reported as missing.
     bool lost_in_text(const Token& from, std::string_view swallowed) const;
@@ -96,6 +104,8 @@ private:
     std::vector<bool> docs_taken_;  ///< For each of them, whether it was taken.
     std::vector<Token> tokens_;
     std::size_t position_ = 0;
+    /// declared_names() of the tokens, once it has been asked for.
+    mutable std::optional<std::unordered_set<std::string_view>> declared_;
     bool muted_ = false;
 };
 

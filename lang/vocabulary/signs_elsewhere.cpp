@@ -1,8 +1,9 @@
-// The tables of LaTeX commands and of units.
+// The table of LaTeX commands, and advice on signs and numbers of other programs.
 #include "lang/vocabulary/signs_elsewhere.h"
 
 #include "core/decimal.h"
 #include "lang/vocabulary/greek_letters.h"
+#include "lang/vocabulary/units.h"
 
 #include <fmt/format.h>
 
@@ -10,6 +11,7 @@
 #include <cctype>
 #include <charconv>
 #include <cstdint>
+#include <iterator>
 #include <system_error>
 
 namespace cascade {
@@ -36,19 +38,8 @@ constexpr LatexCommand latex_commands[] = {
     {"tanh", "this is LaTeX; write tanh(u)"},
 };
 
-struct Unit {
-    std::string_view name;
-    double size;  ///< The size of the unit in metres or seconds.
-    std::string_view base;
-};
-constexpr Unit units[] = {
-    {"m", 1, "metres"},     {"cm", 1e-2, "metres"},    {"mm", 1e-3, "metres"},
-    {"um", 1e-6, "metres"}, {"µm", 1e-6, "metres"},    {"nm", 1e-9, "metres"},
-    {"km", 1e3, "metres"},  {"s", 1, "seconds"},       {"ms", 1e-3, "seconds"},
-    {"min", 60, "seconds"}, {"h", 3600, "seconds"},    {"steps", 1, ""},
-    {"iterations", 1, ""},  {"cells", 1, ""},          {"pixels", 1, ""},
-    {"px", 1, ""},          {"seconds", 1, "seconds"},
-};
+/// Words that count things, which numbers without a unit count, too.
+constexpr std::string_view counted_things[] = {"steps", "iterations", "cells", "pixels", "px"};
 
 /// Advice on `0x10` (as in other languages) and on `100x100` (the size of a screen). Empty for
 /// other words.
@@ -90,15 +81,10 @@ std::string advice_about_latex(std::string_view command) {
 }  // namespace
 
 std::string advice_about_unit(std::string_view number, std::string_view unit) {
-    for (const Unit& each : units) {
-        if (each.name != unit) continue;
-        double value = 0;
-        from_decimal(number.data(), number.data() + number.size(), value);
-        if (each.base.empty()) return fmt::format("numbers have no units: write '{}'", number);
-        return fmt::format("numbers have no units: write '{}' for {} {} in {}",
-                           fmt::format("{:g}", value * each.size), number, unit, each.base);
+    if (std::ranges::find(counted_things, unit) != std::end(counted_things)) {
+        return fmt::format("a number of {} has no unit: write '{}'", unit, number);
     }
-    return "";
+    return unit_named(unit) ? "" : advice_about_unknown_unit(unit);
 }
 
 namespace {
@@ -155,6 +141,9 @@ std::string advice_about_number(std::string_view number, std::string_view tail) 
     if (std::string advice = advice_about_cross(fmt::format("{}{}", number, tail));
         !advice.empty()) {
         return advice;
+    }
+    if (unit_named(tail)) {
+        return fmt::format("write '{} {}', with a blank before the unit", number, tail);
     }
     if (std::string advice = advice_about_unit(number, tail); !advice.empty()) return advice;
     if (tail == "e" || tail == "E") return "an exponent has digits, as in 1e-3";

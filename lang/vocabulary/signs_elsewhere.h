@@ -16,8 +16,8 @@ struct LatexText {
 /// to it.
 LatexText latex_text(std::string_view text);
 
-/// Advice on a unit directly after a number, as in "1cm". The advice states the number converted to
-/// metres or seconds. Empty if the text is not a unit.
+/// Advice on a word after a number that resembles a unit but is none, as in "20 steps" or "5 C".
+/// Empty for units and for other words.
 std::string advice_about_unit(std::string_view number, std::string_view unit);
 
 /// Advice on a number that is directly followed by `tail`, as in 2u, 1e, 1cm, 0x10, or in 100x100

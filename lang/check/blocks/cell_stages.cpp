@@ -44,7 +44,8 @@ void check_places(Workspace& work, const ast::Script& script, ast::Expression ex
     ast::ExprId first = expression.first;
     for (std::uint32_t k = 0; k < call.argument_count; ++k) {
         const ast::ExprId last = script.arguments[call.first_argument + k];
-        const auto value = check_constant(work, script, {first, last}, "a coordinate");
+        const auto value = check_constant(work, script, {first, last}, "a coordinate",
+                                          Dimension::of(BaseQuantity::length));
         first = last + 1;
         if (!value) return;
         if (!(std::abs(*value) <= largest_coordinate)) {

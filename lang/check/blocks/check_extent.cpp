@@ -36,7 +36,10 @@ std::optional<std::vector<Formula>> read_lengths(Workspace& work, const ast::Scr
         scope.subject = "a side of the domain";
         scope.is_length = true;
         auto checked = check_number(work, script, value, scope);
-        if (!checked) return std::nullopt;
+        if (!checked || !check_unit_of_constant(work, checked->formula, "the extent",
+                                                Dimension::of(BaseQuantity::length))) {
+            return std::nullopt;
+        }
         if (checked->constant) checked->formula = {{Node{*checked->constant, span}}};
         lengths.push_back(std::move(checked->formula));
     }

@@ -207,8 +207,8 @@ void check_domain_side(Workspace& work, const ast::Script& script,
     if (!written) return;
     SideSetting setting{written->kind, {}, statement.span};
     if (written->value) {
-        const auto value =
-            check_constant(work, script, *written->value, "the value of a side of all species");
+        const auto value = check_constant(work, script, *written->value,
+                                          "the value of a side of all species", std::nullopt);
         // If the value had an error, the error has been reported, and the rule's kind still
         // applies.
         setting.value = {{Node{value.value_or(0), statement.span}}};

@@ -5,6 +5,7 @@
 #include "lang/check/names/domain_lengths.h"
 #include "lang/check/expressions/expression_checker.h"
 #include "lang/program/fold.h"
+#include "lang/vocabulary/units.h"
 #include "lang/vocabulary/words_elsewhere.h"
 
 #include <fmt/format.h>
@@ -43,6 +44,7 @@ void ExpressionChecker::visit(const ast::Call& call) {
             call.function.text,
             std::span(script_.arguments).subspan(call.first_argument, call.argument_count));
     }
+    if (is_unit_call(call.function.text)) return take_unit(call);
     const auto function = function_named(call.function.text);
     if (!function) return unknown_function(call);
     if (!info(*function).arity.takes(call.argument_count)) {
@@ -163,7 +165,7 @@ void ExpressionChecker::unknown_function(const ast::Call& call) {
 }
 
 bool is_function_name(std::string_view name) {
-    return function_named(name) ||
+    return function_named(name) || is_unit_call(name) ||
            std::find(only_over.begin(), only_over.end(), name) != only_over.end();
 }
 

@@ -59,9 +59,15 @@ template <typename DepthOfLeaf>
 std::uint32_t check_nesting(Workspace& work, const Formula& formula, const DepthOfLeaf& of_leaf);
 
 /// The value of a constant expression, in double precision. Reports errors. In their messages,
-/// `subject` is the name of the constant.
+/// `subject` is the name of the constant. If the value has a unit, its dimension must be
+/// `dimension`, unless this is empty.
 std::optional<double> check_constant(Workspace& work, const ast::Script& script,
-                                     ast::Expression expression, std::string_view subject);
+                                     ast::Expression expression, std::string_view subject,
+                                     std::optional<Dimension> dimension = Dimension{});
+
+/// Whether the unit of a constant formula, if it has one, has this dimension. Reports errors.
+bool check_unit_of_constant(Workspace& work, const Formula& formula, std::string_view subject,
+                            const Dimension& dimension);
 
 template <typename DepthOfLeaf>
 std::uint32_t check_nesting(Workspace& work, const Formula& formula, const DepthOfLeaf& of_leaf) {

@@ -6,7 +6,8 @@
 // - check_operators.cpp: operators of derivatives, vectors and tensors;
 // - check_links.cpp: sums over neighbours, and the values that cells that crawl read from them;
 // - check_directions.cpp: directions of a model as arguments of `along`;
-// - check_convolution.cpp: the kernels of convolutions.
+// - check_convolution.cpp: the kernels of convolutions;
+// - check_units.cpp: numbers with a unit.
 #pragma once
 
 #include "lang/check/expressions/check_expression.h"
@@ -81,6 +82,7 @@ private:
 
     void take(std::optional<Node> node, Span name);
     void apply(Function function, const Operands& operands, std::size_t count);
+    void take_unit(const ast::Call& call);
     void take_surface_value(Function function, const ast::Call& call);
     void take_convolution(const ast::Call& call);
     void take_file_value(Function function, const ast::Call& call);

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -53,6 +54,17 @@ bool has_one_value(Workspace& work, const ast::Script& script, const ast::Statem
 
 namespace {
 
+/// The dimension of a setting's numbers.
+Dimension dimension_of(std::string_view setting) {
+    static constexpr std::array<std::string_view, 2> lengths{"spacing", "size"};
+    static constexpr std::array<std::string_view, 3> times{"duration", "every", "largest_step"};
+    if (std::ranges::find(lengths, setting) != lengths.end()) {
+        return Dimension::of(BaseQuantity::length);
+    }
+    if (std::ranges::find(times, setting) != times.end()) return Dimension::of(BaseQuantity::time);
+    return {};
+}
+
 /// The message why a setting does not accept a number.
 std::string refusal_of(const SettingInfo& setting, double value) {
     using Kind = SettingLimits::Kind;
@@ -77,7 +89,8 @@ std::optional<double> read_number(Workspace& work, const ast::Script& script,
     if (!has_one_value(work, script, statement)) return std::nullopt;
     const SettingInfo& row = info(*setting_named(statement.name.text));
     CHECK(row.limits.kind != SettingLimits::Kind::none, "the row says which numbers it takes");
-    const auto value = check_constant(work, script, statement.values[0], row.word);
+    const auto value =
+        check_constant(work, script, statement.values[0], row.word, dimension_of(row.word));
     if (!value || row.limits.contain(*value)) return value;
     // If a number of steps is below 1, the author may have meant a length of time.
     const bool fits = row.limits.kind != SettingLimits::Kind::count || (*value > 0 && *value < 1);

@@ -9,6 +9,7 @@
 #include "lang/check/names/name_uses.h"
 #include "lang/program/program.h"
 #include "lang/syntax/ast.h"
+#include "lang/syntax/script_units.h"
 #include "lang/vocabulary/words_elsewhere.h"
 
 #include <cstdint>
@@ -72,8 +73,10 @@ struct Workspace {
                                          ///< cells.
     /// The functions of cells (lang/library/library.h); null if the script has no cells.
     const ast::Script* cell_functions = nullptr;
-    NameUses* uses = nullptr;   ///< Receives the uses of names, for editors; may be null.
-    bool lengths_grow = false;  ///< Whether lengths of the domain may change in a stage.
+    NameUses* uses = nullptr;     ///< Receives the uses of names, for editors; may be null.
+    bool lengths_grow = false;    ///< Whether lengths of the domain may change in a stage.
+    ScriptUnits units = {};       ///< The units in which the script computes.
+    MeasuredSpans measured = {};  ///< The numbers of the script that have a unit.
 };
 
 /// Whether the name is a value that every crawling cell has. A function of a script with such cells

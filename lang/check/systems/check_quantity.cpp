@@ -24,12 +24,14 @@ void check_range(Workspace& work, const Declaration& declaration, Quantity& quan
                  std::optional<double> value) {
     const ast::Range& written = *declaration.range;
     const ast::Script& script = *declaration.range_script;
-    const auto low = check_constant(work, script, written.low, "the end of a range");
-    const auto high = check_constant(work, script, written.high, "the end of a range");
+    const auto low = check_constant(work, script, written.low, "the end of a range", std::nullopt);
+    const auto high =
+        check_constant(work, script, written.high, "the end of a range", std::nullopt);
     if (!low || !high) return;
     ParameterRange range{*low, *high, std::nullopt};
     if (written.step) {
-        range.step = check_constant(work, script, *written.step, "the step of a range");
+        range.step =
+            check_constant(work, script, *written.step, "the step of a range", std::nullopt);
         if (!range.step) return;
     }
     if (!(*low < *high)) {

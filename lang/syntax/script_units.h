@@ -1,0 +1,75 @@
+// The units in which a script computes, and the numbers of the script that have a unit.
+#pragma once
+
+#include "lang/syntax/ast.h"
+#include "lang/vocabulary/units.h"
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+
+namespace cascade {
+
+/// One unit for each base quantity. The unit of length is that of the domain's `extent` or
+/// `spacing`, the unit of time that of a `duration`, `every`, `speed` or `largest_step`. If these
+/// have no unit, and for the other quantities, it is the first unit in the script that measures the
+/// quantity; if there is none, m, s, mol, kg, A or K.
+class ScriptUnits {
+public:
+    ScriptUnits();
+
+    /// Whether a unit of this script measures the quantity. Of length, only units such as m do, not
+    /// l or M; of time, every unit with a time in it.
+    bool knows(BaseQuantity quantity) const { return known_[static_cast<std::size_t>(quantity)]; }
+    /// Whether no number of the script has a unit.
+    bool empty() const;
+    /// A number of this unit as a number of the script's units.
+    double convert(double number, const Unit& unit) const;
+    /// The unit that numbers of this dimension have in this script: `um^2/s`. Empty for plain
+    /// numbers.
+    std::string name_of(const Dimension& dimension) const;
+
+    friend ScriptUnits units_of(const ast::Script& script);
+
+private:
+    struct Base {
+        std::string name;
+        Dimension dimension;  ///< Of the unit with this name, which may measure more.
+        Unit size;            ///< The unit of the base quantity alone.
+        bool is_given = false;
+    };
+
+    void take_plain(std::string_view text, BaseQuantity quantity);
+    void take_others(std::string_view text);
+    void note_known(std::string_view text);
+    Unit size_of(const Dimension& dimension) const;
+
+    std::array<Base, base_quantity_count> bases_;
+    std::array<bool, base_quantity_count> known_{};
+};
+
+ScriptUnits units_of(const ast::Script& script);
+
+/// The unit of an expression that is one number with a unit, or such a number with a sign. Empty
+/// for all other expressions.
+std::string_view unit_text_of(const ast::Script& script, ast::Expression expression);
+
+/// If the expression is a number without a unit and the last one of the script, gives it a unit.
+void give_unit(ast::Script& script, ast::Expression& expression, std::string_view unit);
+
+/// The dimensions of the parts of a script with a unit, by their source location.
+class MeasuredSpans {
+public:
+    MeasuredSpans() = default;
+    explicit MeasuredSpans(const ast::Script& script);
+    /// Null if the part at this location is not a number with a unit or a length of the domain.
+    const Dimension* find(Span span) const;
+
+private:
+    std::map<std::tuple<SourceId, std::uint32_t, std::uint32_t>, Dimension> dimensions_;
+};
+
+}  // namespace cascade

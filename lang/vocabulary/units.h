@@ -1,0 +1,77 @@
+// Units of numbers, such as m, h, uM or m^2/s: their dimensions and sizes.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cascade {
+
+/// What a unit measures. Amount is that of a substance, in moles.
+enum class BaseQuantity : std::uint8_t { length, time, amount, mass, current, temperature };
+inline constexpr std::size_t base_quantity_count = 6;
+
+/// The powers of the base quantities in a unit. They are counted in sixths, so that square roots
+/// and cube roots have a dimension, too.
+struct Dimension {
+    std::array<std::int16_t, base_quantity_count> sixths{};
+
+    static Dimension of(BaseQuantity quantity, int power = 1) {
+        Dimension dimension;
+        dimension.sixths[static_cast<std::size_t>(quantity)] = static_cast<std::int16_t>(6 * power);
+        return dimension;
+    }
+    /// Whether this is the dimension of a plain number.
+    bool is_none() const { return *this == Dimension{}; }
+    std::int16_t operator[](BaseQuantity quantity) const {
+        return sixths[static_cast<std::size_t>(quantity)];
+    }
+    bool operator==(const Dimension&) const = default;
+};
+
+Dimension operator*(const Dimension& a, const Dimension& b);
+Dimension operator/(const Dimension& a, const Dimension& b);
+/// The dimension to the power `power`. Empty if it has other powers than multiples of a sixth up to
+/// 1000.
+std::optional<Dimension> to_power(const Dimension& dimension, double power);
+
+/// A unit: `times / over * 10^decimals` of m, s, mol, kg, A and K. `times` and `over` are whole.
+struct Unit {
+    Dimension dimension;
+    double times = 1, over = 1;
+    int decimals = 0;
+};
+Unit operator*(const Unit& a, const Unit& b);
+Unit operator/(const Unit& a, const Unit& b);
+/// The unit to a whole power.
+Unit to_power(const Unit& unit, int power);
+/// A number of the unit, in m, s, mol, kg, A and K.
+double in_base_units(double number, const Unit& unit);
+
+/// The unit with this name, with or without a prefix, such as m, um or hour. Empty for other words.
+std::optional<Unit> unit_named(std::string_view name);
+/// The short name of the unit with this name: h for hour. The name itself if it is short.
+std::string_view short_name_of_unit(std::string_view name);
+/// A hint about a word that was written as a unit but is none; may be empty.
+std::string advice_about_unknown_unit(std::string_view word);
+
+/// A part of a unit: m^2 in m^2/s.
+struct UnitFactor {
+    std::string_view name;
+    int power = 1;
+};
+/// The factors of a unit, such as m^2/s, mol*l^-1 or 1/s.
+std::vector<UnitFactor> factors_of_unit(std::string_view text);
+/// The unit with this text.
+Unit unit_of(std::string_view text);
+
+/// In the syntax tree, `3 m^2/s` is a call of a function with one argument, 3. The name of this
+/// function is a blank and the text of the unit. No script can write such a name.
+inline bool is_unit_call(std::string_view function) { return function.starts_with(' '); }
+inline std::string_view text_of_unit_call(std::string_view function) { return function.substr(1); }
+
+}  // namespace cascade
