@@ -43,7 +43,8 @@ Result<std::int64_t> parse_whole(std::string_view text, std::int64_t low, std::i
     if (read_all(text, number) && number >= low && number <= high) return number;
     double value = 0;  // 1e3 is a whole number, but no option reads it.
     const bool is_short = read_all(text, value) && value == std::floor(value) &&
-                          value >= static_cast<double>(low) && value <= 1e15;
+                          value >= static_cast<double>(low) &&
+                          value <= std::min(static_cast<double>(high), 1e15);
     return failure(fmt::format("'{}' is not a whole number from {} to {}", text, low, high),
                    is_short ? fmt::format("write {:.0f}", value) : "");
 }

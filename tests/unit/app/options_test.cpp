@@ -2,6 +2,7 @@
 #include "app/options.h"
 
 #include "app/exit_status.h"
+#include "app/option_values.h"
 #include "core/version.h"
 
 #include <fmt/format.h>
@@ -186,6 +187,12 @@ TEST(Options, a_tiling_is_forced_where_nobody_sees_it) {
     EXPECT_EQ(parsed({"run", "a.cascade", "--tiling", "4,2"}).run.simulation.tiling,
               (Tiling{4, 2}));
     EXPECT_FALSE(parsed({"run", "a.cascade"}).run.simulation.tiling);
+}
+
+TEST(Options, a_hint_for_a_number_is_one_that_the_option_takes) {
+    EXPECT_EQ(parse_whole("1e3", 1, 1024).error().hint, "write 1000");
+    EXPECT_EQ(parse_whole("70000", 1, 1024).error().hint, "");
+    EXPECT_EQ(parse_whole("2e3", 1, 1024).error().hint, "");
 }
 
 TEST(Options, two_hyphens_end_the_options) {
