@@ -2,16 +2,16 @@
 //
 // Each pair of cells is joined by a cubic Hermite curve. The slope at a cell is the mean of the
 // differences to both neighbours (E. Catmull and R. Rom, 1974), but at most three times the smaller
-// difference, so that the curve is monotone where the values are (F. Fritsch and R. Carlson,
-// "Monotone Piecewise Cubic Interpolation", SIAM J. Numer. Anal. 17, 1980). This limit alone would
-// flatten smooth extrema. So if the three bends (second differences) in the cell and its two
-// neighbours have one sign, the slope may be as large as the smallest bend. Beside an edge, the
-// bends differ in sign (P. Colella and M. Sekora, "A limiter for PPM that preserves accuracy at
-// smooth extrema", J. Comput. Phys. 227, 2008). If the cells hold only two values, no curve leaves
-// their range. Elsewhere a crest between two cells may be higher than both values. This suits
-// pictures. If a run continues from the interpolated values, a value out of range, such as a
-// negative concentration, may be meaningless. slope_in_range() therefore limits slopes further. The
-// functions are always inlined, so that compilers vectorise loops that call them.
+// difference, so that the curve is monotone wherever the values are monotone (F. Fritsch and R.
+// Carlson, "Monotone Piecewise Cubic Interpolation", SIAM J. Numer. Anal. 17, 1980). This limit
+// alone would flatten smooth extrema. So if the three bends (second differences) in the cell and
+// its two neighbours have one sign, the slope may be as large as the smallest bend. Beside an edge,
+// the bends differ in sign (P. Colella and M. Sekora, "A limiter for PPM that preserves accuracy at
+// smooth extrema", J. Comput. Phys. 227, 2008). If the cells have only two different values, no
+// curve leaves their range. Otherwise a crest between two cells may be higher than both values.
+// This suits pictures. If a run continues from the interpolated values, a value out of range, such
+// as a negative concentration, may be meaningless. slope_in_range() therefore limits slopes
+// further. The functions are always inlined, so that compilers vectorise loops that call them.
 #pragma once
 
 #include <algorithm>
@@ -21,8 +21,8 @@
 
 namespace cascade {
 
-/// The number of cells in a row that determine a value between the middle two, the third and the
-/// fourth.
+/// The number of cells that determine a value between two cells of a row: these two cells and two
+/// more on either side.
 inline constexpr std::size_t cells_between = 6;
 
 /// The slope of the curve, per cell, at the third of five cells in a row.
@@ -37,8 +37,8 @@ template <typename Number>
     return std::clamp((before + after) / 2, -most, most);
 }
 
-/// The value at the fraction `part`, 0 … 1, of the way from a cell to the next one, with the slopes
-/// `first` and `last` at the two.
+/// The value at the fraction `part`, 0 … 1, of the way from a cell to the next one. `first` and
+/// `last` are the slopes at these cells.
 template <typename Number>
 [[gnu::always_inline]] inline Number value_on_curve(Number from, Number to, Number first,
                                                     Number last, Number part) {

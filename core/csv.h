@@ -15,7 +15,8 @@ namespace cascade {
 /// A line of a table. Cells with a comma, a quote or a line feed are quoted.
 std::string csv_row(std::span<const std::string> cells);
 
-/// A number with nine digits, enough to read a binary32 back. Empty if the number is not finite.
+/// A number with nine digits, which determine a binary32 number exactly. Empty if the number is not
+/// finite.
 std::string csv_number(double value);
 /// The shortest text that reads back as the same number of this precision.
 std::string csv_number(double value, Precision precision);

@@ -1,7 +1,7 @@
 // Diagnostics: errors and warnings about a user's text, stored as objects.
 //
 // The stages of the front end add to a Diagnostics, continue and never print. Only
-// render_diagnostics.cpp knows the layout of a message.
+// render_diagnostics.cpp contains the layout of messages.
 #pragma once
 
 #include "core/source.h"
@@ -36,7 +36,7 @@ struct Diagnostic {
 
 /// The diagnostics of one program. A message that repeats at the same location is stored once. At
 /// most `most_kept` of each severity are stored and further ones only counted, because a text that
-/// is no script at all causes very many.
+/// is not a script causes very many.
 class Diagnostics {
 public:
     static constexpr std::size_t most_kept = 10'000;

@@ -1,4 +1,4 @@
-// Values of enums by the names in a table.
+// Finds the value of an enum by its name in a table.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace cascade {
 
-/// The value of an enum that `names` lists in its order.
+/// The value called `name`. `names` lists the names of all values in the order of the enum.
 template <typename Enum>
 constexpr std::optional<Enum> enum_named(std::span<const std::string_view> names,
                                          std::string_view name) {

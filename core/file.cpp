@@ -66,8 +66,8 @@ int replace(const fs::path& target, std::string_view bytes, const struct stat* r
     if (!folder.is_open()) return errno;
     TemporaryFile temporary(folder);
     if (const int error = temporary.error()) return error;
-    // The new file gets the permissions of the replaced one, if possible. If not, its data still
-    // counts.
+    // The new file gets the permissions of the replaced one, if possible. If that fails, the new
+    // file is kept nevertheless.
     if (replaced) (void)::fchmod(temporary.file().number(), replaced->st_mode & 07777);
     if (const int error = temporary.write(bytes)) return error;
     return temporary.rename_to(target.filename().string());

@@ -26,13 +26,14 @@ std::string first_bytes(const std::filesystem::path& path, std::size_t count);
 /// The content of a regular file. Refuses symbolic links, pipes and devices, without waiting.
 Result<std::string> read_plain_file(const std::filesystem::path& path, std::uint64_t largest);
 
-/// read_plain_file, but follows symbolic links. Messages call the file `name`, or `path` if that is
-/// empty.
+/// Like read_plain_file, but follows symbolic links. Messages call the file `name`, or `path` if
+/// that is empty.
 Result<std::string> read_linked_file(const std::filesystem::path& path, std::uint64_t largest,
                                      std::string_view name = "");
 
-/// read_plain_file for a file below `folder`. The path `file` is relative, has no "..", and no part
-/// of it may be a symbolic link. Opens nothing outside the folder, even if names change meanwhile.
+/// Like read_plain_file, for a file below `folder`. The path `file` is relative, has no "..", and
+/// no part of it may be a symbolic link. Opens nothing outside the folder, even if names change
+/// meanwhile.
 Result<std::string> read_file_below(const std::filesystem::path& folder,
                                     const std::filesystem::path& file, std::uint64_t largest,
                                     std::string_view name);

@@ -16,7 +16,7 @@ enum class FileFormat : std::uint8_t {
 #include "core/file_formats.def"
 };
 
-/// What a format stores. `run -o` writes every kind from the first one below to `cells`.
+/// The content of files of a format. `run -o` writes the kinds from the first one up to `cells`.
 enum class FormatKind : std::uint8_t {
     picture,
     figure,
@@ -37,7 +37,7 @@ enum class FormatTrait : std::uint16_t {
     texture = 1 << 4,  ///< Points of models have texture coordinates.
     copies = 1 << 5,   ///< Holds copies of shapes placed on a model.
     maps = 1 << 6,     ///< Has textures.
-    growth = 1 << 7,   ///< Holds how a model changed over time.
+    growth = 1 << 7,   ///< Holds the changes of a model over time.
     levels = 1 << 8,   ///< All levels of detail of a model in one file.
     planes = 1 << 9,   ///< Volumes may be written as planes, too.
 };

@@ -3,7 +3,7 @@
 
 namespace cascade {
 
-/// While an object of this class lives, its thread reads denormal numbers as zero, rounds denormal
+/// While an object of this class exists, its thread reads denormal numbers as zero, rounds denormal
 /// results to zero (with their sign), and rounds to nearest even. The spec prescribes this
 /// environment for all execution of kernels and all constant folding.
 class FlushDenormals {
@@ -17,9 +17,9 @@ private:
     unsigned long long saved_;
 };
 
-/// For tests that compare results with WebAssembly, whose arithmetic has denormal numbers: from now
-/// on, FlushDenormals sets only the rounding, in all threads, and the interpreter flushes the
-/// values that it writes to planes.
+/// For tests that compare results with WebAssembly, whose arithmetic has denormal numbers. After
+/// this call, FlushDenormals sets only the rounding, in all threads, and the interpreter flushes
+/// the values that it writes to planes.
 void keep_denormals();
 bool keeps_denormals();
 

@@ -11,7 +11,7 @@
 
 namespace cascade {
 
-/// What `--allow-read` grants beyond the script's folder.
+/// The files that `--allow-read` grants beyond the script's folder.
 struct ReadAccess {
     bool everything = false;
     std::vector<std::filesystem::path> folders;

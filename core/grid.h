@@ -8,8 +8,7 @@
 
 namespace cascade {
 
-/// What a cell at a side of the grid has as its neighbour beyond this side. A species may override
-/// this boundary.
+/// The rule for the neighbour beyond a side of the grid. A species may override this boundary.
 enum class Boundary {
     periodic,  ///< The cell at the opposite side.
     no_flux,   ///< The cell itself: nothing flows through the side.
@@ -30,9 +29,9 @@ struct Boundaries {
     friend bool operator==(const Boundaries&, const Boundaries&) = default;
 };
 
-/// Which neighbours a cell has. An axis of one cell has none, so a grid of W × 1 or 1 × H cells is
-/// one-dimensional. A Laplacian is summed as ((((N + S) + E) + W) + U) + D − 2·axes·c, without the
-/// missing pairs.
+/// The set of neighbours of a cell. An axis of one cell has none, so a grid of W × 1 or 1 × H cells
+/// is one-dimensional. A Laplacian is summed as ((((N + S) + E) + W) + U) + D − 2·axes·c, without
+/// the missing pairs.
 struct Stencil {
     bool x = true;   ///< W and E, the columns before and after.
     bool y = true;   ///< N and S, the rows above and below.
@@ -95,7 +94,7 @@ struct Grid {
 /// Rows are numbered through all slices: row r is row r % height of slice r / height.
 ///
 /// A plane may hold only a part of the grid: some rows or, in a grid of several slices, some
-/// slices. Its cells keep their numbers in the grid, so positions, random numbers and row sums mean
+/// slices. Its cells keep their numbers in the grid, so positions, random numbers and row sums are
 /// the same in any part, and kernels do not depend on the part. The halo then surrounds the part.
 struct PlaneLayout {
     static constexpr std::int64_t row_pad = 16;

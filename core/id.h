@@ -1,5 +1,5 @@
-// Ids: numbers that name one thing of a kind, and lists indexed by them. An id of one kind converts
-// neither to another kind nor to a plain number.
+// Ids, which are numbers that identify objects of one kind, and lists that are indexed by ids. An
+// id of one kind converts neither to another kind nor to a plain number.
 #pragma once
 
 #include <compare>

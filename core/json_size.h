@@ -8,7 +8,7 @@ namespace cascade {
 
 struct JsonSize {
     std::size_t objects = 0;  ///< Number of objects and arrays.
-    std::size_t values = 0;   ///< Number of values, or at most one fewer per object or array.
+    std::size_t values = 0;   ///< Number of values; for each object or array, may be 1 too low.
     std::size_t depth = 0;    ///< Depth of nesting.
 };
 

@@ -2,7 +2,7 @@
 //
 // A folder has one file per key. If anything is wrong with a file, its owner or the folder, the key
 // counts as unknown, so such a problem never makes a run fail. Processes may share the folder,
-// because files appear under their names complete. A file holds the whole key, so that a hash
+// because a file gets its name only when it is complete. A file holds the whole key, so that a hash
 // collision does no harm, and a checksum of everything. The checksum guards against accidents only.
 // As protection against other users, files and folder must belong to this user and be writable by
 // no one else.
@@ -35,7 +35,7 @@ public:
 
     bool is_on() const { return !folder_.empty(); }
 
-    /// The content stored under this key. Thread-safe, as is `keep`.
+    /// The content stored under this key. Both find() and keep() are thread-safe.
     std::optional<std::string> find(std::string_view key) const;
 
     /// Stores `content` if possible. Creates missing folders.

@@ -7,9 +7,9 @@
 // and lead to the cell itself.
 //
 // Neighbours are near each other in memory, so an entry holds 16-bit offsets from a base element:
-// the first cell of the slice or, if some link leads too far, the target of some link. Links that
-// are still too far wait for a later entry. If a padding link is too far from its own cell, its
-// offset is 0.
+// the first cell of the slice or, if some link leads too far, the target of some link. Links whose
+// targets are still too far away are put into a later entry. If a padding link is too far from its
+// own cell, its offset is 0.
 #pragma once
 
 #include "core/grid.h"
@@ -88,8 +88,8 @@ class Links {
 public:
     Links() = default;
     /// Cell order[k] of the list, or cell k if `order` is empty, is at column k mod width of row k
-    /// / width. Padding cells that complete the last row get the links, and so the values, of the
-    /// last cell. Links stay in the list's order, which is the order of summation. Throws
+    /// / width. Padding cells that complete the last row get the links of the last cell, and thus
+    /// its values. Links stay in the list's order, which is the order of summation. Throws
     /// std::bad_alloc.
     Links(const LinkList& list, const PlaneLayout& layout, Precision precision,
           std::span<const std::uint32_t> order = {});

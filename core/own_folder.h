@@ -1,4 +1,4 @@
-// Tells whether a user's files may be created in a folder.
+// Checks whether a user's files may be created in a folder.
 #pragma once
 
 #include <filesystem>

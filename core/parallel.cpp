@@ -110,8 +110,8 @@ struct Meeting {
 struct Team::State {
     alignas(64) std::atomic<std::uint32_t> task{
         0};              ///< Counts calls of run(). Workers wait for it to change.
-    Meeting barrier;     ///< Where the active threads of a run wait for each other.
-    Meeting end_of_run;  ///< Where all threads of the team wait for each other.
+    Meeting barrier;     ///< The active threads of a run wait here for each other.
+    Meeting end_of_run;  ///< All threads of the team wait here for each other.
     alignas(64) const std::function<void(int)>* work = nullptr;  ///< Null tells workers to end.
     int active = 1;
     int size = 1;

@@ -11,8 +11,8 @@ namespace cascade {
 /// The number of threads that the machine offers this process, at least 1.
 int hardware_threads();
 
-/// Abandons work that is no longer needed, such as a step of a run that is to end. Unwinds the work
-/// of a Team, on any of its threads, and its callers up to complete().
+/// Abandons work that is no longer needed, such as a step of a run that is about to end. Throws an
+/// exception that complete() catches. Any thread of a Team may call this function.
 [[noreturn]] void abandon_work();
 
 /// Calls `work`. Returns false if the work was abandoned.

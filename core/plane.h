@@ -23,8 +23,8 @@ void* allocate_plane(std::size_t bytes);
 void free_plane(void* plane);
 
 /// Fills the halo of a plane, edges and corners included, by the rules of its sides: columns −1 and
-/// width, then rows −1 and height with their halo columns and, if there are several slices, slices
-/// −1 and depth with both.
+/// width, then rows −1 and height with their halo columns. If there are several slices, then slices
+/// −1 and depth follow with their halo rows and columns.
 template <typename Number>
 void fill_halo(Number* origin, const PlaneLayout& layout, const SideRules& sides);
 
@@ -71,9 +71,9 @@ public:
 
     Plane clone() const { return Plane(*this); }
 
-    /// The halo is not part of a plane's value but caches what the rules of the sides give. Code
-    /// that reads neighbours fills it first, even in a const plane. Only one thread at a time may
-    /// do so.
+    /// The halo caches values that follow from the rules of the sides. It is not part of a plane's
+    /// value. Code that reads neighbours fills it first, even in a const plane. Only one thread at
+    /// a time may do so.
     void fill_halo(const SideRules& sides) const {
         cascade::fill_halo(data_.get() + layout_.offset(0, 0), layout_, sides);
     }

@@ -35,8 +35,9 @@ Block& block_of(const void* plane) {
 /// pages, equal rows would compete for the same cache sets, which have too few ways for a tile of
 /// five planes. The processor would also mistake a load from one plane for a store to another,
 /// because it first compares only the low 12 bits of addresses. So each plane is shifted by a
-/// different part of 128 KiB, one way of a second-level cache, or of a page if the plane is too
-/// small for that. Multiples of 783 are spread evenly over 2048 lines as well as over 64.
+/// different part of 128 KiB (one way of a second-level cache), or of a page if the plane is too
+/// small for that. Multiples of 783 are spread evenly over the 2048 cache lines of 128 KiB, and
+/// over the 64 lines of a page.
 std::size_t next_shift(std::size_t bytes) {
     constexpr std::size_t small_plane = 65536, lines_of_way = 2048, lines_of_page = 64;
     static std::atomic<std::size_t> planes{0};

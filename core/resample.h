@@ -6,7 +6,7 @@
 namespace cascade {
 
 /// The grid of the same domain with cells `times` as wide. Along each axis, the number of cells
-/// must be 1, which stays 1, or a multiple of `times`.
+/// must be a multiple of `times`, or 1, which stays 1.
 Grid coarser(const Grid& grid, std::int64_t times);
 
 /// A plane on a coarser grid: each cell has the mean of its fine cells, summed in binary64.
@@ -24,9 +24,9 @@ Plane<Number> refined(Plane<Number>& coarse, const Grid& coarse_grid, const Grid
 /// cell stays one.
 Grid finer_grid(const Grid& grid, std::int64_t times);
 
-/// A plane on a finer_grid(). Values between cells lie on the curves of core/between_cells.h, first
-/// along the third axis, then along columns, then along rows. Beyond sides that are not periodic,
-/// edge values extend.
+/// A plane on the grid that finer_grid() returns. Values between cells lie on the curves of
+/// core/between_cells.h, first along the third axis, then along columns, then along rows. Beyond a
+/// side that is not periodic, the values at the side are repeated.
 template <typename Number>
 Plane<Number> divided(const Plane<Number>& plane, const Grid& grid, std::int64_t times);
 

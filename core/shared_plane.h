@@ -20,7 +20,7 @@ inline const void* memory_of(const Field& field) {
     });
 }
 
-/// Returns an object that keeps the cells of a field unchanged while it lives. Code that changes
+/// Returns an object that keeps the cells of a field unchanged while it exists. Code that changes
 /// cells in place, such as a step, must first test is_shared() and, if true, change a copy instead.
 inline std::shared_ptr<const void> share(const Field& field) {
     const void* const memory = memory_of(field);

@@ -28,14 +28,14 @@ constexpr Side opposite(Side side) {
     return static_cast<Side>(static_cast<std::uint8_t>(side) ^ 1u);
 }
 
-/// How the value beyond a side follows from the cell at the side. c is the value of this cell, e
-/// the value given for the side, and h the spacing.
+/// A rule that gives the value beyond a side from the cell at the side. c is the value of this
+/// cell, e the value given for the side, and h the spacing.
 enum class SideKind : std::uint8_t {
     periodic,  ///< The cell at the opposite side.
     no_flux,   ///< c: nothing flows through the side.
     fixed,     ///< 2e − c: the value at the face is e.
     slope,     ///< c + h·e: the derivative along the outward normal is e.
-    /// Diffusion carries the flux e in. Occurs only in scripts: halos are filled by the equivalent
+    /// The flux e enters by diffusion. Occurs only in scripts: halos are filled by the equivalent
     /// slope (lang/calculus/side_values.h).
     flux,
 };

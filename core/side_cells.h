@@ -1,5 +1,5 @@
-// The cells beside a side of a plane, numbered along it, so that the side's values can be stored
-// and computed without a plane.
+// The cells beside a side of a plane, numbered along this side, so that the side's values can be
+// stored and computed without a plane.
 #pragma once
 
 #include "core/parallel.h"

@@ -146,7 +146,8 @@ int TemporaryFile::take_name(const std::string& name) {
     if (error_ != 0) return error_;
     if (::renameat(folder_.number(), name_.c_str(), folder_.number(), name.c_str()) != 0)
         return errno;
-    // Under its own name the file is not in danger, and its readers may want to lock it.
+    // Once the file has its final name, nobody removes it as a leftover, and its readers may want
+    // to lock it.
     (void)::flock(file_.number(), LOCK_UN);
     disown();
     return 0;

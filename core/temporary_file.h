@@ -1,8 +1,8 @@
 // New files under temporary names, renamed when they are complete.
 //
 // Names are random: in containers that share a folder, all processes may have the same id, and a
-// file left by a killed process would block the next process. While its writer lives, a temporary
-// file is locked (flock), unlike the files of killed processes.
+// file left by a killed process would block the next process. A temporary file is locked (flock) as
+// long as its writer runs. Files of killed processes are not locked.
 #pragma once
 
 #include "core/descriptor.h"
@@ -52,9 +52,9 @@ public:
     int take_name(const std::string& name);
     /// Closes the file and leaves it under its temporary name. Returns 0 or the error number.
     int stay();
-    /// Removes nearly all temporary files of this process (those that found room in its fixed
-    /// list). No TemporaryFile may be used afterwards. A signal handler may call this function
-    /// before it ends the program.
+    /// Removes the temporary files of this process, except files that found no room in its list of
+    /// fixed length. No TemporaryFile may be used afterwards. A signal handler may call this
+    /// function before it ends the program.
     static void remove_all() noexcept;
 
 private:

@@ -14,7 +14,7 @@ struct CodePoint {
     bool valid = true;
 };
 
-/// Replaces invalid text: U+FFFD.
+/// U+FFFD, which replaces invalid text.
 inline constexpr std::string_view replacement_character = "\xef\xbf\xbd";
 
 /// The code point at `offset`, which must be inside the text. Overlong forms, surrogates and values

@@ -108,7 +108,7 @@ struct PatternView {
 /// of scripts: 0 to 1 along the longest side of the model's box, and y upwards (spec/models.md).
 struct PatternModel {
     std::vector<double> points;  ///< The positions of the cells, in the order of values().
-    std::vector<double> areas;   ///< The areas of the cells. The unit is the same, squared.
+    std::vector<double> areas;   ///< The areas of the cells, in the squared unit of `points`.
     /// The pairs of adjacent cells, between which species diffuse. Each pair occurs once, with the
     /// lower cell first.
     std::vector<std::uint32_t> links;
@@ -210,10 +210,10 @@ public:
     /// for bit.
     bool undo();
     bool redo();
-    /// The log of all steps and changes, as text. play() repeats the log and so makes the same
-    /// pattern, bit for bit.
-    /// Empty if there is no such log, because the pattern began with the values of a saved run, or
-    /// because more than 256 MiB of values were set. Then error() gives the reason.
+    /// The log of all steps and changes, as text. play() repeats the log and makes the same
+    /// pattern, bit for bit. Empty if there is no such log, because the pattern began with the
+    /// values of a saved run, or because more than 256 MiB of values were set. Then error() gives
+    /// the reason.
     std::string session();
     /// Repeats a session to its end. `session` is the text that session() returned, or the bytes of
     /// a picture file. Relative paths in the session's script start at `options.folder`.
@@ -229,9 +229,9 @@ public:
     std::vector<float> values(const std::string& expression);
     /// The values of an expression, like values(), but not rounded to single precision.
     std::vector<double> numbers(const std::string& expression);
-    /// The values of an expression, if possible without a copy: if the expression is a species or a
-    /// varying parameter, on a grid without a mask, the view refers to the pattern's own memory.
-    /// While a copy of the view's `owner` exists, the next step copies that plane once.
+    /// The values of an expression. If the expression is a species or a varying parameter on a grid
+    /// without a mask, no value is copied, and the view refers to the pattern's own memory. While a
+    /// copy of the view's `owner` exists, the next step copies that plane once.
     PatternView view(const std::string& expression);
 
     /// The features of the values in the picture, or of `expression` if it is not empty:
@@ -259,9 +259,10 @@ public:
     /// file is unchanged if the function returns false.
     bool write(const std::string& path, const std::string& options = "{}");
     /// Takes all remaining steps, and writes a film of them: a frame after every `every` steps, at
-    /// the start and at the end. 0 means at the interval of a stage, or about 50 frames for the
-    /// shortest stage. `options` are as in write(), and "fps" or "seconds". `watcher` is called
-    /// as in step(), and while frames are drawn. If it cancels the film, no file is written.
+    /// the start and at the end. If `every` is 0, the smallest interval of the stages is used,
+    /// where a stage without an interval counts with a fiftieth of its steps. `options` are as in
+    /// write(), and "fps" or "seconds". `watcher` is called as in step(), and while frames are
+    /// drawn. If it cancels the film, no file is written.
     bool film(const std::string& path, std::int64_t every = 0, const std::string& options = "{}",
               const ProgressWatcher& watcher = {});
     /// The script as a page that runs in browsers without the program, as `cascade export` writes

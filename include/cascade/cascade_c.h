@@ -13,8 +13,8 @@
  *
  * The header is C99. Link with -lcascade, or load libcascade.so.0 with dlopen(). No function
  * throws, prints or ends the program. Each returns a status: CASCADE_OK, which is 0, or the reason
- * why the function has done nothing. After an error, cascade_last_error() gives the message, hint
- * and position of the error, if the same thread calls it.
+ * why the function has done nothing. If the thread that got an error calls cascade_last_error(), it
+ * receives the message, hint and position of the error.
  *
  * Any thread may use a handle. A call waits until all other calls with the same pattern have
  * returned. Only cascade_cancel() does not wait. If a handle is null, was freed or was never made,
@@ -55,7 +55,7 @@ enum {
     CASCADE_REFUSED = 4,      /* An expression or change is invalid. Nothing changed. */
     CASCADE_FAILED = 5,       /* Values are infinite or NaN, or the run cannot begin. */
     CASCADE_OUTDATED = 6,     /* The pattern was changed or freed while a view was open. */
-    CASCADE_CANCELLED = 7,    /* A callback or cascade_cancel() ended it. Can continue. */
+    CASCADE_CANCELLED = 7,    /* Ended by a callback or cascade_cancel(). Call again to continue. */
     CASCADE_NO_MEMORY = 8
 };
 
@@ -245,9 +245,9 @@ CASCADE_C_API cascade_status cascade_write_picture(cascade_pattern* pattern, con
  * such as {"palette": "viridis", "bake": 2048}. Since version 2. */
 CASCADE_C_API cascade_status cascade_write(cascade_pattern* pattern, const char* path,
                                            const char* options);
-/* Takes all remaining steps, and writes a film of them with a frame after every `every` steps. 0
- * selects the interval of a stage, or about 50 frames. The callback may be null. Since version 2.
- */
+/* Takes all remaining steps, and writes a film of them with a frame after every `every` steps. If
+ * `every` is 0, the smallest interval of the stages is used, where a stage without an interval
+ * counts with a fiftieth of its steps. The callback may be null. Since version 2. */
 CASCADE_C_API cascade_status cascade_film(cascade_pattern* pattern, const char* path, int64_t every,
                                           const char* options, cascade_callback callback,
                                           void* user);
