@@ -1,4 +1,4 @@
-// The contract between kernels and their executors.
+// The interface between kernels and the code that runs them.
 //
 // Backends: ir/interpreter.h (works on blocks of cells; the reference), jit/jit.h (native code by
 // LLVM), ir/tiered_backend.h (interprets until native code is ready). All give the same bits for
@@ -68,8 +68,8 @@ public:
     /// Whether the kernel's code is still being compiled. The kernel may then become many times
     /// faster, so its present speed does not predict later runs.
     virtual bool is_provisional() const { return false; }
-    /// Why the kernel could not be compiled and stays slow. Null if it was compiled, or is still to
-    /// be compiled.
+    /// The reason why the kernel could not be compiled and stays slow. Null if it was compiled, or
+    /// is still to be compiled.
     virtual const Failure* refusal() const { return nullptr; }
 
 private:
@@ -80,7 +80,7 @@ private:
 
 using KernelPointer = std::shared_ptr<const Kernel>;
 
-/// How many kernels this process compiled, and how many it loaded from disk.
+/// The numbers of kernels that this process compiled and that it loaded from disk.
 struct KernelCounts {
     std::int64_t compiled = 0;  ///< Compiled by this backend.
     std::int64_t found = 0;     ///< Compiled by an earlier process and found on disk.
@@ -99,8 +99,8 @@ public:
     virtual KernelPointer find(const CellKernel& kernel, Stencil stencil) = 0;
     /// The number of kernels compiled and found so far.
     virtual KernelCounts counts() const { return {}; }
-    /// Text that names what determines the code of every kernel, such as the processor. Empty if
-    /// unknown.
+    /// A text that identifies everything on which the code of all kernels depends, such as the
+    /// processor. Empty if unknown.
     virtual std::string code_identity() const { return {}; }
 };
 

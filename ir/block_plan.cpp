@@ -143,8 +143,8 @@ private:
     const IdVector<ValueId, LoopLevel> levels_;
     const CellSchedule schedule_;
     IdVector<ValueId, Location> locations_;
-    IdVector<ValueId, std::uint32_t> readers_;  ///< For each value, how many instructions have yet
-                                                ///< to read it.
+    IdVector<ValueId, std::uint32_t> readers_;  ///< The number of instructions that have yet to
+                                                ///< read each value.
     bool is_in_loop_ = false;
     std::vector<ValueId> read_in_loop_;
     std::vector<std::uint32_t> free_;

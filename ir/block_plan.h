@@ -1,4 +1,4 @@
-// How the interpreter computes a kernel, block by block of 256 cells (internal to ir).
+// The plan by which the interpreter computes a kernel in blocks of 256 cells (internal to ir).
 //
 // Uniform values (constants, uniforms, and values computed from these alone) are single words,
 // computed once per run. All other values are in registers of 256 words. A register is reused as

@@ -3,9 +3,9 @@
 // interpreter would evaluate it, with denormals flushed. So every kernel is simplified from the
 // beginning.
 //
-// The builder simplifies only by identities that hold for every word: select with equal branches or
-// a constant condition, `and` and `or` with a constant. x * 1 and x + 0 are NOT simplified, because
-// they flush denormals and turn −0 into 0.
+// The builder simplifies only by identities that hold for every word. It simplifies a select with
+// equal branches or a constant condition, and an `and` or `or` with a constant. x * 1 and x + 0 are
+// NOT simplified, because they flush denormals and turn −0 into 0.
 //
 // Elementary functions are expanded here into operations of ir/operations.def, so that every
 // executor computes the same bits. spec/numerics.md states their accuracy.
@@ -125,8 +125,8 @@ public:
         return cell_ ? std::pair(*cell_, word(0)) : std::pair(cell_column(), cell_row());
     }
     /// A random number in (−1, 1), uniform and symmetric. There are 2^23 different values in
-    /// binary32. In binary64 there are 2^52, and the first digits of each are those of the binary32
-    /// value. Depends only on the cell, the `draw` word (the step, or 0) and the 64-bit `key`
+    /// binary32, and 2^52 in binary64. The binary64 number begins with the digits of the binary32
+    /// number. Depends only on the cell, the `draw` word (the step, or 0) and the 64-bit `key`
     /// (seed, stage, parameter, occurrence).
     ValueId random_symmetric(ValueId draw, std::uint64_t key);
     /// Reads the 32-bit draw word that draw_uniform() (ir/draw_of_step.h) stored in a uniform.

@@ -25,7 +25,7 @@ Number draw_uniform(std::int64_t step) {
     if constexpr (std::is_same_v<Number, float>) {
         return std::bit_cast<float>(word);
     } else {
-        // The upper half makes this a normal number, whatever the word.
+        // The upper half makes this a normal number for any word.
         return std::bit_cast<double>(std::uint64_t{0x3ff00000} << 32 | word);
     }
 }

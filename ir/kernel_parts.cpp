@@ -49,8 +49,8 @@ private:
 
 /// The results in an order in which related results follow each other. A result may share
 /// operations with earlier results: for example, a rate is stored, and the new value is computed
-/// from the same rate. Such a result is moved behind the result that owns the last shared
-/// operation.
+/// from the same rate. Such a result is moved behind the earlier result that computes the last
+/// shared operation.
 std::vector<std::size_t> in_families(const CellKernel& kernel) {
     const std::size_t count = kernel.results.size();
     Walk walk(kernel);

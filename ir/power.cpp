@@ -133,8 +133,8 @@ struct Parity {
 };
 
 Parity parity_of(Expression y) {
-    // For a < 2^23, the sum 2^23 + a has no fractional digits, and its last bit is that of the
-    // integer. From 2^23 to 2^24, the last bit of a is the last bit of the integer. All larger
+    // For a < 2^23, the sum 2^23 + a has no fractional digits, and its last bit is the last bit of
+    // the integer. From 2^23 to 2^24, the last bit of a is the last bit of the integer. All larger
     // numbers are even. In binary64 the bounds are 2^52 and 2^53.
     const double all_whole = std::ldexp(1.0, y.format().fraction_bits);
     const double all_even = 2 * all_whole;

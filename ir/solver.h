@@ -45,7 +45,7 @@ inline bool is_locally_implicit(Solver solver) {
 inline bool is_partly_implicit(Solver solver) {
     return is_semi_implicit(solver) || is_locally_implicit(solver);
 }
-/// Whether steps may be many times as long as those of explicit Euler, because diffusion or the
+/// Whether steps may be many times as long as steps of explicit Euler, because diffusion or the
 /// reaction does not limit them.
 inline bool takes_long_steps(Solver solver) {
     return is_stabilised(solver) || is_partly_implicit(solver);

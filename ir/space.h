@@ -61,7 +61,7 @@ inline constexpr int most_octaves = 12;
 ValueId smooth_noise(KernelBuilder& builder, const Space& space, ValueId scale, int octaves,
                      const Draw& draw);
 
-/// Where a lattice has its seeds.
+/// The positions of a lattice's seeds.
 enum class LatticeKind {
     square,   ///< One seed in the middle of each square of side `spacing`.
     diamond,  ///< Two seeds: at a quarter and at three quarters of both sides (a quincunx).

@@ -3,7 +3,7 @@
 //
 // A form is the part of a sweep that determines the code of its kernel. The planes that the kernel
 // reads and writes, and its coefficients, are arguments. So all sweeps of the same form share a
-// kernel, whatever the time step. Time integrators write forms (solvers/scheme.h), and
+// kernel, even if their time steps differ. Time integrators write forms (solvers/scheme.h), and
 // lang/lower/lower.h turns them into kernels.
 #pragma once
 
@@ -75,7 +75,7 @@ struct SweepForm {
                                        ///< S written species.
     std::vector<SpeciesId> species;    ///< The written species; empty for all.
     /// If true, a value that is at a bound in input 0 and whose rate points beyond the bound stays
-    /// at the bound, whatever the terms are. Needed if terms mix values of several cells.
+    /// at the bound, regardless of the terms. Needed if terms mix values of several cells.
     bool holds = false;
     /// If true, a rate that points beyond the bound at which its value is counts as 0 in outputs of
     /// kind `state`, too. Needed for rates of negative weight, which would otherwise move the value
@@ -88,7 +88,7 @@ struct SweepForm {
     /// derivatives count as 0.
     struct Equations {
         std::vector<SweepTerm> terms;
-        std::uint32_t coefficient = 0;  ///< Which coefficient of the sweep is c.
+        std::uint32_t coefficient = 0;  ///< The index of c among the coefficients of the sweep.
 
         friend bool operator==(const Equations&, const Equations&) = default;
     };
@@ -108,8 +108,8 @@ struct SweepForm {
     friend bool operator==(const SweepForm&, const SweepForm&) = default;
 };
 
-/// How diffusion over a step of length h changes a wave of a rate. By diffusion alone, a wave w
-/// would change at the rate M w with M ≤ 0.
+/// The effect of diffusion over a step of length h on a wave of a rate. By diffusion alone, a wave
+/// w would change at the rate M w with M ≤ 0.
 enum class WaveResponse : std::uint8_t {
     implicit,     ///< Factor 1 / (1 − h M): diffusion is taken at the end of the step.
     exponential,  ///< Factor (exp(h M) − 1) / (h M): diffusion is solved exactly.

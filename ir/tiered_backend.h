@@ -1,10 +1,10 @@
 // Kernels that are interpreted at once and switch to native code when it is ready.
 //
 // Loading a code generator takes longer than a small run. So begin() returns an interpreted kernel.
-// A thread of the backend compiles the kernel meanwhile, and later calls run native code. Both give
-// the same bits, so results do not depend on the moment of the switch. Once a kernel has been
-// interpreted for about as long as its compilation takes, calls wait for its code, because further
-// interpretation would only slow the compiler down.
+// A thread of the backend compiles the kernel meanwhile, and later calls run native code.
+// Interpreted and native code give the same bits, so results do not depend on the moment of the
+// switch. Once a kernel has been interpreted for about as long as its compilation takes, calls wait
+// for its code, because further interpretation would only slow the compiler down.
 #pragma once
 
 #include "ir/backend.h"
@@ -41,7 +41,7 @@ public:
     KernelCounts counts() const override;
     std::string code_identity() const override;
 
-    /// When to compile a kernel. Until it is compiled, it is interpreted.
+    /// The condition for compiling a kernel. Until it is compiled, it is interpreted.
     enum class When : std::uint8_t {
         now,        ///< At once: the kernel will run for long.
         when_used,  ///< Once it has interpreted `cells_worth_compiling` cells. A linked cell counts

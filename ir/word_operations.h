@@ -32,9 +32,9 @@ template <typename Number>
 inline constexpr auto sign_bit =
     static_cast<WordOf<Number>>(format_of(precision_of<Number>).sign());
 
-/// Whether a word is a number other than zero. Compares the word as an integer: a compiler that
-/// sees a number made from a word and compared with 0 may test the bits instead, and take a
-/// denormal for true.
+/// Whether a word is a number other than zero. Compares the word as an integer. If a number is made
+/// from a word and compared with 0, a compiler may test the bits instead, and take a denormal for
+/// true.
 template <typename Number>
 bool is_true(WordOf<Number> word) {
     constexpr WordFormat format = format_of(precision_of<Number>);
