@@ -19,8 +19,8 @@ inline constexpr const char* usual_shape = "ball";
 struct PictureShape {
     std::optional<ShapeForm> form;
     std::string path;     ///< The path of the file as it is written. Empty if `form` is given.
-    Span span;            ///< Where the script names it; empty for the usual shape.
-    double detail = 0.5;  ///< How far facets may deviate from the shape, in pixels.
+    Span span;            ///< The place of the name in the script; empty for the usual shape.
+    double detail = 0.5;  ///< The greatest deviation of facets from the shape, in pixels.
 };
 PictureShape picture_shape(const ast::Script& script, Sources& sources);
 

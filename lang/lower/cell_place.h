@@ -18,8 +18,8 @@ public:
     Space space();
     /// The length, area or volume of the cell in the script's units; 1 for a cell that crawls.
     ValueId content();
-    /// The draw word of the cell's random numbers. `draw` is the step's word, which cells outside
-    /// the first slice change.
+    /// The draw word of the cell's random numbers: the step's word `draw`, changed in all slices
+    /// but the first.
     ValueId draw(ValueId draw);
 
 private:

@@ -37,8 +37,8 @@ class Tensors : public GraphPass {
 };
 
 /// Writes out transport(v, e). Along each axis it is the upwind difference of e plus half of the
-/// upwind difference of limited slopes. So the values at faces are those of the scheme MUSCL: e
-/// plus or minus half of the limited slope, both from the cell from which the flow comes.
+/// upwind difference of limited slopes. So the values at faces are the values of the scheme MUSCL:
+/// e plus or minus half of the limited slope, both from the cell from which the flow comes.
 class Limiters : public GraphPass {
     using GraphPass::GraphPass;
 

@@ -26,7 +26,7 @@ struct Expressions {
     std::vector<std::pair<NodeId, std::size_t>> walls;
 };
 
-/// In which cells expressions are computed.
+/// The cells in which expressions are computed.
 enum class Extent : std::uint8_t {
     domain,  ///< In the cells inside the mask. In all cells if there is no mask.
     grid,    ///< In all cells of the grid, also outside the mask.

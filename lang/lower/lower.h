@@ -24,8 +24,8 @@
 
 namespace cascade {
 
-/// The stage's uniform items in order, except those that need an aggregate. The plan is one pass
-/// without field slots. It may have no results.
+/// The stage's uniform items in order, except for items that need an aggregate. The plan is one
+/// pass without field slots. It may have no results.
 StepPlan plan_uniform_start(const Program& program, std::uint32_t stage);
 
 /// The starting values of all items that plan_uniform_start() does not compute. If a result is
@@ -40,8 +40,8 @@ StepPlan plan_start(const Program& program, std::uint32_t stage, const PlanOptio
 StepPlan plan_step(const Program& program, std::uint32_t stage, const PlanOptions& options = {});
 
 /// One sweep of a time integrator. Result o·S + s is output o of the s-th of the S species that the
-/// sweep writes. Formulas read input 0, the items of the stage (StageItem). Further inputs are read
-/// only in the cell itself.
+/// sweep writes. Formulas read input 0, which contains the items of the stage (StageItem). Further
+/// inputs are read only in the cell itself.
 StepPlan plan_sweep(const Program& program, std::uint32_t stage, const SweepForm& form,
                     const PlanOptions& options = {});
 

@@ -93,7 +93,7 @@ void PassLowering::compute(NodeId id) {
             const Value value = compute_at(id, offset);
             values_.slot(id, offset.number()) = value;
             // Excluded from contraction, because the value is in a plane or may be computed again
-            // where it is read. Both must have the same bits.
+            // where it is read. All copies of it must have the same bits.
             builder_.keep(value[0]);
         });
     }

@@ -18,7 +18,7 @@
 
 namespace cascade::lowering {
 
-/// Where the result of each node is stored.
+/// The place where the result of each node is stored.
 struct Storage {
     IdVector<NodeId, TemporaryId> temporary;           ///< For nodes that a pass writes to a plane.
     IdVector<NodeId, AggregateId> aggregate;           ///< For aggregates.

@@ -81,8 +81,8 @@ private:
         need_beside(last, offsets_of(node, planner_.axes()));
     }
 
-    /// Marks what a component of a vector needs at a face: numbers in the two cells beside it, and
-    /// vectors at the face itself.
+    /// Marks the values that a component of a vector needs at a face: numbers in the two cells
+    /// beside it, and vectors at the face itself.
     struct AtFace {
         NeedFinder& own;
         Face where;

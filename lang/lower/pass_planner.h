@@ -43,8 +43,8 @@ int operations_of(const Node& node);
 /// In the time of this number of operations per cell, a core writes a plane and reads it again,
 /// which moves about twelve bytes per cell.
 inline constexpr int operations_of_writing = 40;
-/// In the time of this number of operations per cell, a core reads a plane, which moves a third of
-/// those bytes.
+/// In the time of this number of operations per cell, a core reads a plane, which moves a third as
+/// many bytes.
 inline constexpr int operations_of_reading = operations_of_writing / 3;
 
 /// The decisions about all nodes of a graph.
@@ -70,7 +70,7 @@ public:
     bool is_plane_in(NodeId node, std::uint32_t pass) const {
         return written_[node] && first_reader(node) <= pass;
     }
-    /// How an operand is provided at the neighbours at which its reader needs it.
+    /// The way in which an operand is provided at the neighbours that its reader needs.
     struct OperandChoice {
         NodeId operand, reader;
         std::uint32_t places = 0;  ///< The largest number of neighbours at which the operand is

@@ -23,14 +23,14 @@ Axes3 beyond_of(const Boundaries& boundary) {
     return {beyond_of(boundary.x), beyond_of(boundary.y), beyond_of(boundary.z)};
 }
 
-/// How the values beyond the two sides of an axis are found. Either both sides are periodic or
+/// The rules for the values beyond the two sides of an axis. Either both sides are periodic or
 /// neither is.
 Beyond beyond_of(SideKind first, SideKind second) {
     if (takes_value(first) || takes_value(second)) return Beyond::itself;
     return first == SideKind::periodic ? Beyond::periodic : Beyond::mirrored;
 }
 
-/// How the values of an item beyond the sides are found, for each axis. The item varies by cell.
+/// The rules for the values of an item beyond the sides of each axis. The item varies by cell.
 Axes3 beyond_of_item(const Program& program, std::uint32_t stage, ItemId item) {
     const SideKinds sides = side_kinds(program, stage, item);
     Axes3 beyond{};
@@ -40,7 +40,7 @@ Axes3 beyond_of_item(const Program& program, std::uint32_t stage, ItemId item) {
     return beyond;
 }
 
-/// How the values of a function of two operands beyond the sides of an axis are found.
+/// The rules for the values of a function of two operands beyond the sides of an axis.
 Beyond together(Beyond a, Beyond b) {
     if (a == Beyond::anything || a == b) return b;
     return b == Beyond::anything ? a : Beyond::itself;

@@ -29,7 +29,8 @@ using SideKinds = std::array<SideKind, side_count>;
 /// have the rules of the domain.
 SideKinds side_kinds(const Program& program, std::uint32_t stage, ItemId item);
 
-/// When random numbers are drawn: anew in every step, or once, for a side, when a stage starts.
+/// The time when random numbers are drawn: in every step or, for a value at a side, once when a
+/// stage starts.
 enum class Draws : std::uint8_t { every_step, once };
 
 class PlanGraph {
@@ -51,7 +52,7 @@ public:
     /// value of the cell beside the side. The plane of such an open node has no halo, and its
     /// values beyond the side are recomputed.
     bool is_open(NodeId id) const;
-    /// How the halo of the node's plane is filled. Not for open nodes.
+    /// The rules that fill the halo of the node's plane. Not for open nodes.
     Boundaries boundary(NodeId id) const;
     /// Whether the node is in a plane from the start: a species, a parameter that varies, a file,
     /// or the metric.
@@ -62,7 +63,7 @@ public:
     /// their index in Stage::definition_sides. Empty for other nodes.
     const DefinitionSides* sides(NodeId id) const;
     std::optional<std::size_t> wall(NodeId id) const;
-    /// Where the node is written in the script. Null if a pass made the node.
+    /// The place of the node in the script. Null if a pass made the node.
     const Origin* origin(NodeId id) const;
     NodeId position(NodeId id) const { return expressions_.graph.written(id).position; }
 

@@ -31,14 +31,14 @@ struct NamedPlane {
     auto operator<=>(const NamedPlane&) const = default;
 };
 
-/// Words that tell which of the neighbouring cells are inside the mask.
+/// Words whose bits mark the neighbouring cells that are inside the mask.
 struct Neighbourhood {
     bool operator==(const Neighbourhood&) const = default;
 };
 
 /// Numbers that the time loop provides when it evaluates rates.
 enum class TimeValue : std::uint8_t {
-    step,    ///< How many steps of the stage have been completed before this step.
+    step,    ///< The number of steps that the stage completed before this step.
     draw,    ///< The word that identifies the step in random numbers (ir/draw_of_step.h).
     time,    ///< The stage's t.
     length,  ///< The length of the step.

@@ -20,7 +20,7 @@ bool is_costly(const PlanGraph& graph, NodeId id) {
     return graph.is_step_invariant(id) && !graph.is_uniform(id) && !graph.is_plane(id);
 }
 
-/// The first nodes, on all paths from the roots to operands, for which is_chosen(node) holds.
+/// On every path from a root to its operands, the first node for which is_chosen(node) holds.
 template <typename Chosen>
 std::vector<NodeId> first_reached(const PlanGraph& graph, std::span<const NodeId> roots,
                                   const Chosen& is_chosen) {

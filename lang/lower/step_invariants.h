@@ -17,8 +17,9 @@ namespace cascade::lowering {
 /// reading of these planes. `roots` are the nodes needed in every step.
 std::vector<NodeId> step_invariant_nodes(const PlanGraph& graph, std::span<const NodeId> roots);
 
-/// All step-invariant nodes that nodes of other kinds read and that vary by cell or are aggregates,
-/// except planes. If these are known, no other node depends on position.
+/// The step-invariant nodes that are read by nodes that change during the stage. Leaves out planes,
+/// and nodes that are the same in all cells unless they are aggregates. If the values of all these
+/// nodes are known, no other node depends on position.
 std::vector<NodeId> largest_step_invariants(const PlanGraph& graph, std::span<const NodeId> roots);
 
 }  // namespace cascade::lowering

@@ -35,7 +35,7 @@ using ResultId = Id<struct ResultTag>;  ///< A result of a plan.
 struct PassTarget {
     std::variant<ResultId, TemporaryId> id;
     bool is_uniform = false;   ///< Whether the result is the same in all cells.
-    Boundaries boundary = {};  ///< How the halo of a temporary or step-invariant is filled.
+    Boundaries boundary = {};  ///< The rules that fill the halo of a temporary or step-invariant.
     /// If the result is a definition that has its own rules at sides: the index of these rules in
     /// Stage::definition_sides. The rules then fill the halo instead of `boundary`.
     std::optional<std::size_t> wall = {};
@@ -54,7 +54,7 @@ struct StepPlan;
 struct Convolution {
     PlaneSource operand;
     TemporaryId target;
-    Boundaries boundary = {};  ///< How the target's halo is filled.
+    Boundaries boundary = {};  ///< The rules that fill the target's halo.
     /// The plan of the weights. It runs on a line of cells, each of which represents one lag
     /// (LagPart).
     std::shared_ptr<const StepPlan> weight;
@@ -63,13 +63,13 @@ struct Convolution {
     std::shared_ptr<const StepPlan> reach;
 };
 
-/// The field u for which e of a constraint `0 = e` is zero. The expression e is L u + b with a
-/// linear operator L. In the plans, Unknown is u, or the field to which L is applied.
+/// The field u that satisfies a constraint `0 = e`. The expression e is L u + b with a linear
+/// operator L. In the plans, Unknown is u, or the field to which L is applied.
 struct Solve {
     TemporaryId target;
     std::uint32_t constraint = 0;  ///< The index of the constraint in Literals.
     std::uint32_t stage = 0;
-    Boundaries boundary = {};                ///< How the target's halo is filled.
+    Boundaries boundary = {};                ///< The rules that fill the target's halo.
     std::optional<std::size_t> wall = {};    ///< See PassTarget::wall.
     std::shared_ptr<const StepPlan> whole;   ///< The plan of e.
     std::shared_ptr<const StepPlan> linear;  ///< The plan of L u.
@@ -94,12 +94,12 @@ struct StepPlan {
     std::uint32_t result_count = 0;
     std::uint32_t temporaries = 0;  ///< The number of planes that passes write for later passes.
     std::uint32_t aggregates = 0;
-    std::uint32_t step_invariants = 0;  ///< How many step-invariants the plan may read.
+    std::uint32_t step_invariants = 0;  ///< The number of step-invariants that the plan may read.
     bool is_uniform = false;            ///< Whether every result is the same in all cells.
     std::string words;                  ///< The passes and the reasons for them, if requested.
 };
 
-/// Which operands of operators are written to a plane (materialised). All other operands are
+/// The choice of operands of operators that are written to a plane (materialised). All others are
 /// recomputed at the neighbours at which they are read. Every choice gives the same bits.
 enum class Materialise : std::uint8_t {
     when_cheaper,  ///< Operands that are cheaper to write and read than to recompute.

@@ -52,7 +52,7 @@ private:
     struct Facts {
         bool is_of_link = false;  ///< Whether it reads a value of the link, or own(e).
         bool stays = false;       ///< Whether it cannot be computed for a neighbour.
-        int operations = 0;       ///< How many operations compute the node from planes.
+        int operations = 0;       ///< The number of operations that compute the node from planes.
         bool read_here = false, read_there = false;
     };
 

@@ -1,4 +1,4 @@
-// Questions about the calls in formulas.
+// Tests of the calls in formulas.
 #pragma once
 
 #include "lang/program/formula.h"

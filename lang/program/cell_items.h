@@ -1,5 +1,5 @@
-// The items and rules that only systems of crawling cells have. For systems of fields the functions
-// answer that there are none.
+// The items and rules that only systems of crawling cells have. For systems of fields, the
+// functions return false or an empty list.
 #pragma once
 
 #include "lang/program/system.h"
@@ -20,7 +20,7 @@ inline bool is_component_of_place(const System& system, ItemId item) {
     return is_component(system, item) && item < system.cells->frame;
 }
 
-/// The same formulas as rules_of(CellRules) gives. Empty for systems of fields.
+/// The formulas that rules_of(const CellRules&) returns. Empty for systems of fields.
 inline std::vector<const Formula*> rules_of(const System& system) {
     return system.cells ? rules_of(*system.cells) : std::vector<const Formula*>();
 }

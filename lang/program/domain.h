@@ -56,7 +56,7 @@ enum class ModelCellKind : std::uint8_t {
     vertices,  ///< One at each vertex of the model.
 };
 
-/// How differences between neighbours are weighted.
+/// The weights of differences between neighbours.
 enum class ModelLaplacian : std::uint8_t {
     finite_volumes,  ///< Voronoi edge length / (distance · area of the cell).
     turk,            ///< Voronoi edge length, scaled so that the weights of a cell add up to 4.
@@ -87,13 +87,13 @@ struct ModelSettings {
     ModelLaplacian laplacian = ModelLaplacian::finite_volumes;
     std::optional<double>
         unit;       ///< The length of one unit. If empty, DomainSettings::detail determines it.
-    Stance stance;  ///< Which axes of the model become y and z of the script.
+    Stance stance;  ///< The axes of the model that become y and z of the script.
     std::optional<DirectionSettings> directions;
     double stretch = 2;  ///< The ratio of length to width of cells along the directions.
     Span span;           ///< The span of the model's name.
 };
 
-/// Which cells the operators of derivatives read on a grid.
+/// The cells that the operators of derivatives read on a grid.
 enum class StencilKind : std::uint8_t {
     cross,      ///< The neighbours along the axes.
     isotropic,  ///< For lap, also the diagonal neighbours.
@@ -106,7 +106,7 @@ struct DomainSettings {
     std::optional<MaskSettings> mask;        ///< If not given, the domain is the whole grid.
     std::optional<SurfaceSettings> surface;  ///< If not given, the grid is flat.
     StencilKind stencil = StencilKind::cross;
-    std::optional<Growth> growth;  ///< For stages that set no lengths of their own.
+    std::optional<Growth> growth;  ///< Applies to stages that do not set lengths themselves.
     std::uint32_t seed = 1;
     Precision precision = Precision::single;  ///< The precision of all numbers of a run.
     bool fast = false;  ///< Whether steps use fewer roundings (ir/contraction.h).

@@ -1,4 +1,4 @@
-// Finds equal nodes by a hash of all members of a node that equal nodes share.
+// Finds equal nodes by a hash of all members in which equal nodes agree.
 #include "lang/program/expression_graph.h"
 
 #include "core/overloaded.h"

@@ -2,8 +2,8 @@
 // before the nodes that read them.
 //
 // All formulas of a system are put into one such graph by calculus, which simplifies them while it
-// builds (lang/calculus/algebra.h), and by lowering, whose passes turn one graph into another
-// (lang/lower/graph_passes.h).
+// builds the graph (lang/calculus/algebra.h), and by lowering, whose passes turn one graph into
+// another (lang/lower/graph_passes.h).
 #pragma once
 
 #include "lang/program/program.h"
@@ -16,7 +16,7 @@
 
 namespace cascade {
 
-/// Where a node was written: the formula, and the position in it.
+/// The place where a node was written: the formula, and the position in it.
 struct Written {
     static constexpr std::uint32_t nowhere = UINT32_MAX;
     std::uint32_t formula = nowhere;  ///< `nowhere` for nodes that are not in the script, such as

@@ -204,7 +204,7 @@ SparseVector FieldVectors::gradient(NodeId of) {
     return parts;
 }
 
-/// Vectors may be deeply nested, so vectors whose components are not known yet wait on a stack.
+/// Vectors may be deeply nested, so vectors whose components are not known yet are put on a stack.
 const SparseVector& FieldVectors::components(NodeId vector) {
     std::vector<NodeId> waiting{vector};
     while (!waiting.empty()) {

@@ -11,7 +11,7 @@
 
 namespace cascade {
 
-/// How the random numbers of a formula are drawn.
+/// The way in which the random numbers of a formula are drawn.
 struct Noise {
     std::string origin;       ///< The name of the item or definition. For a rate, the name of the
                               ///< species with a prime.

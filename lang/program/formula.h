@@ -25,7 +25,8 @@ enum class MetricPlane : std::uint8_t {
 };
 // clang-format on
 inline constexpr std::size_t metric_plane_count = 7;
-/// The names of the planes in dumps. No name of the language begins with a bracket.
+/// The names of the planes in dumps. They differ from all names of the language, because they begin
+/// with a bracket.
 inline constexpr std::array<std::string_view, metric_plane_count> metric_names{
     "(metric 11)", "(metric 12)", "(metric 22)", "(area)", "(flow 11)", "(flow 12)", "(flow 22)"};
 
@@ -186,8 +187,8 @@ inline bool is_nonlocal(const Node& node) { return node.is<Call>() && is_nonloca
 
 using Nodes = IdVector<NodeId, Node>;
 
-/// A checked expression: its nodes in order, operands first. The last node is the whole expression.
-/// Never empty.
+/// A checked expression: a list of nodes in which operands come before the nodes that read them.
+/// The last node is the whole expression. Never empty.
 struct Formula {
     Nodes nodes;
 };

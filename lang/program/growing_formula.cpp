@@ -1,5 +1,5 @@
-// Node by node. A node whose value depends on lengths is followed by a product with scales, or
-// replaced by a sum of such products.
+// Rewrites a formula node by node. If the value of a node depends on lengths, multiplies it by
+// scales, or replaces it by a sum of such products.
 #include "lang/program/growing_formula.h"
 
 #include "lang/vocabulary/function_groups.h"
@@ -84,8 +84,7 @@ NodeId GrowingFormula::scale(std::size_t axis) {
     return *scales_[axis];
 }
 
-/// The value, which is not finite from the moment on at which the domain shrinks to nothing. So
-/// the run ends there.
+/// Makes the value non-finite once the domain has shrunk to nothing, so that the run ends then.
 NodeId GrowingFormula::sound(NodeId value, std::size_t axis) {
     if (is_above_zero(growth_.scale[axis])) return value;
     const NodeId zero = number(0), length = copied(growth_.scale[axis]);
@@ -159,8 +158,8 @@ NodeId GrowingFormula::component(NodeId vector, std::size_t axis) {
     return call(Function::component, {vector, which});
 }
 
-/// A vector whose components are divided by the scales of `axes`, as a product with a tensor, which
-/// has a value at faces, too.
+/// A vector whose components are divided by the scales of `axes`. It is a product with a tensor,
+/// because such a product has values at faces, too.
 NodeId GrowingFormula::scaled_vector(NodeId vector, const std::array<std::size_t, 3>& axes) {
     const auto entry = [&](std::size_t k) {
         return changes(axes[k]) ? inverse(axes[k]) : number(1);

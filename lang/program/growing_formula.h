@@ -21,7 +21,8 @@ public:
     Formula rewritten(const Formula& formula);
     /// rate − dilution · species
     Formula diluted(const Formula& rate, ItemId species);
-    /// The value of a rule at a side across an axis, multiplied or divided by the scale.
+    /// The value of a rule at a side perpendicular to an axis, multiplied or divided (`by`) by the
+    /// scale of lengths along this axis.
     Formula at_side(const Formula& value, std::size_t axis, Function by);
 
 private:
@@ -52,7 +53,8 @@ private:
     bool changes(std::size_t axis) const {
         return !growth_.scale[axis].nodes.back().is(NodeKind(1.0));
     }
-    /// The first axis with more than one cell, whose scale stands for all in uniform growth.
+    /// The first axis with more than one cell. In uniform growth, its scale is the scale of all
+    /// axes.
     std::size_t main_axis() const { return has_axis(0) ? 0 : has_axis(1) ? 1 : 2; }
 
     NodeId scale(std::size_t axis);

@@ -12,7 +12,7 @@ namespace cascade {
 
 namespace {
 
-/// The growth that has stopped at the start of a stage.
+/// The growth with every length fixed at its value at t = 0.
 Growth at_start(Growth growth) {
     for (Formula& scale : growth.scale) {
         scale = {{Node{evaluate(scale, BuiltinValues{})}}};
@@ -99,7 +99,8 @@ private:
             if (!takes_value(setting.kind)) continue;
             setting.value = grown(setting.value);
             if (setting.kind == SideKind::fixed) continue;
-            // The border of a mask has no axis. It is refused if axes grow differently.
+            // The border of a mask has no axis, so its slopes and fluxes are refused if axes grow
+            // differently.
             const std::size_t axis = side < side_count ? side / 2 : main_axis();
             const bool is_slope = setting.kind == SideKind::slope;
             setting.value =

@@ -16,16 +16,16 @@ namespace cascade {
 /// - lengths and contents of the domain, which the checker marks by `(grown)`, are multiplied;
 /// - slopes at sides are multiplied by s, and fluxes divided by s;
 /// - the rate of each species that is not in Stage::undiluted loses dilution · species.
-/// Starting values count with the lengths at t = 0. The stage gets its own copy of its system, and
-/// Growth::written is set to the original system. A rate that other formulas read becomes a
-/// definition, which leaves dilution out.
+/// Starting values are computed with the lengths at t = 0. The stage gets its own copy of its
+/// system, and Growth::written is set to the original system. A rate that other formulas read
+/// becomes a definition without the dilution.
 void let_lengths_grow(Program& program);
 
-/// A formula of a stage, such as a picture, in which lengths grow. Its definitions must be those of
-/// Growth::written.
+/// A formula of a stage, such as a picture, in which lengths grow. Its definitions must be the
+/// definitions of Growth::written.
 Formula with_growth(const Program& program, std::uint32_t stage, const Formula& formula);
 
-/// How long a stage runs if nothing ends it sooner. Empty if this is not known before the run.
+/// The duration of a stage if nothing ends it sooner. Empty if it is not known before the run.
 std::optional<double> known_duration(const Program& program, std::uint32_t stage);
 
 /// The scales of lengths along the axes at the time t of a stage: 1 where they do not change.

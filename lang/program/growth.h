@@ -1,4 +1,4 @@
-// How the lengths of the domain change while a stage runs.
+// The change of the domain's lengths while a stage runs.
 #pragma once
 
 #include "lang/program/formula.h"
@@ -19,7 +19,7 @@ struct Growth {
     /// Whether lengths along all axes with more than one cell grow by the same scale.
     bool is_uniform = true;
     SystemId written;  ///< The stage's system as it is written, whose lengths do not grow.
-    Span span;         ///< Where the script sets the lengths.
+    Span span;         ///< The place where the script sets the lengths.
 };
 
 }  // namespace cascade

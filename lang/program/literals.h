@@ -25,7 +25,7 @@ struct SurfaceValue {
     friend bool operator==(const SurfaceValue&, const SurfaceValue&) = default;
 };
 
-/// How a function of a file reads the file.
+/// The part of a file that a function reads, and how.
 struct FileReading {
     PictureChannel channel = PictureChannel::lightness;
     bool is_direction = false;  ///< Whether the value is the angle of a painted direction.

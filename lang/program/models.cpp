@@ -18,7 +18,7 @@ namespace {
 // rows can be divided evenly among threads.
 constexpr std::int64_t cells_of_row = 512;
 
-/// Why an operator is refused on a model; "" if it has a meaning there.
+/// The reason why an operator is refused on a model; "" if it is allowed.
 std::string_view reason_against(Function function) {
     if (includes(info(function).domains, Domains::model)) return "";
     if (carries(function)) {

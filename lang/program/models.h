@@ -34,8 +34,8 @@ std::string_view word_of(ModelShape shape);
 std::optional<ModelPlane> model_plane_of(Builtin builtin);
 
 /// Reports every function in a formula (of fields or of cells that crawl) that has no meaning on
-/// the domain, such as dxx on a model or distances along the surface on a plane. Returns true if
-/// there is no such function.
+/// the domain. Examples are dxx on a model, and distances along the surface on a plane. Returns
+/// true if there is no such function.
 bool has_meaning_on_domain(const Program& program, const Formula& formula, const System& system,
                            Diagnostics& diagnostics);
 /// Checks all formulas that the program's stages compute.

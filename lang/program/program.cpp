@@ -98,7 +98,7 @@ bool differs_by_cell(const Node& node, bool operand_differs, const Program& prog
                    item_differs({stage, program.system_of(stage).speed_item()});
         },
         [&](Call) {
-            // An aggregate over the domain is one number, whatever its operand is.
+            // An aggregate over the domain is one number for any operand.
             if (info(node.function).is_aggregate) return false;
             return operand_differs ||
                    (varies_by_cell(node.function) && !differentiates(node.function));

@@ -1,6 +1,6 @@
 // The checked program. All names in it are resolved, all arguments are counted, and the order in
 // which values are computed is known. It contains no user errors, so code that reads a program
-// reports no errors and only CHECKs.
+// reports no errors of users and only uses CHECK.
 #pragma once
 
 #include "lang/program/domain.h"

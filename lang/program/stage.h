@@ -14,27 +14,28 @@ namespace cascade {
 /// The time of a stage (spec/time.md).
 struct StageTime {
     Solver solver = Solver::euler;
-    Span solver_span;  ///< Where the script sets the solver, for messages.
+    Span solver_span;  ///< The place of the solver in the script, for messages.
     /// The tolerance that the script gives for steps whose length is chosen. step_tolerance() gives
     /// the value to use.
     std::optional<double> tolerance;
     /// The largest length of steps whose length is chosen.
     std::optional<double> largest_step;
-    Span largest_step_span;  ///< Where the script sets this limit.
+    Span largest_step_span;  ///< The place of this limit in the script.
     /// The value of t at which the stage ends. Empty if `iterations` ends the stage.
     std::optional<double> duration;
     /// If given, the duration is this number times the speed at the start of the stage.
     std::optional<std::int64_t> duration_in_steps;
     double every = 0;  ///< If above 0, a step ends at each multiple, and the stage is observed.
-    Span every_span;   ///< Where `every` was written.
+    Span every_span;   ///< The place of `every` in the script.
     bool open_end = false;  ///< Whether only `until` or the largest number of steps ends the stage.
     bool automatic_speed = false;  ///< Whether steps are as long as stability and accuracy allow.
     std::optional<Formula> until;  ///< A condition that ends the stage. The same in all cells.
     std::optional<double> steady;  ///< Ends the stage when its pattern has settled to this degree.
     std::optional<std::int64_t> check;  ///< The number of steps between two evaluations of `until`.
-    /// The stage first runs on a grid whose cells are wider by this factor. 1 if it does not.
+    /// The stage first runs on a grid whose cells are wider by this factor. 1 if there is no such
+    /// first run.
     std::int64_t coarse = 1;
-    Span coarse_span;  ///< Where the script sets `coarse`.
+    Span coarse_span;  ///< The place of `coarse` in the script.
 
     bool has_duration() const { return duration || duration_in_steps; }
     /// Whether the lengths of steps are chosen while the stage runs.
@@ -64,9 +65,8 @@ struct Founders {
 /// The wavelength that the pattern of a stage should have, written `size: 16`.
 struct StageSize {
     double wanted = 0;  ///< The wavelength in the domain's units.
-    Span span;          ///< Where the script sets the size.
-    /// The number of steps after which the stage ends at the latest, if it has one. The stage may
-    /// end earlier.
+    Span span;          ///< The place of the size in the script.
+    /// The largest number of steps of the stage; 0 if there is no limit. The stage may end earlier.
     std::int64_t steps = 0;
     /// The factor by which lengths in the stage are scaled to reach this size. If it is not 1,
     /// with_lengths() has scaled them.
@@ -84,14 +84,13 @@ struct Stage {
     std::int64_t iterations = 0;      ///< The number of steps. If there is a duration, the largest
                                       ///< number of steps.
     std::int64_t interval = 1;  ///< The number of steps between two outputs, such as pictures of a
-                                ///< film. 0 means `every`, or else a tenth of the
-                                ///< duration.
+                                ///< film. 0 means `every`, or else a tenth of the duration.
     Formula show;
     StageTime time;
     /// For `grid: coarse(…)`: the ratio of the width of the stage's cells to the width of the
     /// domain's cells.
     std::int64_t coarse = 1;
-    Span coarse_span;  ///< Where the script sets `grid: coarse(…)`.
+    Span coarse_span;  ///< The place of `grid: coarse(…)` in the script.
     std::optional<StageSize> size;
     std::optional<Growth> growth;  ///< If empty, lengths do not change.
     /// The species that growth does not dilute, in any order.
@@ -100,9 +99,9 @@ struct Stage {
     IdVector<SpeciesId, SideSettings> sides;
     std::vector<DefinitionSides> definition_sides;  ///< In the order of the definitions.
     // For a stage of cells that crawl.
-    /// `size: 2`: the distance from one cell to the next, twice the radius with which all start, in
-    /// units of the domain; 0: the radii are in lengths of scripts. On a model the run sets the
-    /// starting value of the radius.
+    /// For `size: 2`: the distance from one cell to the next in units of the domain, which is twice
+    /// the starting radius. 0 if the radii are lengths in the script's unit. On a model the run
+    /// sets the starting value of the radius.
     double cell_size = 0;
     std::optional<Founders> founders;  ///< If empty, the stage continues with the cells of the
                                        ///< previous stage of cells.

@@ -13,7 +13,7 @@
 
 namespace cascade {
 
-/// The farthest cell that shifted(e, i, j) reads, along each axis.
+/// The largest distance, in cells along an axis, at which shifted(e, i, j) may read.
 inline constexpr int farthest_shift = 8;
 
 /// The position of a cell relative to another one. Each offset is −1, 0 or 1.

@@ -28,7 +28,7 @@ struct ParameterRange {
 /// A species or a parameter of a system.
 struct Quantity {
     std::string name;  ///< A member of a family has a name such as `u[2]`.
-    Span span;         ///< Where it is declared.
+    Span span;         ///< The place of its declaration.
     bool is_species = false;
     std::string doc;  ///< The text of its doc comment; may be empty.
     std::optional<ParameterRange> range;
@@ -52,7 +52,7 @@ struct Invariant {
 /// Settings of time. A system may set them as defaults, and a stage may replace these.
 struct TimeSettings {
     std::optional<Solver> solver;
-    Span solver_span;  ///< Where the solver is written.
+    Span solver_span;  ///< The place of the solver in the script.
     std::optional<double> tolerance;
     std::optional<double> duration;
     std::optional<bool> automatic_speed;  ///< `speed: auto`; false if `speed` is an expression.
@@ -91,7 +91,7 @@ struct Index {
 struct SideSetting {
     SideKind kind = SideKind::no_flux;
     Formula value;  ///< For fixed, slope and flux. An ItemId is an item of the stage.
-    Span span;      ///< Where the rule is written. Empty for a rule of the domain.
+    Span span;      ///< The place of the rule in the script. Empty for a rule of the domain.
 };
 
 using SideSettings = std::array<SideSetting, wall_count>;

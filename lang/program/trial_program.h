@@ -12,7 +12,7 @@
 
 namespace cascade {
 
-/// Why a size cannot be reached, and what users can do.
+/// The reason why a size cannot be reached, and what users can do.
 struct SizeObstacle {
     Span span;
     std::string message;

@@ -1,6 +1,6 @@
 // Defines the functions of vectors once for all kinds of numbers and vectors.
 //
-// In a cell a vector is three numbers, which are doubles in shapes and terms of a graph elsewhere
+// In a cell a vector is three numbers: doubles in shapes, otherwise terms of a graph
 // (of_components). In systems of fields, vectors can also be flows through faces, slopes or
 // symbols. Such vectors have only sums and multiples (vector_by). field_vectors.h rewrites all
 // other functions as sums and multiples.

@@ -36,8 +36,8 @@ enum class Linear : std::uint8_t { none, each, together, first, last, after_firs
 enum class Behaviour : std::uint8_t { plain, jumps, chooses, partial, divides, raises };
 enum class Contexts : std::uint8_t { any, cells, rates, steps, values, noisy, picture };
 
-/// How many arguments a function takes: a fixed number, either of two numbers, any number in a
-/// range, or groups of a fixed size.
+/// The number of arguments that a function takes: a fixed number, either of two numbers, any number
+/// in a range, or groups of a fixed size.
 struct Arity {
     int least;
     int most;
@@ -114,16 +114,16 @@ inline bool is_comparison(Function function) {
 inline bool is_over_neighbours(Function function) {
     return info(function).kind == FunctionKind::link && info(function).is_reduction;
 }
-/// Whether the function reads its operand in all cells of a neighbourhood, and so is computed on
-/// whole planes.
+/// Whether the function reads its operand in all cells of a neighbourhood. Such a function is
+/// computed on whole planes.
 inline bool is_nonlocal(Function function) { return info(function).kind == FunctionKind::nonlocal; }
 /// Whether the function draws random numbers.
 inline bool is_random(Function function) {
     const FunctionKind kind = info(function).kind;
     return kind == FunctionKind::draw || kind == FunctionKind::pattern;
 }
-/// Whether the function reads its last operand at neighbours. (`div` does not, because it reads at
-/// faces.)
+/// Whether the function reads its last operand at neighbours. (`div` reads its operand at faces
+/// instead.)
 inline bool is_stencil(Function function) {
     const FunctionKind kind = info(function).kind;
     return kind == FunctionKind::derivative || kind == FunctionKind::stencil;

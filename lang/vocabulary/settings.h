@@ -76,8 +76,8 @@ struct SettingInfo {
     std::string_view hint = "";
 };
 const SettingInfo& info(Setting setting);
-/// All rows of the table: first those of `Setting`, in its order, then rows for words that are also
-/// settings of another block.
+/// All rows of the table: first the rows of the settings, in the order of `Setting`, then rows for
+/// words that are also settings of another block.
 std::span<const SettingInfo> setting_rows();
 
 std::optional<Setting> setting_named(std::string_view word);

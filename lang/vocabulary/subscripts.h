@@ -25,7 +25,7 @@ inline constexpr std::size_t most_subscripts = 8;
 /// name means a derivative also depends on the names that the script declares.
 std::optional<SubscriptedName> subscripted_name(std::string_view name);
 
-/// How often each axis occurs, as x, y, z.
+/// The number of times each axis occurs, as x, y, z.
 std::array<std::size_t, 3> orders_along(std::string_view axes);
 
 /// The functions that give the derivative along these axes if each is applied to the result of the

@@ -10,7 +10,7 @@
 
 namespace cascade {
 
-/// Where an unknown word occurs.
+/// The kind of place where an unknown word occurs.
 enum class WordContext : std::uint8_t {
     stage,      ///< `dt: 0.1` in a stage, or in an option such as --set.
     domain,     ///< `size: 100` in the domain

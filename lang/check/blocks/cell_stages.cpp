@@ -16,8 +16,8 @@ namespace cascade::checking {
 
 namespace {
 
-/// The tolerance of positions: a hundredth of a radius. A tenth of this tolerance would take twice
-/// as many steps, but after divisions the cells would be equally many and cover the same area.
+/// The tolerance of positions: a hundredth of a radius. With a tenth of this tolerance, a run takes
+/// twice as many steps, but after divisions the number of cells and their area are the same.
 constexpr double usual_tolerance = 0.01;
 
 constexpr double most_founders = 100'000'000;

@@ -44,7 +44,7 @@ void refuse_in(const Stage& stage, Span span, std::string_view what, std::string
                       std::move(hint));
 }
 
-/// Why a function has no meaning in a domain that grows; null if it has one.
+/// The reason why a node cannot be computed in a domain that grows; null if it can.
 const char* obstacle(const Growth& growth, const Nodes& nodes, const Node& node) {
     if (node.calls(Function::convolve))
         return "where convolve cannot be used, because its "

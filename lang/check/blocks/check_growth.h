@@ -9,8 +9,8 @@
 
 namespace cascade::checking {
 
-/// Cells are at least as long as this, and at most as long as its inverse: the squares of both are
-/// normal numbers.
+/// The least length of a cell. The inverse of this number is the largest length. The squares of
+/// both are normal numbers.
 inline constexpr double least_spacing = 1e-15;
 
 /// Whether a statement of the script may let lengths of the domain change in a stage. The domain

@@ -167,8 +167,8 @@ struct SideChange {
     ast::Statement statement;
 };
 
-/// The change as an override of a side; empty if it is none. `u.left` is a side of u if no stage
-/// and no system is called u.
+/// The change as an override of a side; empty if it is not such an override. `u.left` is a side of
+/// u if no stage and no system is called u.
 std::optional<SideChange> as_side(const Workspace& work, const ast::Override& change) {
     if (!change.statement.side.empty()) return SideChange{change.stage, change.statement};
     const bool may_be = !change.stage.empty() && change.statement.index.empty() &&

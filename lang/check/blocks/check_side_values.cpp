@@ -52,7 +52,8 @@ private:
         return fmt::format("{}.{}", name(species), side_names[static_cast<std::size_t>(side)]);
     }
 
-    /// Reports an error once, although a rule of a system or of the domain applies to many stages.
+    /// Reports an error only once, even if the rule applies to many stages because it belongs to a
+    /// system or to the domain.
     bool report(Span span, std::string message, std::string hint) {
         if (std::ranges::find(reported_, span) == reported_.end()) {
             reported_.push_back(span);

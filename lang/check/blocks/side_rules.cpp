@@ -97,8 +97,7 @@ std::vector<Side> sides_of_word(std::string_view word) {
 
 namespace {
 
-/// The statements in an order in which statements about `sides` come first, because rules for
-/// single sides replace them.
+/// Moves statements about `sides` to the front, because rules for single sides replace them.
 std::vector<const ast::Statement*> in_order(std::span<const ast::Statement> statements) {
     std::vector<const ast::Statement*> ordered;
     for (const ast::Statement& statement : statements) ordered.push_back(&statement);

@@ -129,7 +129,8 @@ void ExpressionChecker::wrong_count(Function function, std::size_t count) {
           std::move(hint));
 }
 
-/// A hint about u(…), where u is a number. The arguments may be those of another cell or time.
+/// A hint about u(…), where u is a number. The arguments may be meant as another cell or another
+/// time.
 std::string ExpressionChecker::hint_of_number(const ast::Call& call) const {
     const auto argument = [&](std::uint32_t k) -> const ast::Expr& {
         return script_.expressions[script_.arguments[call.first_argument + k]];

@@ -50,7 +50,8 @@ constexpr const char* vectors_are(bool in_cells) {
     return in_cells ? "such as p, normal or vector(1, 0, 0)" : "such as grad(e) or vector(ex, ey)";
 }
 
-/// How deeply operators may be nested. Each level of nesting takes a pass over the grid.
+/// The greatest depth to which operators may be nested. Each level of nesting takes a pass over the
+/// grid.
 inline constexpr std::uint32_t most_nested_operators = 32;
 
 /// The nesting depth of the operators in a formula. `of_leaf` gives the depth of its leaves

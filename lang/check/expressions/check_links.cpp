@@ -14,7 +14,7 @@ namespace cascade::checking {
 
 namespace {
 
-/// How other nodes read a node.
+/// The ways in which other nodes read a node.
 struct ReadBy {
     bool by_cell = false;      ///< As the value of the cell.
     bool by_link = false;      ///< As the value of a neighbour, inside a sum over neighbours.

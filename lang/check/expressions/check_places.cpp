@@ -87,8 +87,8 @@ bool is_place(const Node& node) {
     return builtin != nullptr && *builtin <= Builtin::sz;
 }
 
-/// How many operands of a shape, noise or a lattice are places and lengths: the first ones. 0 for
-/// other functions.
+/// The number of operands of a shape, noise or a lattice that are places or lengths. These are the
+/// first operands. 0 for other functions.
 std::size_t places_and_lengths(const Node& node) {
     if (node.calls(Function::noise)) return 1;
     if (node.calls(Function::lattice) || node.calls(Function::diamond)) return 2;

@@ -1,5 +1,5 @@
-// Expands expressions by a stack of tasks, the functions whose bodies are being expanded, and the
-// values of indices. Only for this folder.
+// Expands expressions with three stacks: of tasks, of functions whose bodies are being expanded,
+// and of values of indices. Only for this folder.
 #pragma once
 
 #include "core/diagnostics.h"

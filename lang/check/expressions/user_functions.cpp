@@ -223,7 +223,7 @@ void FunctionTableMaker::report_cycle(const std::vector<std::uint32_t>& cycle) {
         names.emplace_back(table_.functions_[function].definition->name.text);
         has_constant |= table_.functions_[function].definition->is_constant;
     }
-    // Where the first function of the cycle calls the next function, or itself.
+    // The place where the first function of the cycle calls the next function, or itself.
     const ast::Expression body = table_.functions_[cycle[0]].body;
     const std::string& next = names[1 % names.size()];
     Span span = table_.functions_[cycle[0]].definition->name.span;

@@ -325,7 +325,7 @@ void report_not_species(Workspace& work, SystemId index, std::string_view name, 
         if (quantity.is_species) species.push_back(quantity.name);
     }
     std::string hint = did_you_mean(work, name, species);
-    // The parser has made u_t of the u'' in a rate.
+    // The parser has turned the u'' of a rate into u_t.
     const std::string_view of = species_of_rate(name);
     if (std::ranges::find(species, of) != species.end()) {
         hint = fmt::format("{0}'' is a second rate; the second derivative along x is dxx({0})", of);

@@ -52,7 +52,7 @@ struct Workspace {
     std::unordered_map<std::string, std::uint32_t> stages;  ///< By name.
     IdVector<SystemId, IdVector<ItemId, bool>> items_read;
     IdVector<SystemId, IdVector<DefinitionId, bool>> definitions_read;
-    std::size_t names_compared = 0;  ///< How many names have been compared so far to make
+    std::size_t names_compared = 0;  ///< The number of names that have been compared to make
                                      ///< suggestions.
     /// Whether the grid is on a surface. Operators then measure lengths along the surface, and some
     /// operators have no meaning.
@@ -83,8 +83,8 @@ struct Workspace {
 /// can read it.
 bool is_of_each_cell(std::string_view name);
 
-/// Where an expression is written. This determines which names and functions the expression may
-/// contain.
+/// The kind of place where an expression is written. This determines which names and functions the
+/// expression may contain.
 enum class Context : std::uint8_t {
     value,     ///< name: e
     rate,      ///< name' = e and definitions

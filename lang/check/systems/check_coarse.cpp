@@ -14,8 +14,8 @@ namespace {
 constexpr std::int64_t most_coarse = 64;
 constexpr std::int64_t fewest_cells = 4;  // Along an axis of the coarsest grid.
 
-/// Why a domain has no coarser grid, as a text that follows "a coarser grid, "; null if the domain
-/// can have a coarser grid.
+/// The reason why a domain has no coarser grid, as a text that follows "a coarser grid, "; null if
+/// the domain can have a coarser grid.
 const char* obstacle_in(const DomainSettings& domain) {
     return domain.model     ? "but a model has no coarser grid"
            : domain.surface ? "but a surface has no coarser grid"

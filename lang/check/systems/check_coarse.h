@@ -11,7 +11,7 @@
 namespace cascade::checking {
 
 struct Coarse {
-    std::int64_t times = 1;  ///< How many times wider the cells are: a power of two.
+    std::int64_t times = 1;  ///< The factor by which the cells are wider: a power of two.
     Span span;
 };
 

@@ -140,8 +140,8 @@ void SystemChecker::find_unknowns() {
                                        "cells that crawl have no constraints",
                                        "constraints work only for fields: system NAME { … }");
     }
-    // First the constraints that name their field, then the constraints that read their field only
-    // through definitions.
+    // Finds the fields that constraints name, then the fields that constraints read only through
+    // definitions.
     std::erase_if(constraints, [&](Declaration* each) { return find_unknown(*each, false); });
     for (Declaration* each : constraints) find_unknown(*each, true);
 }

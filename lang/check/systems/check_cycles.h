@@ -10,8 +10,8 @@
 namespace cascade::checking {
 
 /// Reports a cycle of values at one of the formulas in it. `from_system[i]` is true if formula i is
-/// a default of the system. The error is reported at another formula if possible, because the
-/// author of the stage wrote the others.
+/// a default of the system. If possible, the error is reported at a formula that is not a default,
+/// because the author of the stage wrote that formula.
 void report_item_cycle(Workspace& work, const System& system,
                        const std::vector<const Formula*>& items,
                        const std::vector<bool>& from_system,

@@ -86,7 +86,8 @@ struct Refusal {
     std::string message, hint;
 };
 
-/// Why a semi-implicit solver cannot compute the steps of a stage in its domain; empty if it can.
+/// The reason why a semi-implicit solver cannot compute the steps of a stage in its domain; empty
+/// if it can.
 std::optional<Refusal> refusal_of_domain(const Program& program, const Stage& stage) {
     const DomainSettings& domain = program.domain;
     const std::string_view solver = name_of(stage.time.solver);
@@ -115,8 +116,8 @@ std::optional<Refusal> refusal_of_domain(const Program& program, const Stage& st
     return std::nullopt;
 }
 
-/// Why a semi-implicit solver cannot compute the steps of a stage with its system; empty if it
-/// can.
+/// The reason why a semi-implicit solver cannot compute the steps of a stage with its system; empty
+/// if it can.
 std::optional<Refusal> refusal_of_system(const Program& program, std::uint32_t number) {
     const Stage& stage = program.stages[number];
     const System& system = program.system_of(number);

@@ -11,7 +11,7 @@
 namespace cascade::checking {
 
 /// The largest number of species for which a kernel solves equations in each cell. The size of such
-/// a kernel, and so its compile time, grows with the third power of the number of species.
+/// a kernel and its compile time grow with the third power of the number of species.
 inline constexpr std::size_t most_species_in_equations = 12;
 
 /// If the stage's solver is implicit in each cell, reports at `span` everything in the stage that

@@ -69,8 +69,8 @@ private:
         const Meaning* meaning = find(names_, name);
         if (meaning == nullptr || !meaning->is_definition()) return;
         const DefinitionId id = std::get<DefinitionId>(meaning->id);
-        // The unknown of a constraint is a number, whatever definitions the constraint reads. So
-        // its type does not depend on these definitions.
+        // The unknown of a constraint is always a number. So its type does not depend on the
+        // definitions that the constraint reads.
         if (is_constraint(definitions_[id])) return;
         reads_[reader.index()].push_back(id.index());
     }
