@@ -68,7 +68,7 @@ public:
         if (begins && !outcome_.ended) lengths_.choose();
         bool going_on = true;
         stepper_.leave_on(control.cancel);
-        // If a step is abandoned, the values are those after the last complete step.
+        // If a step is abandoned, the values of the last complete step remain.
         complete([&] {
             while (going_on && is_to_go_on() && !control.cancel) going_on = batch(control, observe);
         });

@@ -79,9 +79,9 @@ public:
     /// arguments replace the schedule's members of the same names.
     ///
     /// If a check finds a non-finite value, the steps since the last check (at most `check_every`)
-    /// are replayed from the stored copy to find the step and the cell, and `species` then holds
-    /// the last step at which all values were finite. Without a stored copy the check itself names
-    /// a cell, and `species` has the spoiled values.
+    /// are replayed from the stored copy to find the step and the cell. Then `species` holds the
+    /// last step at which all values were finite. Without a stored copy the check itself names a
+    /// cell, and `species` has the spoiled values.
     ///
     /// Reports through `control` at the start, about ten times a second, and at the end of every
     /// call, then with `stage_done` set. The last step of a call is checked unless

@@ -58,7 +58,7 @@ private:
     Pace pace_;
     ThreadTuner thread_tuner_;
     TileTuner tile_tuner_;
-    Clock::time_point began_;       ///< When the present batch began.
+    Clock::time_point began_;       ///< The time at which the present batch began.
     bool is_good_measure_ = false;  ///< Whether the present batch measures the speed of threads.
     Seconds spent_{};               ///< The time in batches so far.
 };

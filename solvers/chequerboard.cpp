@@ -123,7 +123,8 @@ private:
 
     struct Level {
         double cells = 0, mean = 0;
-        /// Whether deviations are only rounding, or small compared to the field's.
+        /// Whether the block's deviations are only rounding errors, or are small compared to the
+        /// deviations of the whole field.
         bool is_uniform = true;
     };
     Level level_of(const Block& block) const {

@@ -16,7 +16,7 @@ namespace {
 /// Limits for grids and for linked cells.
 constexpr int most_iterations_on_grids = 200, most_iterations_on_links = 2000;
 /// The Laplacian is not used as a preconditioner if the Laplacian's part of L is smaller than this
-/// fraction of the rest of L. Both are measured on a field that alternates from cell to cell.
+/// fraction of the rest of L. Both parts are measured on a field that alternates from cell to cell.
 constexpr double least_laplacian = 1e-3;
 /// The number that is subtracted from the Laplacian is rounded to this many binary digits, so that
 /// the Laplacian's factors can be reused when the number changes a little.

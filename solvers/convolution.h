@@ -55,10 +55,10 @@ public:
 
     /// Writes the sums for all cells of a plane into another plane. Planes are given by the
     /// addresses of their cells (0, 0, 0). The first `threads` threads of the team call this, each
-    /// with its number. Begins and ends with a barrier of the team. After the last barrier, all
-    /// threads see the rows of the target, but not its halo. The result is the same bit for bit
-    /// with any number of threads. The work is abandoned when `cancel`, which may be null, becomes
-    /// true.
+    /// with its number. Begins and ends with a barrier of the team. After the last barrier, the
+    /// rows of the target, but not its halo, are visible to all threads. The result is the same bit
+    /// for bit with any number of threads. The work is abandoned when `cancel`, which may be null,
+    /// becomes true.
     void apply(Team& team, int thread, int threads, const Number* from, Number* to,
                const std::atomic<bool>* cancel = nullptr);
 

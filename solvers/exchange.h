@@ -1,10 +1,9 @@
-// Exchanges planes and sums between the parts of a grid, each of which takes its own share of the
-// steps.
+// Exchanges planes and sums between the parts of a grid, which are computed separately.
 //
 // A part of a grid is a range of rows or, if there are several slices, of whole slices. Its cells
 // keep their numbers in the grid (core/grid.h). All parts call the same functions in the same
-// order, each with its own planes. Sums equal those of an undivided grid bit for bit, because the
-// sums of rows are added in the order of rows.
+// order, each with its own planes. Sums equal the sums of an undivided grid bit for bit, because
+// the sums of rows are added in the order of rows.
 #pragma once
 
 #include "core/grid.h"

@@ -1,4 +1,4 @@
-// How an executor says that it cannot go on.
+// The exception by which an executor reports that it cannot continue.
 #pragma once
 
 #include "core/result.h"
@@ -18,8 +18,8 @@ struct ExecutorFailure : std::exception {
     Failure failure;
 };
 
-/// Calls `work`, and returns the failure of an executor that cannot go on; empty if it can.
-/// Where there are no exceptions, as in WebAssembly, executors do not fail.
+/// Calls `work`. Returns the failure if an executor could not continue; else nothing. Where there
+/// are no exceptions, as in WebAssembly, executors do not fail.
 template <typename Work>
 std::optional<Failure> failure_in(const Work& work) {
 #ifdef __cpp_exceptions

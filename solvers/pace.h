@@ -1,5 +1,5 @@
-// How fast a run proceeds. Gives sizes of batches with which the run responds quickly, and the rate
-// and remaining time for the user.
+// The speed of a run. Gives sizes of batches with which the run responds quickly, and the rate and
+// remaining time for the user.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Runs a grid in parts. As processes on several machines would, each part has only its own planes
-// and the halos that it gets from other parts. The time loop sees whole planes.
+// Runs a grid in parts. Each part has only its own planes and the halos that it gets from other
+// parts, as if the parts were processes on several machines. The time loop gets whole planes.
 #include "core/parallel.h"
 #include "solvers/executor.h"
 #include "solvers/pass_runner.h"

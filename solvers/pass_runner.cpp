@@ -18,7 +18,7 @@ namespace {
 /// the band has been written, while its rows are still in the cache.
 template <typename Number>
 std::int64_t rows_of_a_band(const PlaneLayout& layout, std::size_t results) {
-    // How many values fit into a quarter of a MiB.
+    // The number of values that fit into a quarter of a MiB.
     constexpr auto elements_in_cache = static_cast<std::int64_t>(262144 / sizeof(Number));
     return std::max<std::int64_t>(8, elements_in_cache /
                                          (layout.stride * static_cast<std::int64_t>(results)));

@@ -1,8 +1,8 @@
 // Runs the passes of a step on a team of threads, with temporaries, aggregates and the barriers
 // between passes.
 //
-// A *level* is a pass that is bound to planes and to a moment. A worker is the data of one thread.
-// It binds levels and runs them on any rows. run() runs one level after the other.
+// A *level* is a pass that is bound to planes and to a moment. A worker is the data with which one
+// thread binds levels and runs them on any rows. run() runs one level after the other.
 // solvers/tile_runner.h runs several levels together.
 #pragma once
 
@@ -25,7 +25,7 @@
 
 namespace cascade {
 
-/// When a step begins and ends.
+/// The times at which a step begins and ends.
 struct StepMoment {
     std::int64_t complete = 0;  ///< Steps taken before this one.
     double t = 0;               ///< The stage's time when the step begins.
@@ -97,7 +97,7 @@ public:
 
     /// Does one thread's share of a step. All threads of the team in use call it with the same
     /// registers and moment. When it returns, this thread's rows of the results are written and
-    /// their halo is filled. After another barrier of the team, every thread sees them.
+    /// their halo is filled. After another barrier of the team, they are visible to every thread.
     void run(Worker& worker, Team& team, Registers registers, const StepMoment& moment);
 
     /// Runs all passes once. The threads of the team share the rows.
@@ -129,8 +129,8 @@ public:
     const PlaneLayout& layout() const { return layout_; }
 
 private:
-    /// The cells whose values a kernel copies to the halo columns; nullopt if a side has a value of
-    /// its own.
+    /// The cells whose values a kernel copies to the halo columns; nullopt if the rule of a side
+    /// gives a value.
     static std::optional<HaloColumns> copied_columns(const SideRules& sides, std::int64_t width);
     /// Whole planes, on which the root of all parts does the computations that need all cells.
     struct WholeGrid;

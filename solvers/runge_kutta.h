@@ -15,7 +15,7 @@ struct ButcherTableau {
     /// The error is step · Σ error[j] k_j. This sum has one term more than the sum with `b`: the
     /// last k is the rate at the new step. Empty if the method has no estimate.
     std::vector<double> error;
-    /// The factors of Scheme::curve, by rate as in `error`. May be empty.
+    /// The factors of Scheme::curve, in the order of the rates in `error`. May be empty.
     std::vector<double> curve = {};
 };
 

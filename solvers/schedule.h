@@ -1,4 +1,4 @@
-// Which steps a time loop takes, and how often it checks and observes them.
+// The steps that a time loop takes, and how often it checks and observes them.
 #pragma once
 
 #include "core/plane.h"
@@ -39,7 +39,7 @@ struct StepChoice {
 /// controller. If `rejected` is true, the step chosen last was too long.
 using StepChooser = std::function<StepChoice(std::int64_t step, TimeState& time, bool rejected)>;
 
-/// Which steps to take, and how often to check and observe them.
+/// The steps to take, and how often to check and observe them.
 struct Schedule {
     std::int64_t first_step = 0;  ///< Number of complete steps so far (more than 0 after a resume).
     std::int64_t last_step = 0;   ///< Stop when this number of steps is complete.
@@ -54,8 +54,8 @@ struct Schedule {
     /// The length of all other steps, unless they are chosen.
     double fixed_step = 0;
     /// The interval of observations: `observe` is called at multiples of this number of steps. If
-    /// it is 0, `observe` is called at the first step that reaches a mark, two marks, and so on: a
-    /// multiple of `every`, or else a tenth of the end time.
+    /// it is 0, `observe` is called at the first step that reaches each further mark. Marks are the
+    /// multiples of `every`, or else tenths of the end time.
     std::int64_t interval = 0;
     /// Returns the first moment to observe after t, or infinity. The loop observes at the last
     /// complete step before that moment and at the step after it. It shortens no step to reach the
@@ -72,8 +72,8 @@ struct Schedule {
     /// Set if the steps before `first_step` are unknown, for example if a run continues with other
     /// equations. `choose` is then called at `first_step`, too.
     bool begins_anew = false;
-    /// If above 0, errors are estimated: for all steps, or for those that `choose` selects. A step
-    /// whose error exceeds this fraction of the values is repeated with a shorter length.
+    /// If above 0, errors are estimated: for all steps, or for the steps that `choose` selects. A
+    /// step whose error exceeds this fraction of the values is repeated with a shorter length.
     double tolerance = 0;
     /// The largest length of any step.
     double largest_step = std::numeric_limits<double>::infinity();

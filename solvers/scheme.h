@@ -38,9 +38,9 @@ struct Scheme {
     /// If set, sweep 0 writes only the first rate, and the last sweep writes the last rate. In a
     /// step that follows another, the two registers are swapped and sweep 0 is left out.
     std::optional<RateRegisters> rate_registers;
-    /// What raises the order of the curve through a step above Hermite's: after the fraction θ of
-    /// the step, it adds θ² (1 − θ)² · step · Σ factor · rate. Empty if the method has no such
-    /// term.
+    /// A term that raises the order of the curve through a step above the order of Hermite's cubic.
+    /// At the fraction θ of the step, the term is θ² (1 − θ)² · step · Σ factor · rate. Empty if
+    /// the method has no such term.
     std::vector<CurveRate> curve;
 
     RegisterId add_register() { return RegisterId(registers++); }

@@ -1,4 +1,5 @@
-// The schemes as lists of sweeps. Each evaluates rates, or adds a filter's results to the old step.
+// Writes the schemes as lists of sweeps. Each sweep evaluates rates, or adds a filter's results to
+// the old step.
 #include "solvers/semi_implicit.h"
 
 #include <utility>

@@ -5,20 +5,20 @@
 
 namespace cascade {
 
-/// What a time loop decides by the clock, before each batch of steps.
+/// The decisions that a time loop makes by the clock before each batch of steps.
 struct LoopDecision {
     std::int64_t steps = 0;     ///< The number of steps in the batch.
     bool is_looked_at = false;  ///< Whether the values after the batch are checked and observed.
     bool is_kept = false;       ///< Whether the state after the batch is saved.
 };
 
-/// What an executor agrees on with executors in other processes that share the steps.
+/// Makes executors in several processes that share the steps decide alike.
 class SharedSteps {
 public:
     virtual ~SharedSteps() = default;
 
     /// Called in all processes before a batch of steps. Returns the decision of the first process.
-    /// May set the flag that cancels the run, then in all processes.
+    /// If it sets the flag that cancels the run, it does so in all processes.
     virtual LoopDecision agree(LoopDecision own) = 0;
 };
 

@@ -6,8 +6,8 @@ namespace cascade {
 /// Statistics of a constraint's solutions.
 struct SolveReport {
     int most_iterations = 0;
-    /// The norm of the residual, divided by the norm that the constraint has if its field is 0. The
-    /// largest of all solutions.
+    /// The norm of the residual, divided by the norm of the constraint with the field 0: the
+    /// largest such quotient of all solutions.
     double largest_rest = 0;
     /// The mean of the constraint if its field is 0, divided by the root mean square. No field can
     /// balance this mean. Set only for fields to which any constant may be added.

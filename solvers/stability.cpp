@@ -5,9 +5,9 @@
 // changes no eigenvalue. Plain iteration finds the eigenvalue of largest magnitude. If it is
 // positive, iterating with J − c, where c > 0 is its magnitude, moves the spectrum to the left and
 // finds the most negative eigenvalue. Eigenvalues are computed from the last three iterates w, Jw,
-// JJw: least squares fit p and q in JJw + p Jw + q w = 0, and the roots of λ² + pλ + q = 0 are the
-// eigenvalues. This covers a single leading eigenvalue and a leading pair, real or complex (J. H.
-// Wilkinson, "The Algebraic Eigenvalue Problem", 1965, chapter 9).
+// JJw. A least-squares fit gives p and q in JJw + p Jw + q w = 0. The roots of λ² + pλ + q = 0 are
+// the eigenvalues. This covers a single leading eigenvalue and a leading pair, real or complex (J.
+// H. Wilkinson, "The Algebraic Eigenvalue Problem", 1965, chapter 9).
 #include "solvers/stability.h"
 
 #include "core/check.h"

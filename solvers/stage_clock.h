@@ -57,9 +57,9 @@ struct TimeState {
     /// The state of the controller, for steps with an estimated error.
     StepControl::State control;
     // The members from here on are for steps of chosen length.
-    double least_step = 0;         ///< A step as short as this is accepted, whatever its error.
+    double least_step = 0;         ///< A step as short as this is accepted with any error.
     std::int64_t next_judged = 0;  ///< The number of the next step whose error is estimated.
-    std::int64_t stretch = 1;      ///< How many steps after that the error is estimated again.
+    std::int64_t stretch = 1;      ///< The number of steps between two error estimates.
     std::int64_t bounded_at =
         -1;  ///< Complete steps when `bounds` were computed; −1 if bounds are unknown.
     RateBounds bounds;

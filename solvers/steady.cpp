@@ -17,8 +17,8 @@ constexpr double rise_of_a_formation = 3;
 
 /// If the progress never rose, the pattern existed when the stage began, or it is fading. Then it
 /// has settled if its speed would change it by at most this fraction of its contrast until the
-/// stage is twice as old. Noise that fades by diffusion may hide a growing pattern. Its progress
-/// stays above 0.35 of its contrast.
+/// stage is twice as old. Noise that fades by diffusion may hide a growing pattern. The progress of
+/// such noise stays above 0.35 of its contrast.
 constexpr double little_progress = 0.1;
 
 /// Part of the root mean square that is added to the contrast. The deviation of a flat field is

@@ -32,8 +32,9 @@ public:
     /// or less near the end of a stage. Accepts the step, and returns true, if the error is at most
     /// 1. Rejects NaN and infinity.
     bool judge(double taken, double error);
-    /// After an accepted step that was cut to end at a mark, its small error must not count as a
-    /// trend: the next step follows the state before it, `tried`.
+    /// Must be called after an accepted step that was cut to end at a mark. The small error of such
+    /// a step must not count as a trend, so the next step follows from `tried`, the state before
+    /// it.
     void forget_cut(const State& tried);
 
 private:

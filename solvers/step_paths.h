@@ -31,7 +31,7 @@ private:
     std::vector<double> lengths_;
 };
 
-/// How two paths from one state differ.
+/// The difference between two paths from one state.
 struct PathDifference {
     double coarse = 0, fine = 0;  ///< Lengths of the paths of long and of short steps.
     double apart = 0;             ///< Distance of their ends, as a root mean square over the cells.

@@ -60,7 +60,7 @@ struct StepProblem {
         static constexpr double next_step = -1;
     };
 
-    /// How to find the field that satisfies a constraint `0 = e` (solvers/constraint_solver.h).
+    /// The way to find the field that satisfies a constraint `0 = e` (solvers/constraint_solver.h).
     /// Each problem below writes its result to its last temporary. The problems read the registers
     /// of the enclosing problem, `unknown`, and the planes `constant`.
     struct Solve {
@@ -105,7 +105,7 @@ struct StepProblem {
         std::vector<Convolution> convolutions;  ///< Done in order before the reductions.
         std::vector<Reduction> reductions;      ///< Done before the kernel runs.
         std::optional<SweepFilter> filter;  ///< Done after the reductions, before the kernel runs.
-        /// What the kernel computes; null if only its executable form is known.
+        /// The kernel as instructions; null if only its executable form is known.
         std::shared_ptr<const CellKernel> source;
         /// Runs the pass. Null in a problem that is only described (bind_plan()) and never runs.
         KernelPointer kernel;
@@ -130,7 +130,8 @@ struct StepProblem {
     std::optional<RegisterId> error_register;  ///< Holds an estimate of the step's error.
     /// The number of passes at the start that only write the first rate register, with the rates at
     /// the old step. The last rate register gets the rates at the new step. After a step, the two
-    /// registers are swapped and those passes are left out. 0 if the scheme has no rate registers.
+    /// registers are swapped, and these first passes are left out. 0 if the scheme has no rate
+    /// registers.
     std::size_t first_rate_passes = 0;
     std::optional<RateRegisters> rate_registers;
     std::vector<CurveRate> curve;  ///< See Scheme::curve.
@@ -171,8 +172,8 @@ struct StepProblem {
     SideRules sides_of(SpeciesId species) const {
         return sides.empty() ? SideRules(grid.boundary) : sides[species.index()];
     }
-    /// The rules of sides_of(), with values at sides computed for a moment as far as the halo cells
-    /// that depend on `cells` need them; see set_side_values().
+    /// The rules of sides_of(), with the values at sides that set_side_values() computes for a
+    /// moment.
     SideRules sides_of(SpeciesId species, SideMoment moment, const SpeciesPlanes& present,
                        const Patch& cells) const {
         SideRules rules = sides_of(species);

@@ -63,10 +63,10 @@ public:
     bool is_finite() { return executor_->is_finite(roles_.current); }
 
     /// Tries one step of a problem with an error register. Returns the error of the step in units
-    /// of the tolerance: for each species, the root mean square of the error is divided by the root
-    /// mean square of the new values and by `tolerance`, and the largest of these quotients counts.
-    /// NaN if an error or a new value is not finite. The caller must then call accept(), or undo
-    /// the step by set_roles() with the earlier roles.
+    /// of the tolerance. For each species, the root mean square of the error is divided by the root
+    /// mean square of the new values and by `tolerance`. The largest of these quotients counts. NaN
+    /// if an error or a new value is not finite. The caller must then call accept(), or undo the
+    /// step by set_roles() with the earlier roles.
     double attempt(std::int64_t complete, double tolerance);
     /// Accepts the step just tried. Its last rates become the first rates of the next step.
     void accept();

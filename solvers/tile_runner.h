@@ -10,9 +10,9 @@
 // depend on each other.
 //
 // Kernels write beyond the last column of a row. If columns wrap, the cells there are copies of the
-// first column, so the first and the last column must belong to one layer: layer 0 also has the
-// columns that are left over when all layers have the same width. If columns do not wrap, the last
-// layer has the columns left over.
+// first column, so the first and the last column must belong to one layer. Therefore layer 0 also
+// has the columns that are left over when all layers have the same width. If columns do not wrap,
+// the last layer has the columns left over.
 #pragma once
 
 #include "core/parallel.h"
@@ -41,8 +41,8 @@ public:
     int phases() const { return (outer_.borders() > 0 ? 2 : 1) * (inner_.borders() > 0 ? 2 : 1); }
 
     /// Runs levels 0 … `levels` − 1 of all workers, which must have bound the same levels. All
-    /// threads of the team in use call it. After the next barrier of the team, every thread sees
-    /// the results.
+    /// threads of the team in use call it. After the next barrier of the team, the results are
+    /// visible to every thread.
     void run(PassRunner::Worker& worker, Team& team, int levels) const;
 
 private:

@@ -1,6 +1,6 @@
-// Chooses a tiling by measured times. The fastest tiling depends on more than the sizes of caches,
-// so a run that is long enough takes some of its steps with each of a few tilings, by turns in
-// several rounds, and continues with the fastest. Results do not depend on the tiling.
+// Chooses a tiling by measured times. The fastest tiling depends on more than the sizes of caches.
+// So a run that is long enough tries a few tilings: in several rounds, it takes some steps with
+// each of them in turn. Then it continues with the fastest. Results do not depend on the tiling.
 //
 // The first tiling in use is chosen by the sizes of caches, or is the result of an earlier run.
 // Another tiling replaces it only if the other tiling was clearly faster in every round. A tiling
@@ -37,7 +37,7 @@ public:
     const Tiling& tiling() const { return candidates_[current_]; }
 
     bool is_trying() const { return is_trying_; }
-    /// Why this tiling is in use, in words; empty before trials end.
+    /// The reason why this tiling is in use, in words; empty before trials end.
     std::string how_found() const;
 
     /// The number of sweeps (passes of steps) in a batch while tilings are tried. It is a fraction
@@ -77,7 +77,7 @@ private:
     double rested_seconds_ = 0;  ///< Seconds of steps since the last trials, or since the start.
     double seconds_per_sweep_ = never;  ///< Seconds per sweep in the fastest batch since the last
                                         ///< trials, or since the start.
-    double patience_ = 1;               ///< How many times rarer trials are than at first.
+    double patience_ = 1;               ///< The factor by which trials are rarer than at first.
     int round_ = 0;
     std::int64_t sweeps_of_turn_ = 0;
     std::vector<Tried> tried_;  ///< The remaining candidates, beginning with the choice by size.

@@ -21,8 +21,8 @@ constexpr std::size_t few_results = 8;
 // The fraction of a cache that the levels of a tile share. The rest of the cache is for data that
 // the levels use only once.
 constexpr double part_of_second = 0.6, part_of_third = 0.5;
-// The number of layers in use in addition to one per level. They are the layers around it that a
-// level reads.
+// The number of layers in use in addition to one per level: the neighbouring layers that a level
+// reads.
 constexpr std::int64_t layers_besides = 3;
 // More levels than this hardly save anything.
 constexpr int enough_levels = 16;
@@ -32,8 +32,8 @@ constexpr int levels_in_bands = 8;
 // With fewer rows than this, threads and tiles share columns. The levels of a tile of rows, which
 // shrink by a layer at both ends, would soon be empty.
 constexpr std::int64_t few_rows = 2 * enough_levels;
-// The least width of layers of columns. In narrower layers a row does not repay the cost of its
-// loop.
+// The least width of layers of columns. In narrower layers, starting the loop over a row costs too
+// much time.
 constexpr std::int64_t least_columns = 64;
 
 /// The bytes that the layers of a tile may take.
@@ -48,8 +48,8 @@ int levels_in(double bytes, std::int64_t layer_bytes) {
     return static_cast<int>(std::clamp<std::int64_t>(layers - layers_besides, 1, enough_levels));
 }
 
-/// Whether a level finds its data in the second-level cache. A level reads what the previous level
-/// has just written, and overwrites older values.
+/// Whether a level finds its data in the second-level cache. A level reads values that the previous
+/// level has just written, and overwrites older values.
 bool is_near(std::int64_t layer_bytes, const CacheSizes& caches) {
     return (1 + layers_besides) * layer_bytes <= caches.second;
 }

@@ -1,5 +1,5 @@
-// How the steps of a problem pass through memory: the number of levels run at once, and the size of
-// layers.
+// The order in which the steps of a problem pass through memory: the number of levels run at once,
+// and the size of layers.
 #pragma once
 
 #include "core/cache_sizes.h"
@@ -15,7 +15,7 @@ namespace cascade {
 /// slices. A layer consists of several rows, slices or columns, so that a kernel call is worth its
 /// cost.
 struct Tiling {
-    /// What a layer of the outer axis consists of.
+    /// The parts of the grid that form a layer of the outer axis.
     enum class Along : std::uint8_t {
         slices,   ///< Whole slices, or whole rows if there is one slice.
         rows,     ///< The same rows of all slices.

@@ -1,4 +1,4 @@
-// How diffusion damps waves (internal to solvers/).
+// The damping of waves by diffusion (internal to solvers/).
 #pragma once
 
 #include "ir/diffusion.h"

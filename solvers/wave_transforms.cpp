@@ -68,7 +68,7 @@ std::vector<Number> second_differences(const AxisWaves& waves, std::int64_t cell
     return values;
 }
 
-/// sin(the phase from cell to cell)/h: the factor, over i, by which the central difference
+/// sin(the phase from cell to cell)/h: the factor, divided by i, by which the central difference
 /// multiplies each wave of a periodic axis. 0 for other axes, where the central difference turns
 /// waves into other waves.
 template <typename Number>
@@ -83,7 +83,7 @@ std::vector<Number> first_differences(const AxisWaves& waves, std::int64_t cells
     return values;
 }
 
-/// The factor by which a transform followed by its inverse multiplies.
+/// The factor by which a transform followed by its inverse multiplies values.
 double gain_of(const AxisWaves& waves, std::int64_t cells) {
     return static_cast<double>(cells) * (waves.is_periodic ? 1 : 2);
 }
