@@ -108,7 +108,8 @@ private:
         return text;
     }
 
-    /// The fractions of a map that its classes have: "of the pairs, 40 % are Turing, 60 % stable".
+    /// The fraction of the map that each class covers, as text: "of the pairs, 40 % are Turing, 60
+    /// % stable".
     std::string shares() const {
         std::vector<std::optional<Stability>> classes = map_->classes;
         std::sort(classes.begin(), classes.end());

@@ -3,7 +3,7 @@
 
 namespace cascade {
 
-/// How long the frames of a film are shown.
+/// The durations of the frames of a film.
 struct FilmRequest {
     double frames_per_second = 0;  ///< 0: computed from `seconds`, or 10 if that is 0, too.
     double seconds = 0;            ///< The duration of the whole film. 0: computed from the rate.

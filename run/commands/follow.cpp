@@ -1,4 +1,4 @@
-// Finds the first steady state, follows it, and writes what was found.
+// Finds the first steady state, follows it, and writes the branches.
 #include "run/commands/follow.h"
 
 #include "analysis/stage_analysis.h"
@@ -18,7 +18,8 @@ namespace cascade::continuation {
 
 namespace {
 
-/// If translations must make up for more than this part of the rates, the grid holds the pattern.
+/// If translations must balance more than this fraction of the rates, the grid keeps the pattern
+/// from moving.
 constexpr double most_drift = 1e-7;
 
 class BranchRun {
@@ -71,7 +72,8 @@ Result<void> BranchRun::find_what_varies() {
         return failure("--save keeps states of a first stage only",
                        "the table has the numbers of all states");
     }
-    // With any numbers for constants, this finds what is not supported before the run.
+    // Finds parts that are not supported before the run. The values of constants do not matter
+    // here.
     const auto trial = problem_with([](const Formula&) { return std::vector{1.0}; });
     if (!trial) return tl::unexpected(trial.error());
     return {};
@@ -151,7 +153,7 @@ Scales BranchRun::scales_of(const Vector& state) const {
     for (Index k = 0; k < state.size(); ++k) squares[k % count] += state[k] * state[k];
     squares *= static_cast<double>(count) / static_cast<double>(state.size());
     const double largest = squares.maxCoeff();
-    // Values near 0 have no size.
+    // Values that are all near 0 give no scale.
     if (largest < 1e-12) squares.setOnes();
     squares = squares.cwiseMax(0.0025 * largest);
     Scales scales{Vector(state.size()), 0};

@@ -20,9 +20,9 @@ struct FollowRequest {
     std::optional<VariedRange> varied;  ///< Must be given.
     bool from_flat = false;    ///< Whether the first state is flat, and not the end of the run.
     double step = 0.05;        ///< The longest step, in parts of the range and of usual values.
-    std::size_t points = 400;  ///< The most points of a branch on each side of its first.
+    std::size_t points = 400;  ///< The most points on each side of a branch's first point.
     std::size_t branches = 1;  ///< The most branches.
-    std::string up;            ///< What the diagram shows upwards. Empty: the norm of a species.
+    std::string up;            ///< The number on the vertical axis. Empty: the norm of a species.
     /// Tables (.csv) and diagrams. If empty, SCRIPT_branches.csv and SCRIPT_branches.svg.
     std::vector<std::filesystem::path> outputs;
     std::filesystem::path save;  ///< The folder of states as saved runs. Empty: none.
@@ -39,7 +39,8 @@ struct FollowReport {
 
 /// Runs the stages up to the requested one, finds a steady state near the end of the run, and
 /// follows it. Fails before the run if the stage cannot have steady states, or has parts that are
-/// not supported. After a cancel, what was found is written. The script must have double precision.
+/// not supported. After a cancel, the states found so far are written. The script must have double
+/// precision.
 Result<FollowReport> follow_branches(Script& script, const FollowRequest& request,
                                      RunControl& control);
 

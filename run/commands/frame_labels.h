@@ -11,8 +11,8 @@
 
 namespace cascade {
 
-/// The words of `--label`: "stage" for the name of the stage, and expressions or features like
-/// those of `--log`.
+/// The words of `--label`: "stage" for the name of the stage, and expressions or features as in
+/// `--log`.
 class FrameLabels {
 public:
     /// Errors in the expressions are added to `script.diagnostics`.
@@ -24,7 +24,7 @@ public:
 
 private:
     std::vector<std::string> words_;
-    UniformNumbers numbers_;  ///< The values of those words that are expressions.
+    UniformNumbers numbers_;  ///< The values of the words that are expressions.
 };
 
 }  // namespace cascade

@@ -52,8 +52,8 @@ Result<StageEnd> Runner::run_stage(std::uint32_t k) {
     return end;
 }
 
-/// Whether a run that ends now would lose no computed values, unless the first stage takes a step:
-/// the stage then sets `may_end` to false. Stages of cells that crawl do not set it.
+/// Whether ending the run before its first step loses no computed values. Later, the first step of
+/// a stage of fields sets `may_end` to false. A stage of cells that crawl does not.
 bool Runner::has_nothing_to_lose() const {
     return request_.resume.empty() && !is_of_cells(*simulation_->domain(0).program, 0);
 }

@@ -41,8 +41,8 @@ struct RunResults {
     SeriesWriter* series;  ///< Null without --series.
     RunReport& report;     ///< Receives the paths of files.
 
-    /// What is written before pictures, whose drawing may fail or be interrupted: the saved run
-    /// and, after a cancel, all numbers.
+    /// The outputs that are written before pictures, because drawing may fail or be interrupted:
+    /// the saved run and, after a cancel, all numbers.
     struct Early {
         Result<void> saved, numbers;
         bool has_numbers = false;
@@ -61,7 +61,7 @@ private:
     /// empty, and a note in the report says that `what` was left out and which part had been drawn.
     std::optional<Image> drawn(const Canvas& canvas, const std::string& what,
                                const std::filesystem::path& path);
-    /// A flag that Ctrl-C sets or, if the run has already been cancelled, the need to end soon.
+    /// The flag that stops drawing. Ctrl-C sets it or, after a cancel, the need to end soon.
     const std::atomic<bool>& stop() const {
         return report.status == RunStatus::cancelled ? control.hurry : control.cancel;
     }

@@ -86,7 +86,7 @@ private:
     std::vector<std::filesystem::path> earlier_frames_;
     std::optional<RunLog> log_;
     std::unique_ptr<SeriesWriter> series_;
-    double marks_seen_ = 0;  ///< How many marks of the stage had passed when
+    double marks_seen_ = 0;  ///< The number of marks of the stage that had passed when
                              ///< frame_is_due() was last called.
     /// The stage of the last moment in the series, and its step or time.
     std::optional<std::pair<std::uint32_t, double>> last_in_series_;

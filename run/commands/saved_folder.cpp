@@ -81,7 +81,7 @@ bool is_array_of_a_stage(const nlohmann::json& manifest, std::string_view name) 
     });
 }
 
-/// The names of the files of a saved run, as far as they exist in the folder.
+/// The names of the files of a saved run that exist in the folder.
 std::vector<std::string> files_of(const nlohmann::json& manifest, const Descriptor& folder) {
     std::vector<std::string> names = names_in(folder);
     const bool is_listed = manifest.contains("files");
@@ -203,7 +203,8 @@ int SavedFolderChange::replace_manifest(const nlohmann::json& manifest) {
     if (const int error = file.write(text)) return error;
     if (const int error = file.rename_to(manifest_name)) return error;
     is_committed_ = true;
-    // Even if the machine crashes, no other rename may reach the disk before that of run.json.
+    // Even if the machine crashes, no other rename may reach the disk before the rename of
+    // run.json.
     return ::fsync(folder) == 0 || errno == EINVAL ? 0 : errno;
 }
 

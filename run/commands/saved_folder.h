@@ -31,7 +31,7 @@ public:
     FolderLock(const std::filesystem::path& folder, bool shared);
     const Descriptor& folder() const { return folder_; }
     bool is_held() const { return is_held_; }
-    /// Whether another process still held the lock after that time.
+    /// Whether the constructor gave up because another process held the lock.
     bool is_refused() const { return is_refused_; }
 
 private:
@@ -51,8 +51,8 @@ struct SavedFile {
 
 class SavedFolderChange {
 public:
-    /// Locks the folder, which must exist, and removes what a killed writer has left. Fails if
-    /// run.json does not belong to a saved run.
+    /// Locks the folder, which must exist, and removes the files that a killed writer has left.
+    /// Fails if run.json does not belong to a saved run.
     static Result<std::unique_ptr<SavedFolderChange>> begin(const std::filesystem::path& folder);
     /// Removes the new files unless commit() has succeeded.
     ~SavedFolderChange();

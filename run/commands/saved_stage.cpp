@@ -278,7 +278,7 @@ Result<void> read_cells(ArrayReader& arrays, const nlohmann::json& manifest,
     return {};
 }
 
-/// How the values of stages of one kind are saved.
+/// The format in which the values of stages of one kind are saved.
 struct SavedKind {
     std::vector<std::string_view> arrays;  ///< Besides the arrays of items.
     std::string_view (*second_array)(

@@ -98,7 +98,7 @@ private:
     std::optional<SweepError> stopped_by_;
 };
 
-/// Chooses the number of concurrent runs, as far as the threads and the free memory allow.
+/// Chooses the largest number of concurrent runs that the threads and the free memory allow.
 Result<void> Sweeper::choose_workers(std::size_t waiting) {
     const int threads =
         request_.simulation.threads > 0 ? request_.simulation.threads : hardware_threads();

@@ -23,7 +23,7 @@
 
 namespace cascade {
 
-/// A share of the runs of a sweep, as nearly equal as possible: runs `number` − 1, `number` − 1 +
+/// One of `count` nearly equal parts of the runs of a sweep: runs `number` − 1, `number` − 1 +
 /// `count`, … Several processes can take the parts of one sweep in one folder at the same time.
 struct SweepPart {
     std::size_t number = 1;  ///< From 1 to `count`.
@@ -111,8 +111,8 @@ Image draw_sweep(const std::vector<std::optional<SweepResult>>& results,
                  const std::vector<Variation>& varied, const PictureRequest& picture,
                  bool has_mask);
 
-/// Writes sheet.png and features.csv to the folder, if the seed is varied ensembles.csv
-/// (ensemble.h), and the requested curves and film. Returns the paths of the files. `cancel` stops
+/// Writes sheet.png, features.csv, and the requested curves and film to the folder. If the seed is
+/// varied, also writes ensembles.csv (ensemble.h). Returns the paths of the files. `cancel` stops
 /// only the film.
 Result<std::vector<std::filesystem::path>> write_sweep(
     const Script& script, const SweepRequest& request, const std::filesystem::path& folder,

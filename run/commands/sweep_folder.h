@@ -10,8 +10,8 @@ namespace cascade {
 /// cannot be written there.
 Result<void> prepare_folder(const std::filesystem::path& folder);
 
-/// The result of a run that the folder stores, or a gathered folder from which it is then copied.
-/// Empty if the run must be taken. Fails if the copy cannot be written.
+/// The result of a run, if the folder or a gathered folder has it. A result of a gathered folder is
+/// copied to the folder. Empty if the run must be taken. Fails if the copy cannot be written.
 Result<std::optional<SweepResult>> earlier_result(const SweepRequest& request,
                                                   const std::filesystem::path& folder,
                                                   const PlannedRun& run);

@@ -31,7 +31,7 @@ Planned check_picture(Script script, const SweepRequest& request) {
     return tl::unexpected(std::move(error));
 }
 
-/// How the grid is varied, which no --set can change; "" for other names.
+/// A hint on how to vary the grid, which no --set can change; "" for other names.
 std::string_view hint_of_domain(std::string_view name) {
     if (name == "grid") return "write let n = 64 and grid: n, n in the script, and --vary n=32,64";
     return "";
@@ -89,7 +89,7 @@ Result<void> check_curves(const SweepRequest& request) {
     return {};
 }
 
-/// Checks what a part, and a sweep that gathers results, leave out.
+/// Refuses outputs that a part of a sweep, or a sweep that gathers results, cannot write.
 Result<void> check_division(const SweepRequest& request, std::size_t runs) {
     if (request.part.count > runs) {
         return failure(fmt::format("{} parts are too many for the {} runs of the sweep",

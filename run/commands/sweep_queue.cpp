@@ -103,7 +103,7 @@ std::vector<SweepQueue::Taken> SweepQueue::serve() {
     return taken;
 }
 
-/// On rank 0: does what a message asks for.
+/// On rank 0: answers a message.
 void SweepQueue::answer(const Messenger::Letter& letter, std::vector<Taken>& taken) {
     std::string_view text = words_of(letter);
     const char kind = text.front();
@@ -124,7 +124,7 @@ void SweepQueue::answer(const Messenger::Letter& letter, std::vector<Taken>& tak
     }
 }
 
-/// On other ranks: does what rank 0 says.
+/// On other ranks: obeys a message of rank 0.
 void SweepQueue::obey(const Messenger::Letter& letter) {
     std::string_view text = words_of(letter);
     const char kind = text.front();

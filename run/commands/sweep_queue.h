@@ -47,8 +47,9 @@ public:
     /// Sends and receives messages. Only one thread may call this and has_finished(), and must do
     /// so often. Returns the results that other ranks have sent.
     std::vector<Taken> serve();
-    /// Called repeatedly after the threads of this process have ended. Returns true when all other
-    /// ranks have ended their runs, or when rank 0 knows that this rank has.
+    /// Called repeatedly after the threads of this process have ended. On rank 0, returns true when
+    /// all other ranks have ended their runs. On another rank, returns true when rank 0 has
+    /// confirmed that this rank has ended its runs.
     bool has_finished();
 
 private:
@@ -65,7 +66,7 @@ private:
     std::set<int> busy_;               ///< On rank 0: the other ranks that have not ended.
     bool is_over_ = false;             ///< Whether there are no more runs.
     bool is_cancelled_ = false;
-    bool has_told_ = false;  ///< Whether the others know that the runs are cancelled or ended.
+    bool has_told_ = false;  ///< Whether the end of the runs, or their cancel, was announced.
     bool is_released_ = false;
 };
 

@@ -25,8 +25,8 @@ std::string print_carried_model(const ModelCells& model);
 /// Fails if the bytes are incomplete or describe no model.
 Result<CarriedModel> parse_carried_model(std::string_view bytes);
 
-/// Makes the cells of a program's domain. The result is the same as that of make_model_cells() for
-/// this mesh.
+/// Makes the cells of a program's domain. make_model_cells() would return the same result for this
+/// mesh.
 std::shared_ptr<const ModelCells> link_carried_model(const Program& program, CarriedModel model);
 
 }  // namespace cascade

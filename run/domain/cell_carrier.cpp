@@ -6,8 +6,8 @@
 //
 // The first sum alone would make the maxima of waves too low. Extrapolation from each cell along
 // its gradient would make them too high by as much. In the mean of both, the errors by the
-// curvature of f cancel, and so do the errors by its slope if the cells around p are not
-// distributed evenly.
+// curvature of f cancel. If the cells around p are not distributed evenly, the errors by the slope
+// of f cancel, too.
 #include "run/domain/cell_carrier.h"
 
 #include "core/counted_cells.h"
@@ -53,8 +53,9 @@ void visit_cells(const Grid& grid, const Visit& visit) {
     }
 }
 
-/// A copy of the plane in which cells near the mask have values, too. They are filled in rounds,
-/// from the border outwards. Each cell gets the mean over its neighbours that already have a value.
+/// A copy of the plane in which cells near the mask have values, too. These cells are filled in
+/// rounds, from the border outwards. Each cell gets the mean over its neighbours that already have
+/// a value.
 template <typename Number>
 Plane<Number> continued(const Plane<Number>& plane, const Grid& grid, const Mask& inside) {
     Plane<Number> result = plane.clone();

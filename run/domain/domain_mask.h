@@ -25,7 +25,7 @@ struct DomainMask {
 /// the language, denormal numbers count as 0.
 DomainMask make_domain_mask(const Field& values, const Grid& grid);
 
-/// The cells that do not change: those outside the mask and those in `frozen` (null: none).
+/// The cells that do not change: cells outside the mask, and cells in `frozen` (null: none).
 Mask still_cells(const DomainMask& mask, const Mask* frozen);
 
 /// A copy of a field with `value` in every cell outside the mask.

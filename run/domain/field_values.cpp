@@ -13,8 +13,8 @@ namespace cascade {
 
 namespace {
 
-/// The value inside the mask for which beats(value, other) is true for every other value. Of equal
-/// values the first. NaN if a value is NaN.
+/// The value inside the mask for which beats(value, other) is true for every other value. If
+/// several values are equal, the first. NaN if a value is NaN.
 template <typename Beats>
 double extreme(const Field& field, const DomainMask* mask, const Beats& beats) {
     return field.visit([&](const auto& plane) -> double {

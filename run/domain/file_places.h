@@ -28,9 +28,9 @@ using FilePlace = std::array<double, 3>;
 double number_at_place(const std::vector<double>& values, std::array<std::int64_t, 3> sides,
                        const FilePlace& place);
 
-/// How much a position in a picture changes along the surface or grid: for a short step to the
-/// right, and for an equally long step downwards (surface/cell_frames.h). Only the ratio of the
-/// changes is used, so the length of the steps does not matter.
+/// The changes of a position in a picture along the surface or grid: for a short step to the right,
+/// and for an equally long step downwards (surface/cell_frames.h). Only the ratio of the changes is
+/// used, so the length of the steps does not matter.
 struct FileSlopes {
     FilePlace right{}, down{};
 };

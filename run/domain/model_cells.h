@@ -75,7 +75,7 @@ private:
     mutable Links links_with_gradients_;
 };
 
-/// Which files a model may be read from.
+/// The files from which a model may be read.
 struct ModelAccess {
     std::filesystem::path folder;  ///< Relative paths start at this folder.
     ReadAccess reads;
@@ -112,7 +112,7 @@ struct ModelBox {
 Field field_of_cells(std::span<const double> values, const ModelCells& model, Precision precision);
 
 /// in_one_row() converts a plane to a single row with the cells in their own order, as in files.
-/// Its inverse is below. Both include the unused positions at the end of the last row.
+/// in_rows() is the inverse. Both include the unused positions at the end of the last row.
 Field in_one_row(const Field& field, const ModelCells& model);
 Field in_rows(const Field& one_row, const ModelCells& model);
 

@@ -27,7 +27,7 @@ namespace cascade {
 
 namespace {
 
-/// Stands for the time of the last use of values that the script reads, so that these values are
+/// The time of the last use of values that the script reads. It is so late that these values are
 /// never deleted.
 constexpr std::int64_t always = std::numeric_limits<std::int64_t>::max();
 

@@ -44,7 +44,7 @@ public:
     /// Must be called before the formulas of a picture or a stroke are evaluated, which happens
     /// many times a second. Such formulas may name new positions each time. So a value that make()
     /// has not computed is deleted if none of the last `evaluations_kept` evaluations has read it.
-    /// If the formulas only compare a distance with numbers, it is computed only as far as those
+    /// If the formulas only compare a distance with numbers, it is computed only as far as these
     /// comparisons need.
     void prepare(std::span<const Formula* const> formulas);
     /// The number of stored values.

@@ -47,7 +47,7 @@ private:
     Stance stance_;
 };
 
-/// Facets in files are as fine as those in a picture with this height in pixels.
+/// Facets in files are as fine as facets in a picture with this height in pixels.
 constexpr double pixels_of_files = 200, detail_of_files = 0.5;
 
 /// The objects in a picture, in the coordinates of the model's file.

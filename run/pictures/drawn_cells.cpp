@@ -27,7 +27,8 @@ namespace cascade {
 
 namespace {
 
-/// The longest edge of facets. It is no limit, because facets only have to follow the shape.
+/// The longest edge of facets. It is so long that it limits nothing, because facets only have to
+/// follow the shape.
 constexpr double longest_facet = 2 * largest_of_shape;
 
 /// The numeric settings of the picture block that apply to every shape.

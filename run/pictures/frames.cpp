@@ -179,7 +179,7 @@ Result<Canvas> FrameRecorder::read_back(const Frame& frame, std::vector<Field> p
     return canvas;
 }
 
-/// The number of threads for whose data half of the free memory has room, at most `threads`. Each
+/// The number of threads, at most `threads`, whose data fit into half of the free memory. Each
 /// thread needs a picture and the input of its encoder.
 int FrameRecorder::threads_for(const Painter& painter, int threads) const {
     // A picture of a surface, or a smooth picture, is drawn by all threads together.

@@ -71,7 +71,7 @@ private:
         std::int64_t step = 0;
         std::string label;
         std::size_t planes = 1;
-        /// Which of the extra_planes() follow the fields in the file.
+        /// The planes of extra_planes() that follow the fields in the file.
         std::bitset<2 + material_parts> extras;
         PlaneLayout layout;
         std::int64_t place = 0;  ///< The position of its values in the file, in bytes.

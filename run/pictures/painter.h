@@ -38,8 +38,8 @@ struct Canvas {
     /// null.
     std::shared_ptr<const DrawnCells> cells = nullptr;
     /// The surface of a volume that is drawn as a body, in the script's unit of length. The fields
-    /// are then one row with the values at its points. It has no points if the body is empty. Null
-    /// if no body is drawn.
+    /// are then one row with the values at the points of the surface. The surface has no points if
+    /// the body is empty. Null if no body is drawn.
     std::shared_ptr<const SurfaceMesh> body = nullptr;
     bool is_colour() const { return fields.size() == 3; }
     /// The number that heights and the range refer to. Null if there are only colours.

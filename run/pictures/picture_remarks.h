@@ -19,8 +19,9 @@ std::string remark_on_picture(Painter& painter, const Simulation& simulation, co
 std::string remark_on_look(const Painter& painter, const Simulation& simulation,
                            const Canvas& canvas);
 
-/// A remark if the picture block describes a material and the picture shows a body, which has none,
-/// or if numbers of the material of a surface or a model are outside of 0 … 1. Otherwise empty.
+/// A remark if the picture block describes a material but the picture shows a body, which has none.
+/// Also a remark if the material of a surface or a model has numbers outside of 0 … 1. Otherwise
+/// empty.
 std::string remark_on_material(const Script& script, const Canvas& canvas);
 
 }  // namespace cascade

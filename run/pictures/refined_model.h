@@ -14,9 +14,9 @@ namespace cascade {
 RefinedMesh refined_for_colours(const SurfaceMesh& mesh, const SurfaceCells& cells);
 
 /// Raises the refined mesh `fine` along the smooth normals of `mesh`. `heights` has a height for
-/// each cell, in lengths of the mesh. They are filtered before use. The positions in `fine` refer
-/// to `mesh`. Heights that are not finite count as 0 at points near their cells. The result does
-/// not depend on the number of threads. Throws std::bad_alloc.
+/// each cell, in lengths of the mesh. These heights are filtered before use. The positions in
+/// `fine` refer to `mesh`. Heights that are not finite count as 0 at points near their cells. The
+/// result does not depend on the number of threads. Throws std::bad_alloc.
 RefinedMesh raised_model(RefinedMesh fine, const SurfaceMesh& mesh, const CellFilter& filter,
                          std::span<const float> heights, Team& team);
 

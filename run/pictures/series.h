@@ -28,14 +28,14 @@ std::vector<float> numbers_of_cells(const Field& field, const ModelCells& model)
 Result<void> write_volume(const std::filesystem::path& path, const Simulation& simulation,
                           const std::map<std::string, std::string>& texts = {});
 
-/// The time from the start of the run to the present moment of the shown stage.
-/// NaN if `speed` varies.
+/// The time from the start of the run to the present moment of the shown stage. NaN if
+/// `speed` varies.
 double time_since_start(const Simulation& simulation);
 
 /// Fields for a series. They can be computed at any moment of a run.
 struct SeriesFields {
     std::vector<std::string> names;
-    std::vector<std::string> expressions;  ///< What the fields are, as texts.
+    std::vector<std::string> expressions;  ///< The expressions of the fields.
     /// Texts for formats that hold them, such as the script.
     std::map<std::string, std::string> texts;
     /// Returns a field for each name, in all cells of the domain. A field is empty if its name has

@@ -41,7 +41,7 @@ SweptSurface surface_of(const ShapeForm& form, std::span<const double> values, d
     return surface_of(std::move(tube));
 }
 
-/// How the values of a quantity are rounded.
+/// The rounding of the values of a quantity.
 struct Rounding {
     double low = 0, high = 0, step = 0;
 

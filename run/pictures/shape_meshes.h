@@ -30,9 +30,9 @@ struct QuantityValues {
 };
 
 /// Shapes that many cells share. To that end, values of quantities are clamped to their ranges and
-/// rounded: to the step of the range, or else to 1/16 of the range, or, without a range, to 1/16 of
-/// the difference between the largest and the smallest value. The rounding unit is doubled until
-/// there are at most `most` shapes.
+/// rounded. The rounding unit is the step of the range or, if it has no step, 1/16 of the range.
+/// Without a range, it is 1/16 of the difference between the largest and the smallest value. This
+/// unit is doubled until there are at most `most` shapes.
 struct SharedShapes {
     std::vector<ShapeValues> shapes;
     /// For each cell, the index of its shape. `none` if a value of the cell is not finite.

@@ -1,5 +1,5 @@
-// Writes what a picture shows to the files of option `-o` that other programs read as models: a
-// model, crawling cells, a body or a plane.
+// Writes the content of a picture (a model, crawling cells, a body or a plane) to the files of
+// option `-o` that other programs read as models.
 #pragma once
 
 #include "core/result.h"

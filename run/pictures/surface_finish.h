@@ -21,8 +21,7 @@ struct GridMaterial {
     /// The unit of the heights, in the lengths of the surface's function. If empty, it is the side
     /// of a square with the mean area of a cell.
     std::optional<double> unit = {};
-    std::int64_t detail =
-        1;  ///< Into how many cells each cell of the script is divided along a side.
+    std::int64_t detail = 1;  ///< The number of parts of each cell of the script along a side.
 };
 
 /// Gloss, emitted light, opacity and bumps where a ray hits the surface. Numbers are interpolated

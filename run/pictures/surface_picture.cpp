@@ -41,8 +41,7 @@ std::vector<std::uint32_t> cut_holes(TriangleMesh& mesh, const Image& texture) {
     return numbers;
 }
 
-/// Interpolates between those of four texels that are visible. Returns `otherwise` if none is
-/// visible.
+/// Interpolates between the visible ones of four texels. Returns `otherwise` if none is visible.
 Colour mix_of_seen(const std::array<std::pair<Colour, float>, 4>& texels, const Colour& otherwise) {
     Colour sum{};
     float weights = 0;

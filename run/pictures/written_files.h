@@ -1,4 +1,4 @@
-// What the writers of models, cells and maps report.
+// The results that the writers of models, cells and maps return.
 #pragma once
 
 #include <filesystem>

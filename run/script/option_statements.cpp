@@ -1,5 +1,5 @@
-// Options with a syntax of their own, such as --grid 64x32 and --mesh horse.ply, become nodes of
-// the syntax tree directly. The values of other options are parsed as expressions.
+// Options with a special syntax, such as --grid 64x32 and --mesh horse.ply, become nodes of the
+// syntax tree directly. The values of other options are parsed as expressions.
 #include "run/script/option_statements.h"
 
 #include "lang/program/models.h"

@@ -60,7 +60,8 @@ T& filled(std::optional<T>& value) {
     return value ? *value : value.emplace();
 }
 
-/// How a value is written and read. `read` returns false if the JSON or the value is invalid.
+/// The functions that write and read a value. `read` returns false if the JSON or the value is
+/// invalid.
 template <typename Write, typename Read>
 struct Stored {
     Write write;

@@ -28,8 +28,8 @@ namespace cascade {
 
 namespace {
 
-// Reads the files that a script names in `use "file.cascade"` or `use "table.csv"`. They contain
-// systems and functions.
+// Reads the files that a script names in `use "file.cascade"` or `use "table.csv"`. These files
+// contain systems and functions.
 
 constexpr std::size_t most_files = 1000;
 

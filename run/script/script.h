@@ -33,7 +33,7 @@ struct Overrides {
     /// Path and text of all files with systems and functions that the script uses and that could be
     /// read. With these texts a picture can be drawn again without the files.
     std::vector<std::pair<std::string, std::string>> used;
-    ReadAccess reads;   ///< Which files the script may read. Not stored in pictures and saved runs.
+    ReadAccess reads;   ///< The files that may be read. Not stored in pictures and saved runs.
     bool fast = false;  ///< Whether steps are computed with fewer roundings.
     /// A model that replaces the domain: the path of a file, or the name of a built-in shape.
     std::optional<std::string> model;
@@ -82,7 +82,8 @@ struct Script {
     std::string messages(bool colour) const;
     /// The last stage that takes a step, or the last stage if no stage takes one.
     std::uint32_t final_stage() const;
-    /// The number of stages that run: all stages, or those up to `until_stage` if that is given.
+    /// The number of stages that run: all stages or, if `until_stage` is given, the stages up to
+    /// it.
     std::uint32_t stage_count() const;
 };
 

@@ -20,7 +20,7 @@ std::string portable_path(const std::string& path);
 std::filesystem::path find_script_folder(const std::filesystem::path& saved,
                                          const std::string& name, const std::string& text);
 
-/// The first file of this name in these two folders, unless one of them has this text.
+/// The first file of this name in these two folders. Empty if a file of this name has this text.
 std::optional<std::filesystem::path> find_edited_script(const std::filesystem::path& saved,
                                                         const std::string& name,
                                                         const std::string& text);

@@ -18,8 +18,8 @@ Script with_text(const Script& old, const std::string& text);
 /// invalid.
 Script with_number(const Script& script, const SetNumber& number);
 
-/// The script at the end of a session, with `options` added. The session is not repeated, so no
-/// change is refused that would be refused if it were.
+/// The script at the end of a session, with `options` added. The session is not repeated, so the
+/// result includes changes that a repetition would refuse.
 Script script_at_end(const SessionLog& log, const std::filesystem::path& folder,
                      const Overrides& options);
 

@@ -131,11 +131,11 @@ private:
 };
 
 /// Gives the stored cells to a started stage of a changed program. Each quantity takes the values
-/// of the stored quantity of the same name. A quantity is computed from the start instead, at the
-/// present positions of the cells, if no values are stored, or if it is a parameter that was not
-/// painted and for which the start now gives other values than in `before` (may be null). A value
-/// that restarts at divisions is only changed by divisions. Fails if a quantity has neither a value
-/// nor a start.
+/// of the stored quantity of the same name. If no values are stored, a quantity is computed from
+/// the start instead, at the present positions of the cells. So is a parameter that was not
+/// painted, if the start now gives it other values than in `before` (may be null). A value that
+/// restarts at divisions is only changed by divisions. Fails if a quantity has neither a value nor
+/// a start.
 Result<void> go_on_with_cells(Simulation& simulation, const Simulation* before, std::uint32_t stage,
                               const KeptStage& kept, const StageMoment& moment) {
     return CellChange(simulation, stage, kept).make(before, moment);

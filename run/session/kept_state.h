@@ -38,22 +38,21 @@ struct KeptState {
 /// stage.
 KeptState keep(const Simulation& simulation, const std::vector<PaintedNames>& painted);
 
-/// How a simulation continues from a stored state.
+/// The way in which a simulation continues from a stored state.
 enum class Continuation {
     same,     ///< With the same program, and with the same bits as without interruption.
     changed,  ///< With a changed program, which chooses lengths of steps anew.
 };
 
-/// Starts those stages of `simulation` that have a counterpart in `state`, and gives them its
-/// values. No stage may have been started. The counterpart is the stage of the same name, or the
-/// stage at the same index if it was renamed.
-/// Parameters are computed anew unless they were painted. Species take the values of the species of
-/// the same name, or else their starting values. If the current stage has taken no step, it is
-/// restarted and only painted values are taken over. At most `count` stages are started.
-/// Crawling cells also keep their values of parameters, unless the start would give other values
-/// than in `before`, the simulation from which `state` comes (may be null).
-/// Returns the painted names of each started stage. Fails if a stage cannot be started, if cells
-/// lack a value, or if `cancel` becomes true while a stage is started.
+/// Starts the stages of `simulation` that have a counterpart in `state`, and gives each the values
+/// of its counterpart. No stage may have been started. The counterpart is the stage of the same
+/// name, or the stage at the same index if it was renamed. Parameters are computed anew unless they
+/// were painted. Species take the values of the species of the same name, or else their starting
+/// values. If the current stage has taken no step, it is restarted and only painted values are
+/// taken over. At most `count` stages are started. Crawling cells also keep their values of
+/// parameters, unless the start would give other values than in `before`, the simulation from which
+/// `state` comes (may be null). Returns the painted names of each started stage. Fails if a stage
+/// cannot be started, if cells lack a value, or if `cancel` becomes true while a stage is started.
 Result<std::vector<PaintedNames>> go_on(Simulation& simulation, const Simulation* before,
                                         const KeptState& state, Continuation how,
                                         const std::atomic<bool>& cancel,

@@ -103,7 +103,8 @@ void LiveRun::forget_old_values() {
             if (moment.values) bytes += moment.values->bytes();
             if (bytes > undo_memory_) moment.values.reset();
             // Texts and logs cannot be computed again. So if they need too much memory, the whole
-            // moment is deleted, and so are values that the log cannot repeat.
+            // moment is deleted. A moment without values is also deleted if the log cannot compute
+            // them again.
             const bool is_lost = is_resumed_ && !moment.values;
             other += moment.text.size() + moment.log.text.size() +
                      moment.log.changes.size() * sizeof moment.log.changes[0];

@@ -269,8 +269,8 @@ Accepted<void> LiveRun::make(const NextStage&, RunControl& control) {
 }
 
 void LiveRun::add_to_log(const Change& change, RunPlace at) {
-    // A slider sets the same number many times. Of several values at the same step only the last
-    // counts, and only that is logged. There are two exceptions. After strokes all are logged,
+    // A slider sets the same number many times. If it sets several values at the same step, only
+    // the last one counts and is logged. There are two exceptions. After strokes all are logged,
     // because a uniform number removes painted values for good. In a stage of crawling cells all
     // are logged, because a number that changes and changes back replaces the cells' own values.
     const bool has_strokes =

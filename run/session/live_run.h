@@ -38,8 +38,8 @@ public:
     /// Starts the first stage of a checked script. Refused if the script has no stage.
     static Accepted<std::unique_ptr<LiveRun>> begin(Script script, const SimulationOptions& options,
                                                     RunControl& control);
-    /// Starts from the values that `restore` sets in a simulation of the script, for example
-    /// those of a saved run.
+    /// Starts from the values that `restore` sets in a simulation of the script, for example the
+    /// values of a saved run.
     static Accepted<std::unique_ptr<LiveRun>> resume(
         Script script, const SimulationOptions& options, RunControl& control,
         const std::function<Result<void>(const Script&, Simulation&)>& restore);

@@ -39,7 +39,7 @@ tl::unexpected<Refusal> refuse(Script script, std::optional<Failure> failure) {
     Refusal refused;
     refused.diagnostics = std::move(script.diagnostics);
     refused.sources = std::move(script.sources);
-    // The messages already say everything that the failure would.
+    // The failure would only repeat the messages.
     if (!refused.diagnostics.has_errors()) refused.failure = std::move(failure);
     return tl::unexpected(std::move(refused));
 }

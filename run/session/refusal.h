@@ -10,7 +10,7 @@
 
 namespace cascade {
 
-/// Why a change was refused: messages about a text, a failure, or both.
+/// The reason why a change was refused: messages about a text, a failure, or both.
 struct Refusal {
     Diagnostics diagnostics;
     Sources sources;  ///< The sources of the diagnostics.

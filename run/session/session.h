@@ -1,4 +1,4 @@
-// Runs a LiveRun in its own thread. Commands go in, and the newest snapshot comes out.
+// Runs a LiveRun in its own thread. Other threads post commands and read the newest snapshot.
 #pragma once
 
 #include "run/session/turns.h"

@@ -28,9 +28,9 @@ struct SessionLog {
 /// Prints the log as text, for parse_session_log().
 std::string print_session_log(const SessionLog& log);
 
-/// These print the parts of that text, from which open_log.h builds a growing log: the lines before
-/// the changes, the changes from number `first` on, and a line with a moment. `at` is the last
-/// moment that was printed, and is updated.
+/// The following functions print the parts of that text, from which open_log.h builds a growing
+/// log: the lines before the changes, the changes from number `first` on, and a line with a moment.
+/// `at` is the last moment that was printed, and is updated.
 std::string print_session_beginning(const SessionLog& log);
 std::string print_logged_changes(const SessionLog& log, std::size_t first,
                                  std::optional<RunPlace>& at);
@@ -46,7 +46,8 @@ inline constexpr std::uint64_t largest_session_log = std::uint64_t{512} << 20;
 /// last line is dropped.
 Result<SessionLog> parse_session_log(std::string_view text);
 
-/// Whether a text begins like a log. Its first `longest_log_beginning` bytes are enough to tell.
+/// Whether a text begins like a log. The first `longest_log_beginning` bytes of the text are enough
+/// for this test.
 bool is_session_log(std::string_view text);
 inline constexpr std::size_t longest_log_beginning = 64;
 

@@ -1,6 +1,6 @@
 // Makes a live run execute commands, take a few steps at a time, and make snapshots. A Session
-// calls these functions in a separate thread. Without threads, as in a browser's worker, the
-// caller does.
+// calls these functions in a separate thread. Without threads, as in a browser's worker, the caller
+// of the Turns calls them.
 #pragma once
 
 #include "core/run_control.h"
@@ -61,7 +61,7 @@ struct Snapshot {
     std::vector<StageProgress> stages;
     double steps_per_second = 0;  ///< Measured recently. 0 while unknown.
     bool can_undo = false, can_redo = false;
-    std::string failure;  ///< Why the run stopped by itself. Empty if it did not.
+    std::string failure;  ///< The reason why the run stopped by itself. Empty if it did not.
     /// Remarks on ended stages, and warnings. The newest come last.
     std::vector<std::string> remarks;
     /// The values to show, in binary32: one field for a number, or red, green and blue. For a

@@ -18,8 +18,8 @@ namespace {
 constexpr double rounding_of_moments = 1e-6;
 
 /// The weights of the values and slopes at both ends of a step in Hermite's cubic, at the fraction
-/// `s` of the step, and the weight of the quartic term, which changes none of these four. Slopes
-/// and the quartic term are multiplied by the length of the step.
+/// `s` of the step, and the weight of the quartic term, which changes neither values nor slopes at
+/// the ends. Slopes and the quartic term are multiplied by the length of the step.
 struct HermiteWeights {
     double before, after, slope_before, slope_after, quartic;
 

@@ -18,9 +18,9 @@ namespace cascade {
 /// Between the two ends of a step, each value follows Hermite's cubic curve through the values and
 /// rates at both ends, whose error is of fourth order in the length of the step. A solver may add a
 /// quartic term, with which the error is of fifth order (Scheme::curve). If rates contain random
-/// numbers, values follow straight lines instead. So does a value that changes too fast at an end
-/// of a long step for a cubic, which would swing far beyond both ends. A value that is the same at
-/// both ends is constant in between.
+/// numbers, values follow straight lines instead. A value also follows a straight line if it
+/// changes so fast at an end of a long step that a cubic would swing far beyond both ends. A value
+/// that is the same at both ends is constant in between.
 class BetweenSteps {
 public:
     /// Moments are counted from the present state, which must be a complete step. `view` and

@@ -1,4 +1,5 @@
-// Rows of a list of diagnoses: when each applies, what is measured, and how it is described.
+// Rows of a list of diagnoses. A row says when its diagnosis applies, what is measured, and how the
+// finding is described.
 #pragma once
 
 #include <span>

@@ -139,8 +139,8 @@ Result<void> find_mask(Environment& here, Script& script, const RunControl& cont
     return failure("the domain has no cells");
 }
 
-/// Makes what evaluates formulas of the program: the values of a model (`cells` may be null), the
-/// ground of crawling cells, sizes, and the mask.
+/// Makes everything that is needed to evaluate formulas of the program: the values of a model
+/// (`cells` may be null), the ground of crawling cells, sizes, and the mask.
 Result<void> make_whole(Environment& here, Script& script, const SimulationOptions& options,
                         std::shared_ptr<const ModelCells> cells, RunControl& control) {
     if (cells) {

@@ -1,4 +1,4 @@
-// Recognises stages whose steps are meant as they are: cellular automata, and rates that read the
+// Recognises stages whose steps must not be shortened: cellular automata, and rates that read the
 // length of a step.
 #pragma once
 

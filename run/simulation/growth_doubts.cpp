@@ -60,8 +60,8 @@ std::vector<double> lengths_at(const Program& program, const Stage& stage, doubl
     return lengths;
 }
 
-/// How u' = -r(t) u multiplies u from 0 to `end` in steps of length h, of which the last may be
-/// shorter.
+/// The factor by which u' = -r(t) u changes u from t = 0 to `end`, in steps of this length. The
+/// last step may be shorter.
 double diluted(const Formula& rate, int order, double length, double end) {
     double u = 1;
     const auto slope = [&](double t, double value) { return -at(rate, t) * value; };

@@ -94,8 +94,9 @@ double decay_along(const EndedStage& ended, const std::vector<Field>& rates) {
     return squares > 0 ? -products / squares / step : 0;
 }
 
-/// The least change of a species that is noticed: a tenth of the differences between its cells, or
-/// a hundredth of its values if they are uniform, or a fading pattern is almost gone.
+/// The least change of a species that is noticed. Usually it is a tenth of the differences between
+/// cells. If values are uniform or a fading pattern is almost gone, it is a hundredth of the
+/// values.
 double noticed_change(const StageState& state, std::size_t species, const FieldMoments& values) {
     const double value = values.root_mean_square;
     const StageCourse& course = state.course;

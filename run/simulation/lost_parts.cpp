@@ -1,4 +1,5 @@
-// Compares what rates and rules at sides lose with themselves and with the values of their species.
+// Compares the parts that rates and rules at sides lose with the whole rate or rule, and with the
+// values of the species.
 #include "run/simulation/lost_parts.h"
 
 #include "core/counted_cells.h"
@@ -80,7 +81,7 @@ bool spoils_its_rate(const StageView& view, const LostPart& found) {
     return false;
 }
 
-/// How much values near a side change by what its rule loses.
+/// The change of values near a side because of the lost part of its rule.
 double change_at_side(const StageView& view, const LostPart& found) {
     const Grid& grid = view.environment().grid;
     switch (found.kind) {

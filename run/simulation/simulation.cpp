@@ -32,7 +32,7 @@ struct Simulation::Implementation {
     /// By stage: kernels of ended stages of which it is not yet known whether all can be compiled.
     std::map<std::uint32_t, StepKernels> unsettled;
 
-    /// Everything that all stages share, except those on coarser grids.
+    /// Everything that all stages share, except for stages on coarser grids.
     Environment& environment() const { return stages->domain(); }
 
     /// Must be called before states are changed.

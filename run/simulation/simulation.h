@@ -59,7 +59,8 @@ struct SimulationOptions {
     /// The sizes that an earlier simulation found (SimulationDomain::known_sizes). No result
     /// depends on them.
     std::map<std::string, double> known_sizes = {};
-    /// How plans choose the operands that are written to planes. No result depends on it.
+    /// The rule by which plans choose the operands that are written to planes. No result depends on
+    /// it.
     PlanOptions planning = {Materialise::when_cheaper, false, true};
     /// The tiling. If empty, it is chosen by the size of the grid and by measurement. No result
     /// depends on it.
@@ -74,7 +75,7 @@ Result<std::shared_ptr<TieredBackend>> make_stepper(const SimulationOptions& opt
 /// stage began. Infinity if there is no such moment.
 using NextMoment = std::function<double(double t)>;
 
-/// Why a stage ended.
+/// The reason why a stage ended.
 enum class StageEnd { finished, stopped, cancelled };
 
 class StageView;
@@ -96,14 +97,14 @@ public:
                              const std::atomic<bool>& cancel = never_cancelled);
 
     /// Takes steps until `last_step` steps are complete. The first call allocates the memory for
-    /// steps. It is kept for further calls until the stage ends or states are changed. A stage with
-    /// a coarse start first runs on coarser grids, without observation.
-    /// `observe` is called at multiples of `every` steps. If `every` is 0, it is called at the
-    /// stage's interval, or without one at multiples of its time `every` or at tenths of the
-    /// duration. If `next_moment` is given, `observe` is called at its moments instead, with values
-    /// interpolated between steps (run/simulation/between_steps.h, tissue/tissue_moments.h). In a
-    /// stage of fields this requires a uniform `speed`. If values are not finite, the call fails
-    /// with stage, species, cell, step and the largest stable speed.
+    /// steps. This memory is kept for further calls until the stage ends or states are changed. A
+    /// stage with a coarse start first runs on coarser grids, without observation. `observe` is
+    /// called at multiples of `every` steps. If `every` is 0, it is called at the stage's interval
+    /// or, without one, at multiples of its time `every` or at tenths of the duration. If
+    /// `next_moment` is given, `observe` is called at its moments instead, with values interpolated
+    /// between steps (run/simulation/between_steps.h, tissue/tissue_moments.h). In a stage of
+    /// fields this requires a uniform `speed`. If values are not finite, the call fails with stage,
+    /// species, cell, step and the largest stable speed.
     Result<StageEnd> advance_stage(std::uint32_t stage, std::int64_t last_step, RunControl& control,
                                    const std::function<void()>& observe, std::int64_t every = 0,
                                    const NextMoment& next_moment = {});

@@ -49,11 +49,11 @@ constexpr TrialShape shapes[3] = {
 /// and the number at which it ends if neither stage nor system gives one. Otherwise it ends with
 /// the larger of the numbers of stage and system.
 constexpr std::int64_t first_steps = 250, least_most_steps = 1000, most_steps_without_end = 64000;
-/// If a stage has a duration, its trial is examined after these fractions of it: the first one,
-/// then twice as much each time, up to the second one.
+/// If a stage has a duration, its trial is examined after the first of these fractions of the
+/// duration, then whenever the time has doubled, up to the second fraction.
 constexpr double first_part = 0.125, last_part = 4;
 /// The relative changes over a doubling of time below which wavelength and contrast count as
-/// constant, and the change above which a pattern has no wavelength of its own.
+/// constant, and the change above which a pattern has no definite wavelength.
 constexpr double same_wavelength = 0.003, same_contrast = 0.03, other_wavelength = 0.08;
 /// A pattern has a single wavelength if the peak of its spectrum holds at least this fraction of
 /// the variance.

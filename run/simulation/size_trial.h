@@ -23,13 +23,12 @@ struct TrialTools {
 
 /// Returns the factor for with_lengths() that gives the waves of a stage a length of `cells` cells,
 /// each `cell` wide. The factor is rounded to four digits, so that errors in the last bits of
-/// measurements do not matter. `trial` is trial_program() of the stage.
-/// The pattern grows from its own starting values until wavelength and contrast stay the same while
-/// the number of steps doubles twice. The first trial uses the stage's own lengths. Later ones use
-/// the wanted number of cells, because a coarse grid shortens waves. If a short run cannot hold
-/// enough waves of the wanted length, it finds the factor at a shorter length, and theory gives the
-/// difference.
-/// Fails if no pattern grows, if the pattern keeps changing, or if it has no single wavelength. The
+/// measurements do not matter. `trial` is the stage's trial_program(). The pattern grows from its
+/// own starting values until wavelength and contrast stay the same while the number of steps
+/// doubles twice. The first trial uses the stage's own lengths. Later ones use the wanted number of
+/// cells, because a coarse grid shortens waves. If a short run cannot hold enough waves of the
+/// wanted length, it finds the factor at a shorter length, and theory gives the difference. Fails
+/// if no pattern grows, if the pattern keeps changing, or if it has no single wavelength. The
 /// result depends neither on the number of threads nor on the width of vectors.
 Result<double> find_length_factor(const Program& trial, std::uint32_t stage, double cell,
                                   double cells, const TrialTools& tools);

@@ -100,10 +100,10 @@ std::string describe_unsolved(const Doubted& stage, const Unsolved& report) {
 
 // Values that jump back and forth.
 
-/// A warning is given if at least this fraction of the cells jumps,
+/// A warning is given if at least this fraction of the cells jumps.
 constexpr double flicker_threshold = 0.01;
-/// or if at least this fraction of all changes is undone and steps are too long even for a regular
-/// oscillation.
+/// A warning is also given if at least this fraction of all changes is undone and steps are too
+/// long even for a regular oscillation.
 constexpr double undone_threshold = 0.4;
 
 std::optional<Flicker> find_flicker(const EndedStage& ended) {
@@ -178,8 +178,8 @@ std::optional<std::size_t> find_alternating(const Doubted& stage) {
         const StageCourse& course = view.state().course;
         const double once = course.empty() ? 0 : course.last().largest[k];
         if (alternating_part(field, here.counted(), links) < chequerboard_threshold) return false;
-        // Small values consist of rounding errors, or of errors within the solver's tolerance.
-        // These may well contain the shortest waves.
+        // Small values consist of rounding errors, or of errors within the solver's tolerance. Such
+        // errors may well contain the shortest waves.
         const FieldMoments values = moments(field, here.counted());
         const double errors =
             time.chooses_steps() ? time.step_tolerance() * values.root_mean_square : 0;

@@ -40,8 +40,8 @@ StageRecord record_of(const StageState& state, const Program& program, std::uint
                       const std::set<std::string>& parameters = {});
 
 /// Lets a started stage continue from another moment. The record must contain all species of a
-/// stage of fields, or all values of crawling cells. Of the moment in the record, only the steps
-/// and whether the stage has ended are used.
+/// stage of fields, or all values of crawling cells. Only two facts about the moment in the record
+/// are used: the number of steps, and whether the stage has ended.
 void restore(Simulation& simulation, std::uint32_t stage, StageRecord record);
 
 /// The items that a record may contain: species, and parameters that vary.

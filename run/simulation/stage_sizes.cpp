@@ -29,8 +29,8 @@ namespace {
 /// The digit at the end must change whenever the way of finding factors changes.
 constexpr KeptFiles::Kind size_files{".size", "CascSiz1", std::uint64_t{1} << 20};
 
-/// Factors by their keys: those found by this or an earlier simulation of the process, and those on
-/// disk.
+/// Factors by their keys: factors that this or an earlier simulation of the process has found, and
+/// factors on disk.
 class KeptFactors {
 public:
     KeptFactors(const std::filesystem::path& folder, std::map<std::string, double>& known)
@@ -84,8 +84,8 @@ double longest_wave(const Environment& here) {
     return std::sqrt(static_cast<double>(here.model->cells->count()));
 }
 
-/// The key of a trial. It does not depend on the end of the stage, because trials have ends of
-/// their own.
+/// The key of a trial. It does not depend on the end of the stage, because trials end by other
+/// rules.
 std::string key_of(const Program& trial, std::uint32_t stage, double cell, double cells) {
     Program keyed = trial;
     const bool has_steps = !trial.stages[stage].time.has_duration();

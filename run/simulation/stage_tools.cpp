@@ -106,7 +106,7 @@ std::vector<double> motion_over(const StageView& view, const Formula& formula, d
     return changes;
 }
 
-/// Writes the plan's results to new temporaries instead. Returns these.
+/// Redirects the plan's results to new temporaries. Returns these temporaries.
 std::vector<TemporaryId> results_to_temporaries(StepPlan& plan) {
     std::vector<TemporaryId> planes;
     for (PassTarget& target : plan.passes.back().targets) {

@@ -34,7 +34,7 @@ public:
     const System& system() const { return program().system_of(number_); }
     const StageState& state() const { return states_[number_]; }
 
-    /// Where the slots of kernels find their present values.
+    /// The places where the slots of kernels find their present values.
     BindingContext context() const;
     /// Evaluates a plan or formulas outside of steps.
     std::vector<Field> evaluate(const StepPlan& plan) const { return run(plan, {}); }

@@ -1,5 +1,5 @@
-// Holds the states of all stages twice where cells differ: in the stage's own cells, which may be
-// wider than the domain's, and in the cells of the domain, which pictures and other stages read.
+// Holds the states of all stages in the cells of the domain, which pictures and other stages read.
+// If a stage has its own, wider cells, also holds the state of the stage in those.
 #pragma once
 
 #include "run/simulation/other_cells.h"
@@ -28,7 +28,7 @@ public:
     std::span<StageState> in_domain();
     StageView view(std::uint32_t stage) { return {*domain_, in_domain(), stage}; }
 
-    // These give a stage in its own cells.
+    // The following functions return the environment and the state of a stage in its own cells.
     Environment& environment(std::uint32_t stage);
     std::span<StageState> states(std::uint32_t stage);
     StageState& state(std::uint32_t stage) { return states(stage)[stage]; }

@@ -28,8 +28,8 @@ namespace cascade {
 
 namespace {
 
-/// The surroundings of a stage's cells: the model or plane, a body grown here, or those of the
-/// previous stage of cells.
+/// The surroundings of a stage's cells: the model or plane, a body grown here, or the surroundings
+/// of the previous stage of cells.
 Result<std::shared_ptr<const TissueGround>> ground_of(const Environment& here,
                                                       std::span<const StageState> states,
                                                       std::uint32_t k,

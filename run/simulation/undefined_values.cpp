@@ -1,5 +1,5 @@
-// For each part of a formula that may lose a NaN, evaluates a second formula that is true where it
-// does.
+// For each part of a formula that may lose a NaN, evaluates a second formula that is true where a
+// NaN is lost.
 #include "run/simulation/undefined_values.h"
 
 #include "run/domain/field_values.h"

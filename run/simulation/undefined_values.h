@@ -1,4 +1,4 @@
-// Detects NaNs that would not spread to a species and so would go unnoticed: in parameters,
+// Detects NaNs that would go unnoticed because they do not spread to a species: in parameters,
 // comparisons, bounds, conditions and the mask.
 #pragma once
 

@@ -19,7 +19,7 @@ struct SafeStep {
 inline constexpr double step_safety = 0.9;
 /// The longest step of a solver that takes long steps at the default tolerance, as a multiple of 1
 /// / (bound of the reaction). The error estimate alone would allow longer steps: it is relative to
-/// the whole value, and so does not show that a small perturbation grows too slowly.
+/// the whole value, so it does not show that a small perturbation grows too slowly.
 inline constexpr double reaction_part = 1.8;
 /// The reaction_part at another tolerance, proportional to the length of a step that has this
 /// error. It is at most `reaction_part` for partly implicit solvers, because their explicit part

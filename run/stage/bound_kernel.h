@@ -24,7 +24,7 @@ namespace cascade {
 struct StepInvariant {
     Field plane;               ///< Empty if the value is uniform.
     double number = 0;         ///< The value if it is uniform.
-    Boundaries boundary = {};  ///< How the halo of the plane is filled.
+    Boundaries boundary = {};  ///< The rules that fill the halo of the plane.
 };
 using StepInvariants = IdVector<StepInvariantId, StepInvariant>;
 

@@ -1,5 +1,5 @@
-// How fast the rates of a stage and the rules at its sides change with time alone. An error
-// estimate detects such a change only after a step has passed over it.
+// The speed at which the rates of a stage, and the rules at its sides, change with time alone. An
+// error estimate detects such a change only after a step has passed over it.
 #pragma once
 
 #include <cstddef>

@@ -18,8 +18,7 @@ namespace {
 constexpr double most_that_is_sane = 1e4;
 
 /// The smaller of the stability limits at both states. Empty if neither state has one. A state that
-/// has grown far beyond the starting values is ignored, because it looks stiff whatever the
-/// reaction is.
+/// has grown far beyond the starting values is ignored, because it looks stiff with any reaction.
 std::optional<double> limit(const NotFiniteReport& report) {
     const auto start = longest_step(report.estimate_at_start, report.use);
     const bool is_spoiled =

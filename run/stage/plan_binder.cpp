@@ -66,7 +66,7 @@ void take_sides(StepProblem& problem, const BindingContext& context, const Syste
         problem.changing_sides = fields->changing_sides;
     }
     problem.sides_moment = {context.steps, context.t};
-    // The planes of the species may be lent to the steps.
+    // The system is asked for the number of species, because the planes may be lent to the steps.
     problem.species_needs_halo.assign(system.species_count(), false);
 }
 
@@ -111,7 +111,8 @@ StepProblem PlanBinder::bind(const Compile& compile) {
     return std::move(problem_);
 }
 
-/// The temporary in which cells find what they sense; nullopt for sources that are not sensed.
+/// The temporary that contains the values that cells sense; nullopt for sources that are not
+/// sensed.
 std::optional<TemporaryId> PlanBinder::sensed(const PlaneSource& source) const {
     if (!context_.tissue) return std::nullopt;
     const auto& all = context_.tissue->sensed;
@@ -191,8 +192,8 @@ StepProblem::Solve PlanBinder::bind_constraint(const Solve& solve, const Compile
     return bound;
 }
 
-/// The pass that computes what cells sense. It precedes all others, because positions change with
-/// every evaluation of the rates.
+/// The pass that computes the values that cells sense. It precedes all others, because positions
+/// change with every evaluation of the rates.
 StepProblem::Pass PlanBinder::sense() {
     const TissueBinding& tissue = *context_.tissue;
     StepProblem::Pass pass;

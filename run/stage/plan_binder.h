@@ -16,7 +16,7 @@ namespace cascade {
 /// The number of cells over which means are taken; 0: all cells.
 std::int64_t cells_inside(const BindingContext& context);
 
-/// Gives the steps of a stage the rules at its sides, and no species a halo.
+/// Sets the rules at the sides for the steps of a stage. Marks no species as needing a halo.
 void take_sides(StepProblem& problem, const BindingContext& context, const System& system,
                 std::uint32_t stage);
 
@@ -29,7 +29,8 @@ public:
 
     /// Writes the results of the plan to the last temporaries of the problem.
     void keep_results() { keeps_results_ = true; }
-    /// By species: whether neighbours read it. Other plans of the same step may add to this.
+    /// For each species, whether it is read at neighbours. Other plans of the same step may set
+    /// further entries.
     std::vector<bool>& species_needs_halo() { return problem_.species_needs_halo; }
     /// By register of the scheme: whether a sweep reads it at neighbours.
     void set_halo_registers(const IdVector<RegisterId, bool>& registers) {

@@ -24,12 +24,14 @@ constexpr std::int64_t most_cells_seen = 1 << 14;
 /// for that long.
 constexpr double least_growth = 0.05;
 
-/// A pattern is fading if three conditions hold. The deviation of each species is at most this
-/// fraction of the species' largest magnitude so far.
+/// A pattern is fading if three conditions hold. The first condition: the deviation of each species
+/// is at most this fraction of the species' largest magnitude so far.
 constexpr double small_rest = 1e-3;
-/// The deviation is also at most this fraction of the species' largest deviation so far.
+/// The second condition: the deviation is at most this fraction of the species' largest deviation
+/// so far.
 constexpr double part_of_before = 0.1;
-/// And the deviation has fallen by this fraction over the last tenth of the stage's age.
+/// The third condition: the deviation has fallen by this fraction over the last tenth of the
+/// stage's age.
 constexpr double least_fall = 0.05;
 
 Spread spread_of_rows(const Field& field, const Mask* inside, std::int64_t every_row) {

@@ -22,7 +22,7 @@ struct Moment {
     std::vector<double> largest;  ///< For each species, the largest absolute value so far.
 };
 
-/// How the pattern of a stage changes at its end.
+/// The change of the pattern at the end of a stage.
 enum class Trend {
     none,     ///< The pattern neither grows nor fades.
     growing,  ///< The amplitude of every species rises, so more steps would change the picture.
@@ -52,8 +52,8 @@ public:
     const Moment& first() const { return moments_.front(); }
     const Moment& last() const { return moments_.back(); }
     bool ended_uniform() const { return !empty() && last().is_uniform; }
-    /// The earliest of the moments at the end in which all species are uniform. Only valid if
-    /// ended_uniform() is true.
+    /// The first moment since which all species have been uniform. Only valid if ended_uniform() is
+    /// true.
     const Moment& uniform_since() const;
     /// For each species, the largest deviation so far is divided by the largest absolute value so
     /// far. Returns the largest of these quotients.

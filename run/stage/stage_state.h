@@ -81,7 +81,7 @@ struct StageState : StageMoment {
     std::shared_ptr<const TissueGround> ground() const;
 
     // For both kinds:
-    /// By SpeciesId. While steps run, they may have taken the planes.
+    /// The species, by SpeciesId. While steps are being taken, the planes may be lent to them.
     std::vector<Field>& species();
     const std::vector<Field>& species() const;
     /// The plane of an item that varies: a species or a varying parameter.
@@ -106,9 +106,9 @@ std::optional<CellCounts> counts_of_cells(const StageState& state);
 /// A state with room for all items of a system, but without planes or cells.
 StageState empty_state(const System& system);
 
-/// Gives new values to items, in the stage's own cells, and moves from `planes`. Items that are
-/// uniform in the stage take one number of their plane. Values outside a mask must be 0. Values of
-/// cells that crawl must be in the order in which evaluations return them.
+/// Moves the values in `planes` to items, in the stage's own cells. Items that are uniform in the
+/// stage take one number of their plane. Values outside a mask must be 0. Values of cells that
+/// crawl must be in the order in which evaluations return them.
 void take_values(StageState& state, const Program& program, std::uint32_t stage,
                  std::span<const ItemId> items, std::span<Field> planes);
 

@@ -26,7 +26,7 @@ using NumberSource = std::function<std::vector<double>()>;
 /// The functions through which a stage's timer reads the simulation. All read the present values.
 struct StageTools {
     std::function<StepProblem(const Scheme&)> bind;
-    /// Returns a function that computes uniform formulas. It may be called repeatedly.
+    /// Returns a function that computes uniform formulas and may be called repeatedly.
     std::function<NumberSource(std::span<const Formula* const>)> numbers;
     /// Returns the values of a formula of constants and `t` alone.
     std::function<ValueAt(const Formula&)> at_time;

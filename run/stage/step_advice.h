@@ -10,7 +10,7 @@
 
 namespace cascade {
 
-/// How a stage takes its steps.
+/// The way in which a stage takes its steps.
 struct StepInUse {
     double speed = 0;  ///< The length of a step. NaN if it varies by cell.
     Solver solver = Solver::euler;
@@ -22,10 +22,10 @@ struct StepInUse {
     bool diffusion_limits = false;
 };
 
-/// The longest stable step of the solver in use, whose stability interval may be longer than that
-/// of explicit Euler. Empty if the estimate has no eigenvalue or the solver has no such limit. Also
-/// empty if the limit is less than 10⁻⁹ of the step in use, because the state is then already
-/// meaningless.
+/// The longest stable step of the solver in use, whose stability interval may be longer than the
+/// interval of explicit Euler. Empty if the estimate has no eigenvalue or the solver has no such
+/// limit. Also empty if the limit is less than 10⁻⁹ of the step in use, because the state is then
+/// already meaningless.
 std::optional<double> longest_step(const StabilityEstimate& estimate, const StepInUse& use);
 
 /// Whether the step exceeds the limit by so much that this may have made the result wrong. True if

@@ -11,8 +11,8 @@ namespace cascade {
 /// All numbers are per cell and step, unless stated otherwise.
 struct StepWork {
     KernelCost cost;  ///< The sum over all passes and aggregates.
-    /// Each pass counts the planes that it reads and the planes that it writes once each, wherever
-    /// they are stored, and the links of linked cells. Cache lines that are fetched only to be
+    /// In each pass, every plane that is read and every plane that is written counts once, wherever
+    /// it is stored. Links of linked cells count, too. Cache lines that are fetched only to be
     /// overwritten do not count.
     double bytes = 0;
     /// Bytes of all planes, masks and links that a step uses, over all cells.

@@ -74,7 +74,7 @@ public:
     /// The account of the stage with this number, which is added if it is new.
     Stage& stage(std::uint32_t number);
 
-    /// How many kernels were compiled and how many were found on disk, up to the last step.
+    /// The numbers of kernels that were compiled or found on disk, up to the last step.
     KernelCounts kernels;
 
     const std::vector<Stage>& stages() const { return stages_; }
