@@ -9,7 +9,8 @@
 namespace cascade {
 
 /// A partition of the numbers 0 … count − 1, initially each in its own set: R. Tarjan's union-find
-/// with path halving. A set is represented by its smallest number, unless put_under() says another.
+/// with path halving. A set is represented by its smallest number, unless put_under() has chosen
+/// another number.
 class DisjointSets {
 public:
     explicit DisjointSets(std::size_t count) : above_(count) {
@@ -24,7 +25,8 @@ public:
         b = find(b);
         put_under(std::max(a, b), std::min(a, b));
     }
-    /// Joins two sets, given by the numbers that represent them. The second represents both.
+    /// Joins two sets, given by the numbers that represent them. The second number then represents
+    /// the joined set.
     void put_under(std::uint32_t lower, std::uint32_t upper) { above_[lower] = upper; }
 
 private:

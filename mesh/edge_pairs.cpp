@@ -1,5 +1,5 @@
-// Sorts half-edges by their two points. At edges with more than two triangles, pairs those that
-// continue each other best. Spreads orientation breadth-first.
+// Sorts half-edges by their two points. At edges with more than two triangles, pairs the triangles
+// that continue each other best. Spreads orientation breadth-first.
 #include "mesh/edge_pairs.h"
 
 #include "mesh/disjoint_sets.h"

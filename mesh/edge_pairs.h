@@ -33,9 +33,9 @@ struct Orientation {
     std::size_t inside_out = 0;  ///< Number of closed components reversed as a whole.
 };
 
-/// Orients the triangles of each component consistently: a closed component faces outwards, any
-/// other faces the way in which most of its area is already oriented. Cuts a one-sided surface
-/// where pairs remain inconsistent.
+/// Orients the triangles of each component consistently: a closed component faces outwards, and any
+/// other component keeps the orientation that most of its area has. Cuts a one-sided surface where
+/// pairs remain inconsistent.
 Orientation orient(std::span<const Vector3d> points,
                    std::span<const std::array<std::uint32_t, 3>> triangles,
                    std::vector<std::array<TriangleEdge, 3>>& across);

@@ -27,9 +27,9 @@ inline Vector2d position_of(const FlatTriangle& flat, const std::array<double, 3
     return flat[0] * weights[0] + flat[1] * weights[1] + flat[2] * weights[2];
 }
 
-/// Lays a triangle into a plane so that its edge `edge` goes from `from` to `to`, whose distance
-/// must be the edge's length, and the third corner is to the left of the edge. Corners keep their
-/// indices.
+/// Lays a triangle into a plane so that its edge `edge` goes from `from` to `to` and the third
+/// corner is to the left of the edge. The distance from `from` to `to` must be the edge's length.
+/// Corners keep their indices.
 FlatTriangle lay_flat(const SurfaceMesh& mesh, TriangleEdge edge, Vector2d from, Vector2d to);
 
 /// Lays a triangle into a plane with corner 0 at the origin and corner 1 on the x axis. This is the

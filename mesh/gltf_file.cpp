@@ -73,7 +73,7 @@ public:
         return calls;
     }
 
-    /// Why a buffer could not be read.
+    /// The reason why a buffer could not be read.
     const std::optional<Failure>& failure() const { return failure_; }
 
 private:

@@ -106,9 +106,9 @@ Result<std::optional<MorphedAttribute>> MorphedAttribute::of(const tinygltf::Mod
 /// The work for one copy: how many numbers and matrices are read.
 constexpr std::size_t steps_of_copy = 8;
 
-/// Limits on what a file may place, derived from its size. Needed because even a small file can use
-/// the same mesh or list the same triangles any number of times. A copy takes a few bytes and may
-/// have thousands of triangles. Small files get an allowance.
+/// Limits on the data that a file may place, derived from its size. Needed because even a small
+/// file can use the same mesh or list the same triangles any number of times. A copy takes a few
+/// bytes and may have thousands of triangles. Small files get an allowance.
 struct SceneBounds {
     std::size_t points, corners, steps;
 

@@ -1,4 +1,4 @@
-// Which texture coordinates of a glTF file to use, and how to transform them.
+// The texture coordinates of a glTF file to use, and their transformation.
 #pragma once
 
 #include "mesh/gltf_model.h"

@@ -77,7 +77,7 @@ private:
         double extent = 0;
         double radius = 0,
                growth = 0;  ///< The radius at the start, and its increase per unit of length.
-        double lean = 0;    ///< How far the surface's normals lean along the bone, per unit of
+        double lean = 0;    ///< The lean of the surface's normals along the bone, per unit of
                             ///< distance from the bone.
         Ball ball;          ///< Contains the flesh.
     };

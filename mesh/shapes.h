@@ -26,10 +26,10 @@ inline constexpr double least_shape_length = 1e-60, largest_shape_length = 1e60;
 // do shapes of more than `most_shape_triangles`. Throws std::bad_alloc.
 
 /// An icosahedron with each side cut into n² triangles. A point on a side has a weight w for each
-/// corner of the side. It is the normalised sum of the corners, each multiplied by sin(w × the
-/// angle of an edge). This cuts edges into equal parts. Texture coordinates: longitude from the
+/// corner of the side. The point is the normalised sum of the corners, each multiplied by sin(w ×
+/// the angle of an edge). This cuts edges into equal parts. Texture coordinates: longitude from the
 /// back via −x, and latitude. In a triangle that crosses the seam at the back, longitudes continue
-/// beyond 1. At a pole, it is the longitude of the triangle's centre.
+/// beyond 1. A corner at a pole has the longitude of the triangle's centre.
 Result<SurfaceMesh> sphere_mesh(double radius, double edge);
 
 /// A tube of `tube_radius` around a circle of `ring_radius`, which is larger, around the y axis.

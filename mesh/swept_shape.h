@@ -36,7 +36,8 @@ struct SweptFacets {
 /// The largest number of facets along t, and around.
 inline constexpr std::uint32_t most_swept_facets = 1024;
 
-/// How closely a mesh follows a surface, in the surface's unit of length. Both are larger than 0.
+/// The accuracy of a mesh that follows a surface, in the surface's unit of length. Both members are
+/// larger than 0.
 struct SweptDetail {
     double longest_edge = 0.5;  ///< The triangles' longest edge.
     double tolerance = 0.01;    ///< The largest distance between edges and surface.

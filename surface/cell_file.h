@@ -1,8 +1,8 @@
 // Cells stored in a file for later runs.
 //
-// The file consists of, in the byte order of the machine that wrote it: the letters "CASCELLS", the
-// version, a byte order mark, the key, the numbers of cells and Voronoi edges, the bare area, the
-// positions, areas, ends and edges, and a checksum (FNV-1a, 64 bits) of everything before it.
+// The file has the byte order of the machine that wrote it. It consists of the letters "CASCELLS",
+// the version, a byte order mark, the key, the numbers of cells and Voronoi edges, the bare area,
+// the positions, areas, ends and edges, and a checksum (FNV-1a, 64 bits) of everything before it.
 #pragma once
 
 #include "core/result.h"
@@ -50,7 +50,7 @@ Result<SurfaceCells> read_cells(const std::filesystem::path& path, const Surface
 struct KeptCells {
     SurfaceCells cells;
     bool were_kept = false;  ///< Whether the cells were read from the file. If not, they were made.
-    std::string not_kept;    ///< Why the file could not be written. Empty if there was no error.
+    std::string not_kept;    ///< The reason why the file could not be written, or empty.
 };
 Result<KeptCells> kept_cells(const std::filesystem::path& path, const SurfaceMesh& mesh,
                              const CellOptions& options, Team& team,

@@ -205,7 +205,7 @@ void CellFilter::fill_boxes(const SurfaceMesh& mesh, const SurfaceCells& cells,
     std::size_t sum = 0;
     for (std::size_t& end : box_ends_) {
         const std::size_t count = end;
-        end = sum;  // Now the start of the box's list. Filling the list moves it to the end.
+        end = sum;  // The start of the list for now. Filling the list moves it to the end.
         sum += count;
     }
     sightings_.resize(sum);

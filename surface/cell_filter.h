@@ -38,13 +38,13 @@ struct SlopedShare {
 /// Interpolates cell values. Thread-safe. Stores no reference to the cells or the mesh.
 class CellFilter {
 public:
-    /// Finds the triangles that are nearer to each cell than the radius. There must be at least one
-    /// cell. The result is the same with any number of threads. Throws std::bad_alloc.
+    /// For each cell, finds the triangles that are nearer than the radius. There must be at least
+    /// one cell. The result is the same with any number of threads. Throws std::bad_alloc.
     CellFilter(const SurfaceMesh& mesh, const SurfaceCells& cells, Team& team);
 
     /// The cells near a position, in ascending order, with weights ≥ 0 that sum to 1. If no cell is
-    /// within the radius, the nearest cell: along the surface if the position's component has
-    /// cells, else in space. Replaces `out`.
+    /// within the radius, gives only the cell that is nearest along the surface or, if the
+    /// position's component has no cells, nearest in space. Replaces `out`.
     void shares(const SurfacePlace& place, std::vector<CellShare>& out) const;
 
     /// The cells and weights of shares(), with the gradients of the weights, which sum to 0. On
@@ -109,7 +109,7 @@ private:
     std::vector<Vector3> positions_;     ///< The cells' positions in space, relative to the first.
     std::vector<Patch> patches_;         ///< One per triangle.
     std::vector<std::size_t> box_ends_;  ///< Box b's sightings end before sightings_[box_ends_[b]].
-    std::vector<Sighting> sightings_;    ///< In each box in the order of cells.
+    std::vector<Sighting> sightings_;    ///< Sorted by box, then by cell.
 };
 
 }  // namespace cascade

@@ -11,7 +11,7 @@ namespace cascade {
 
 namespace {
 
-/// The nearest cell. If several are equally near, the one with the lowest index.
+/// The nearest cell. Of equally near cells, the one with the lowest index.
 struct Nearest {
     double distance = std::numeric_limits<double>::infinity();
     std::uint32_t cell = CellFinder::nothing;

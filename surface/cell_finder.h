@@ -19,8 +19,8 @@ public:
     CellFinder(const SurfaceMesh& mesh, std::span<const SurfacePlace> cells);
 
     /// The cell that is nearest in the unfolded surface around the position, or nearest in space if
-    /// the position's component has no cell. If several are equally near, the one with the lowest
-    /// index. `nothing` if there are no cells.
+    /// the position's component has no cell. Of equally near cells, the one with the lowest index.
+    /// `nothing` if there are no cells.
     std::uint32_t at(const SurfacePlace& place);
 
 private:

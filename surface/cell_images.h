@@ -51,7 +51,7 @@ private:
     };
     /// An edge of a visited triangle, as one number that sorts the nearest first: the bits of the
     /// squared distance (which sort like the number if it is ≥ 0), then 4 times the index in seen_,
-    /// plus the edge's index. One word moves faster than a structure of two.
+    /// plus the edge's index. Moving one word is faster than moving a structure of two words.
     __extension__ using Front = unsigned __int128;
     static Front front_at(double square_distance, std::uint32_t seen, std::uint32_t edge) {
         return Front{std::bit_cast<std::uint64_t>(square_distance)} << 64 |

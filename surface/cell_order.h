@@ -11,9 +11,10 @@
 
 namespace cascade {
 
-/// The order by distance from a peripheral cell, counted in links, so that neighbours are in
-/// adjacent levels (E. Cuthill and J. McKee, "Reducing the bandwidth of sparse symmetric matrices",
-/// ACM 1969). The peripheral cell is found by the method of A. George and J. Liu, ACM TOMS 5(3),
+/// Orders cells by their distance from a peripheral cell, counted in links, so that neighbours are
+/// in adjacent levels (E. Cuthill and J. McKee, "Reducing the bandwidth of sparse symmetric
+/// matrices", ACM 1969). The peripheral cell is found by the method of A. George and J. Liu, ACM
+/// TOMS 5(3),
 /// 1979. Connected components follow each other. O(n).
 std::vector<std::uint32_t> order_by_levels(const LinkList& links);
 

@@ -24,7 +24,7 @@ constexpr double coarse_triangles = 3;
 /// The approximate mean area of coarse_copy()'s triangles for edges of length 1.
 constexpr double area_of_edge = 0.82;
 
-/// Moves positions on a coarse copy to the original. Searches only those original triangles whose
+/// Moves positions on a coarse copy to the original. Searches only the original triangles whose
 /// points have merged into the corners of the copy's triangle, so it never finds another sheet of
 /// the surface.
 class WayBack {
@@ -34,7 +34,7 @@ public:
         each_merged([&](std::uint32_t point, std::uint32_t) { ++ends_[point + 1]; });
         std::partial_sum(ends_.begin(), ends_.end(), ends_.begin());
         triangles_.resize(ends_.back());
-        // ends_ now has the starts. Filling moves them to the ends.
+        // ends_ now has the start of each point's triangles. Filling moves each start to the end.
         ends_.pop_back();
         each_merged([&](std::uint32_t point, std::uint32_t t) { triangles_[ends_[point]++] = t; });
     }

@@ -5,7 +5,7 @@
 
 namespace cascade {
 
-/// Whether triangles outnumber cells so far that cells_by_copy() pays off.
+/// Whether there are so many triangles per cell that cells_by_copy() saves time.
 bool is_fine(const SurfaceMesh& mesh, const CellOptions& options);
 
 /// Makes a coarse copy of the surface with a few triangles per cell. Relaxes positions on the copy,

@@ -1,8 +1,9 @@
 // Curvatures at the points of a mesh.
 //
-// Their unit is the reciprocal of the model's unit. They are positive where the surface is convex:
-// a sphere of radius r has 1/r everywhere. All results are finite on any mesh. Results from few or
-// badly shaped triangles are rough estimates. surface/place_values.h gives values between points.
+// The unit of curvatures is the reciprocal of the model's unit. Curvatures are positive where the
+// surface is convex: a sphere of radius r has 1/r everywhere. All results are finite on any mesh.
+// Results from few or badly shaped triangles are rough estimates. surface/place_values.h gives
+// values between points.
 #pragma once
 
 #include "mesh/surface_mesh.h"

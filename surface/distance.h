@@ -44,8 +44,8 @@ private:
     std::vector<std::uint32_t> around_;
 };
 
-/// The shortest distance along the surface to each point from the nearest of some given positions,
-/// the sources.
+/// For each point of a mesh, the distance along the surface from the nearest of some given
+/// positions, the sources.
 ///
 /// A front propagates over the mesh as in Dijkstra's algorithm. All paths to an edge are treated as
 /// if they came from one point: the point in the plane of the next triangle that has the computed

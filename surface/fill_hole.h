@@ -26,9 +26,9 @@ using MayMake = std::function<bool(const RingTriangle& corners)>;
 /// Cuts ears off a ring around the origin until a triangle is left. Always cuts the ear whose
 /// circumcircle reaches least far beyond the origin. For a convex ring this gives the Delaunay
 /// triangulation (O. Devillers, "On deletion in Delaunay triangulations", SoCG 1999). An ear that
-/// is not allowed waits until a neighbouring ear changes it. The first and the last point of an
-/// open ring are no ears. Returns the triangles in order, with the remaining one last, or none if
-/// no allowed ear is left. O(n log n), not counting ears that are not allowed.
+/// is not allowed is tried again when a neighbouring ear changes it. The first and the last point
+/// of an open ring are no ears. Returns the triangles in order, with the remaining one last, or
+/// none if no allowed ear is left. O(n log n), not counting ears that are not allowed.
 std::vector<RingTriangle> cut_ears(std::span<const Vector2d> ring, bool is_closed,
                                    const MayMake& may_make);
 

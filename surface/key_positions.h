@@ -18,8 +18,8 @@ struct KeyValue {
 };
 
 /// For each cell, the value of the key that is nearest along the surface. In components without a
-/// key, the key nearest in space. Ignores keys with positions that are not finite. All values are 0
-/// if there are no keys. The result is undefined if `cancel` became true.
+/// key, the value of the key that is nearest in space. Ignores keys with positions that are not
+/// finite. All values are 0 if there are no keys. The result is undefined if `cancel` became true.
 std::vector<double> nearest_key_values(const SurfaceMesh& mesh, const SurfaceCells& cells,
                                        std::span<const KeyValue> keys,
                                        const std::atomic<bool>& cancel);

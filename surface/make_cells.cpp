@@ -22,8 +22,8 @@ namespace cascade {
 
 namespace {
 
-/// Weights below this count as 0. Those of diagonals of squares, for example, differ from 0 only by
-/// rounding.
+/// Weights below this count as 0. The weights of diagonals of squares, for example, differ from 0
+/// only by rounding.
 constexpr double rounding_of_weights = 1e-9;
 
 /// Distributes the area of a triangle to its corners by Voronoi regions. If an angle is obtuse, its

@@ -80,7 +80,7 @@ PlaceFollower::Inside PlaceFollower::inside_of(const SurfaceMesh& mesh, std::uin
     return inside;
 }
 
-/// How steeply the surrounding triangles rise, on each side of this triangle. A point of a
+/// The steepness of the surrounding triangles on each side of this triangle. A point of a
 /// surrounding triangle has a height over this triangle's plane, and a distance from this triangle
 /// in the plane. The result is the largest ratio of height to distance. Almost all surrounding
 /// triangles are beyond the line of an edge or beyond a corner. Both quantities are linear there,
@@ -140,8 +140,8 @@ PlaceFollower::Near PlaceFollower::measured(std::uint32_t number, Vector3d point
     if (first > 0 && second > 0 && third > 0) {
         return {number, true, square, over.height, over.weights};
     }
-    // How far the point is beyond the line of the edge that it is farthest beyond. The triangle is
-    // on the other side of this line.
+    // The greatest distance by which the point is beyond the line of an edge. The triangle is on
+    // the other side of this line.
     const double beyond =
         std::max({-first * double{inside.heights[0]}, -second * double{inside.heights[1]},
                   -third * double{inside.heights[2]}});

@@ -90,7 +90,7 @@ private:
         Vector3d of_second, of_third;
         Vector3d normal;                 ///< Of length 1; 0 if the triangle has no area.
         std::array<float, 3> heights{};  ///< The height of each corner over its opposite edge.
-        /// How steeply the surrounding triangles rise on the side of the normal, and on the other
+        /// The steepness of the surrounding triangles on the side of the normal, and on the other
         /// side: see steepness_around().
         std::array<float, 2> steepness{};
         std::array<std::uint32_t, 3> across{};  ///< By corner: the triangle over the opposite edge.
@@ -100,8 +100,7 @@ private:
             const double second = dot(of_second, at), third = dot(of_third, at);
             return {{1 - second - third, second, third}, dot(normal, at), normal, 0};
         }
-        /// The index of a corner. The edge opposite this corner is the edge that the point is
-        /// farthest beyond.
+        /// The corner opposite the edge beyond which the point is farthest.
         std::size_t farthest_edge(const Over& over) const {
             std::array<double, 3> within{};
             for (std::size_t k = 0; k < 3; ++k) within[k] = double{heights[k]} * over.weights[k];
@@ -109,9 +108,9 @@ private:
                                             within.begin());
         }
         /// Whether the position in this triangle is nearer than all positions on the surrounding
-        /// triangles. That is the case if those triangles rise towards the point less steeply than
-        /// a ball around the point that touches this triangle. Returns false very near to an edge,
-        /// where rounding could decide.
+        /// triangles. This is so if the surrounding triangles rise towards the point less steeply
+        /// than a ball around the point that touches this triangle. Returns false very near to an
+        /// edge, where rounding could decide.
         bool is_nearest(const Over& over) const {
             return is_nearest(over.height,
                               to_edge({double{heights[0]}, double{heights[1]}, double{heights[2]}},

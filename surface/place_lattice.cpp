@@ -36,8 +36,8 @@ LatticePlace nearest(const SurfacePlace& place) {
 }
 
 /// A key that identifies a position. Positions that coincide have equal keys even if they are given
-/// in different triangles. It names a point, or an edge and the position along it, or a triangle
-/// and the steps in it.
+/// in different triangles. A key consists of a point, or of an edge and the position along it, or
+/// of a triangle and the steps in it.
 struct Key {
     int kind = 0;
     std::uint32_t owner = 0, edge = 0;

@@ -150,7 +150,7 @@ Vector2f Repulsion::push_on(const Pushed& place, const NeighbourList& neighbours
 }
 
 constexpr double strength = 0.15;
-/// How much farther the neighbour lists reach than the force, in radii.
+/// The distance, in radii, by which the neighbour lists reach farther than the force.
 constexpr double skin = 0.25;
 /// The longest move of a position in a round, in radii. On folded surfaces, positions have many
 /// neighbours and would oscillate without this limit.

@@ -10,7 +10,7 @@
 
 namespace cascade {
 
-/// How closely new triangles must follow the surface.
+/// The accuracy with which new triangles must follow the surface.
 enum class Care {
     high,  ///< Within 75° of each corner's normal.
     low,   ///< Within 85° of the mean of the corners' normals.
@@ -32,7 +32,7 @@ public:
     /// spacing.
     std::optional<WhyKept> remove(std::uint32_t point, Care care);
 
-    /// The faces around the last removed point. Those not deleted fill its hole.
+    /// The faces around the last removed point. The faces that are not deleted fill its hole.
     const std::vector<FaceHandle>& changed() const { return changed_; }
 
 private:
@@ -52,7 +52,7 @@ private:
     HalfEdges& mesh_;
     const std::vector<Vector3d>& normals_;
     double spacing_;
-    /// How far each boundary edge has moved at most, by the edge's first point.
+    /// By the first point of each boundary edge: the largest distance that the edge may have moved.
     std::vector<double> moved_;
     std::vector<HalfedgeHandle> spokes_;  ///< From the point to be removed, counterclockwise.
     std::vector<std::uint32_t> ring_;     ///< The vertices at the ends of the spokes.

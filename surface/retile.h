@@ -17,7 +17,7 @@
 
 namespace cascade {
 
-/// Why a point could not be removed.
+/// The reason why a point could not be removed.
 enum class WhyKept {
     boundary,  ///< The boundary would move, or get an edge much longer than the spacing.
     topology,  ///< Two points would get two edges, or a component or a boundary would vanish.

@@ -16,8 +16,9 @@
 namespace cascade {
 namespace {
 
-/// Peaks lower than one of these fractions, of the highest peak and of the mean distance, are no
-/// tips. They are bumps of the surface, or errors of means that are taken over a few sources.
+/// A peak is not a tip if it is lower than the first fraction of the highest peak, or lower than
+/// the second fraction of the mean distance. Such peaks are bumps of the surface, or errors of
+/// means over a few sources.
 constexpr double least_of_highest = 0.05, least_of_mean = 0.03;
 constexpr std::size_t most_sources = 30;
 /// With this number of triangles, tips are found exactly enough. More triangles would only take

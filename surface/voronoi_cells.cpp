@@ -189,8 +189,8 @@ std::vector<T> joined(std::vector<Found>& found, std::vector<T> Found::*part) {
 }
 
 /// Divides each triangle among the cells that claim it. A triangle may have no claims if it is in a
-/// dent that unfolding misses. It goes to the cell with the largest claim to a neighbouring
-/// triangle.
+/// dent that unfolding misses. Such a triangle goes to the cell with the largest claim to a
+/// neighbouring triangle.
 void share_areas(const SurfaceMesh& mesh, const std::vector<Claim>& claims, SurfaceCells& cells) {
     std::vector<double> claimed(mesh.triangles.size());
     std::vector<Claim> most(mesh.triangles.size());

@@ -14,7 +14,7 @@ namespace cascade {
 /// triangle (G. Turk, thesis, 1992, section 4.4). Regions are clipped by the triangles they cover,
 /// so that Voronoi edges end at boundaries and lengths are measured on the surface. Regions
 /// unfolded in different planes do not agree exactly, so their lengths and distances are averaged.
-/// The areas that regions take of a triangle are scaled so that they sum to the triangle's area.
+/// The areas that regions cover in a triangle are scaled so that they sum to the triangle's area.
 /// All areas plus `bare_area` sum to the surface's area. The result is the same with any number of
 /// threads. It is undefined if `cancel` became true.
 SurfaceCells voronoi_cells(const SurfaceMesh& mesh, std::vector<SurfacePlace> places, Team& team,
