@@ -152,7 +152,7 @@ private:
 
     NeighbourRule rule_;
     std::array<BoxAxis, 3> axes_;
-    /// Where each box starts in `cells_`, and the end of the last box.
+    /// The index at which each box starts in `cells_`, and the end of the last box.
     std::vector<std::uint32_t> starts_;
     std::vector<BoxedCell> cells_;
 };

@@ -30,8 +30,8 @@ public:
     /// may have moved in memory or been changed from outside since the last search. Cells may have
     /// been removed if no remaining cell has their index. Throws std::bad_alloc.
     Result<void> renew(const Tissue& tissue, std::span<const std::uint32_t> cells);
-    /// Builds the lists of those cells again whose slack would not be enough for the next step, if
-    /// they move as in the last step.
+    /// Builds the lists of some cells again: cells whose slack would not be enough for the next
+    /// step if they move as in the last step.
     Result<void> renew_restless(const Tissue& tissue);
     /// Whether the lists are valid in this state, and also for cells whose positions differ from it
     /// by up to `around`.

@@ -30,7 +30,7 @@ struct DivisionPlaces {
     std::uint32_t seed = 0, stage = 0;
 };
 
-/// Which cells are new or have moved after divisions and deaths.
+/// The cells that are new or have moved after divisions and deaths.
 struct Divided {
     bool has_moved = false;               ///< Whether the layout of the planes has changed.
     std::vector<std::uint32_t> children;  ///< New cells, in the order of their mothers' numbers.

@@ -36,8 +36,8 @@ public:
     /// Begins a step at these positions.
     void begin_step(std::span<const Vector3d> places, std::span<const double> radii,
                     const NeighbourRule& rule);
-    /// Tells the watch that a periodic side has moved a cell by this vector to the opposite side.
-    /// This does not count as a movement.
+    /// Records that a cell was moved by this vector from a periodic side to the opposite side. This
+    /// does not count as a movement.
     void shift(std::size_t cell, Vector3d by) { listed_[cell].place = listed_[cell].place + by; }
 
     /// Whether a cell has moved so far since begin_step() that the lists may miss a neighbour.
@@ -51,8 +51,8 @@ public:
     bool reaches(std::size_t cell, Vector3d place, double radius, double around) const {
         return is_within(listed_[cell], place, radius, around);
     }
-    /// How far a cell has moved since the beginning of the step, expressed as the skin of a list
-    /// that would just stay valid.
+    /// The movement of a cell since the beginning of the step, expressed as the smallest skin with
+    /// which a list would stay valid.
     double way_of(std::size_t cell, Vector3d place) const;
     std::size_t count() const { return listed_.size(); }
 

@@ -31,7 +31,7 @@ public:
     bool finds_nothing() const { return boxes_.empty(); }
 
     /// Finds the keys of a cell's neighbours. First come the neighbours in octaves of larger cells,
-    /// then those in the cell's own octave. Returns the number of the former.
+    /// whose number is returned. Then come the neighbours in the cell's own octave.
     std::size_t find(std::uint32_t cell, NeighbourKeys& found) const;
     /// The number of links, estimated from a sample of cells.
     double estimated_links() const;

@@ -28,9 +28,9 @@ struct NeighbourRule {
     double mean_radius = 0;  ///< The mean over all cells. Sets the scale for very small cells.
 };
 
-/// How far each cell may move, in script lengths, before a list built with this `skin` can miss a
-/// pair. This is `skin` times the largest of its radius, half the distance `near` and a quarter of
-/// the mean radius.
+/// The distance, in script lengths, that each cell may move before a list built with this `skin`
+/// can miss a pair. This is `skin` times the largest of its radius, half the distance `near` and a
+/// quarter of the mean radius.
 inline double slack_of(const NeighbourRule& rule, double skin, double radius) {
     return skin * std::max({radius, rule.near / 2, rule.mean_radius / 4});
 }

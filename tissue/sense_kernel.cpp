@@ -1,4 +1,4 @@
-// Writes what cells sense, cell by cell.
+// Writes the values that cells sense, cell by cell.
 #include "tissue/sense_kernel.h"
 
 #include "core/links.h"
@@ -101,7 +101,8 @@ private:
         }
     }
 
-    /// The stored numbers of a cell are its position, these triangles, and what it senses.
+    /// The stored numbers of a cell are its position, these triangles, and the values that it
+    /// senses.
     struct Triangles {
         std::uint32_t from = 0;   ///< The triangle at which the search began.
         std::uint32_t found = 0;  ///< The triangle at which the search ended.

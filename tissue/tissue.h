@@ -18,7 +18,7 @@
 
 namespace cascade {
 
-/// How far a tissue's stage has run: everything, besides the cells, that must be known to continue.
+/// The progress of a tissue's stage: everything, besides the cells, that must be known to continue.
 struct TissueTime {
     double t = 0;
     std::int64_t steps = 0;

@@ -1,8 +1,8 @@
 // The time loop of a tissue: steps with a small error, divisions and deaths at their moments, and
 // lists of neighbours that are never outdated.
 //
-// Results are the same bit for bit with any number of threads and any order of cells in memory,
-// whenever lists are built, and wherever a run is stopped and resumed.
+// Results are the same bit for bit with any number of threads and any order of cells in memory.
+// They depend neither on when lists are built nor on where a run is stopped and resumed.
 #pragma once
 
 #include "core/result.h"
@@ -25,8 +25,8 @@ namespace cascade {
 
 /// The progress of a tissue: the largest of speed · τ / size over the species, where τ is the time
 /// since the last division or death. A species' speed is the root mean square over the cells of its
-/// change per time. Progress thus says how far values would change, at their present speeds, in
-/// another time τ. It rises while cells move, and falls when they come to rest.
+/// change per time. Progress is thus the relative change of values in another time τ at their
+/// present speeds. It rises while cells move, and falls when they come to rest.
 double progress_of(std::span<const double> changes, double step, std::span<const double> sizes,
                    std::span<const std::size_t> restless, double since_event);
 
@@ -41,16 +41,16 @@ struct Turnover {
     std::int64_t births = 0, deaths = 0, cells = 0;
     double from = 0, to = 0;
 };
-/// Finds out whether cells only replace each other: since the last comparison, at least four times
-/// as many cells as exist were born, the same number died, and the number of cells changed by at
-/// most a tenth. Such a tissue may go on for ever. Must be called after events. A new comparison
-/// begins whenever four times as many cells as exist have been born.
+/// Finds out whether cells only replace each other. This is so if, since the last comparison, at
+/// least four times as many cells as exist were born, the same number died, and the number of cells
+/// changed by at most a tenth. Such a tissue may go on for ever. Must be called after events. A new
+/// comparison begins whenever four times as many cells as exist have been born.
 bool compare_turnover(Tissue& tissue, Turnover& turnover);
 
 /// Called at a complete step, whose values are in tissue.species. Returns false to end the stage.
 using TissueObserver = std::function<bool(const Tissue& tissue)>;
 
-/// Which steps a tissue's time loop takes.
+/// The steps that a tissue's time loop takes.
 struct TissueSchedule {
     Solver solver = Solver::rkl2;
     /// The largest error of a step, relative to sizes_of(). 0: steps are fixed.
@@ -83,7 +83,8 @@ struct TissueSchedule {
     std::function<void(const Turnover& turnover)> turns_over = {};
 };
 
-/// Why a tissue cannot continue. The tissue contains the state after the last complete step.
+/// The reason why a tissue cannot continue. The tissue contains the state after the last complete
+/// step.
 struct TissueFailure {
     enum class Kind : std::uint8_t {
         not_finite,        ///< A value of cell `number` is not finite after a step from `t`.

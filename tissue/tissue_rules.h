@@ -41,8 +41,8 @@ inline Vector3d place_of(const Tissue& tissue, const TissueSpecies& species, std
 struct CellValues {
     const StepProblem* problem = nullptr;  ///< Null if there are no such values.
     std::size_t count = 0;                 ///< The number of planes in register 1.
-    /// Whether a cell's values depend only on its own species and on what it senses, and not on
-    /// other cells or the time.
+    /// Whether a cell's values depend only on its own species and on the values that it senses, not
+    /// on other cells or the time.
     bool is_of_cell_alone = false;
 };
 

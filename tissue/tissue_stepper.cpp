@@ -288,7 +288,7 @@ Result<TissueStepper::StepEvents> TissueStepper::events(const TriedStep& tried, 
         const std::vector<std::uint32_t> nearest = triangles_->now;
         const std::vector<Field> new_rates = rates_at(tissue_.species, now.next_t);
         found = find(rates_at(old_state, now.t), new_rates);
-        // A look between the ends of a step leaves no trace.
+        // Observing states between the ends of a step must not change the nearest triangles.
         if (rules_.conditions().values.problem == nullptr) triangles_->now = nearest;
     }
     take_beginning(tried, std::move(old_state));

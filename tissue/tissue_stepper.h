@@ -50,7 +50,8 @@ struct TriedStep {
     bool is_abandoned = false;
 };
 
-/// Called with the curve through a tried step, and the fraction of it after which the step ends.
+/// Called with the curve through a tried step, and the fraction of the tried step after which it
+/// ends.
 using CurveUser = std::function<void(const StepCubic& curve, double part)>;
 
 /// Owns everything that must be made again when planes move. Between calls, tissue.species holds
