@@ -53,7 +53,7 @@ struct Forms {
 };
 
 /// The values of one loop level. Values of outer levels are looked up in the enclosing scopes,
-/// which must live longer than this one.
+/// which must outlive this one.
 class BodyScope {
 public:
     /// `builder` writes at the end of this level's block, which must not have a terminator yet.
@@ -85,7 +85,7 @@ public:
     /// A value as an operand of an operation that returns it unchanged if `partner`, the other
     /// operand, is `neutral` or −`neutral`. Flushes the value if LLVM might drop such an operation.
     llvm::Value* operand(ValueId id, ValueId partner, double neutral);
-    /// A value as a flushed number, whatever LLVM does with its uses.
+    /// A value as a flushed number. LLVM cannot undo the flushing.
     llvm::Value* flushed_number(ValueId id) {
         return forms(id).may_be_denormal ? flushed(id) : number(id);
     }

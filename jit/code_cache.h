@@ -23,7 +23,7 @@ public:
     explicit CodeCache(std::filesystem::path folder, std::uint64_t limit = usual_limit)
         : files_(std::move(folder), {".kernel", "CascKrn2", limit}) {}
 
-    /// The image stored under this key. Thread-safe, as is keep().
+    /// The image stored under this key. Both find() and keep() are thread-safe.
     std::optional<CodeImage> find(std::string_view key) const;
 
     /// Stores an image if possible. Creates folders that do not exist.

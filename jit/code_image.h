@@ -1,6 +1,6 @@
 // Machine code as bytes that may be loaded at any address.
 //
-// Internal to jit/. Kernels call no functions and read only constants of their own. So their code
+// Internal to jit/. Kernels call no functions and read no constants of other code. So their code
 // can be linked once (jit/link_image.h) into an image in which all addresses are relative. An image
 // can be stored in a file and run by another process, without a linker and without LLVM.
 #pragma once

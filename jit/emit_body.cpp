@@ -331,7 +331,7 @@ Forms BodyEmitter::emit_word(const Instruction& instruction) {
         return value;
     }
     llvm::Value* b = scope_.bits(instruction.operands[1]);
-    // Amounts above 31 (63) do not occur, but LLVM does not know this. In LLVM the result of such a
+    // Amounts above 31 (63) do not occur, but LLVM cannot deduce this. In LLVM the result of such a
     // shift is undefined, so LLVM might change other code that depends on it. The mask excludes
     // such amounts. If the amount is a constant, LLVM removes the mask.
     const auto amount = [&] {

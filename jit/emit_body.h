@@ -6,8 +6,8 @@
 // that may be denormal numbers are flushed by integer operations. Second, it evaluates operations
 // on constants without flushing, also if the constants are branches of a choice. (LLVM 19 also got
 // such a choice wrong: 0 / (c ? 1 : 0) was NaN for both values of c.) So operations on constants
-// are evaluated here, as the interpreter evaluates them, and constants that are branches of a
-// choice are loaded from a variable whose value LLVM cannot assume.
+// are evaluated here, as the interpreter evaluates them. A constant that is a branch of a choice is
+// loaded from a variable whose value LLVM cannot assume.
 #pragma once
 
 #include "jit/body_scope.h"

@@ -12,7 +12,8 @@ struct KernelShape {
     Stencil stencil = Stencil::plane;
     int lanes = 16;              ///< Cells per vector: 4, 8 or 16; half as many in binary64.
     bool fills_columns = false;  ///< Whether the kernel copies columns to the halo.
-    // Features of the processor, and what is fast on it. tuned() in jit/target_machine.h sets them.
+    // Features of the processor, and operations that are fast on it. tuned() in
+    // jit/target_machine.h sets them.
     bool has_multiply_add = false;  ///< One instruction computes a · b + c with one rounding.
     bool is_short_of_loads = false;
     bool has_fast_gathers = false;

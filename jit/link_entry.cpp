@@ -227,9 +227,9 @@ Value* LinkEntry::loaded(llvm::Type* element, Value* from, llvm::ArrayRef<int> l
     return value;
 }
 
-// Most of what a step reads is links. Prefetches shorten a step of a million cells to 91 to 96 % of
-// its time without them, and do not change the time if all cells fit into the cache. The addresses
-// may be beyond the ends of the arrays, because a prefetch never faults.
+// Most of the data that a step reads are links. Prefetches shorten a step of a million cells to 91
+// to 96 % of its time without them, and do not change the time if all cells fit into the cache. The
+// addresses may be beyond the ends of the arrays, because a prefetch never faults.
 void LinkEntry::prefetch_ahead() {
     constexpr int entries = 32;
     const auto prefetch = [&](unsigned array, llvm::Type* element) {

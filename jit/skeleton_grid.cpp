@@ -104,9 +104,10 @@ constexpr std::size_t most_operations_a_load = 4;
 // The largest number of shifted fields. Each takes one register of the loop.
 constexpr std::size_t most_shifted_fields = 8;
 
-/// The fields whose eastern neighbours are not loaded. They are combined by a shift from this
-/// vector and the next one, which stays in a register until the loop reaches it. Western neighbours
-/// are loaded, because shifting them, too, would take two more operations of the arithmetic units.
+/// The fields whose eastern neighbours are not loaded. Each vector of eastern neighbours is
+/// combined by a shift from this vector and the next one, which stays in a register until the loop
+/// reaches it. Western neighbours are loaded, because shifting them, too, would take two more
+/// operations of the arithmetic units.
 std::set<FieldSlot> shifted_fields(const KernelFrame& frame) {
     std::set<FieldSlot> fields;
     if (!frame.shape().is_short_of_loads || frame.vector_bytes() != cache_line) return fields;
@@ -126,7 +127,7 @@ std::set<FieldSlot> shifted_fields(const KernelFrame& frame) {
     return fields;
 }
 
-/// Which cells of the next row the loop over rows prefetches.
+/// The cells of the next row that the loop over rows prefetches.
 enum class Fetching { nothing, ahead, unless_near };
 
 /// Values that rows computed together share: the row below a row of the group is the group's next

@@ -31,8 +31,8 @@ Body::Body(const KernelPart& part, Function& function, Cells& cells, bool is_exa
       schedule_(cell_schedule_of(kernel_, levels_)),
       readers_(kernel_.code.size()),
       values_(kernel_.code.size()) {
-    IdVector<ValueId, int> times(kernel_.code.size(), 1);  // How many times each value's code is
-                                                           // written.
+    // The number of times that each value's code is written.
+    IdVector<ValueId, int> times(kernel_.code.size(), 1);
     for (const ValueId id : times.ids()) times[id] = levels_[id] < LoopLevel::link;
     for (const LinkLoop& loop : schedule_.loops) {
         for (const ValueId id : loop.values) ++times[id];

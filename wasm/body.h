@@ -1,7 +1,7 @@
 // Translates every operation of ir/operations.def to WebAssembly's instructions.
 //
-// Internal to wasm/. Each operation on words and numbers does what the interpreter's does
-// (ir/word_operations.h), so both have the same bits, with denormal numbers, too.
+// Internal to wasm/. Each operation on words and numbers has the same result as in the interpreter
+// (ir/word_operations.h), bit for bit, also with denormal numbers.
 #pragma once
 
 #include "ir/kernel_parts.h"
@@ -18,9 +18,9 @@ class Body {
 public:
     Body(const KernelPart& part, Function& function, Cells& cells, bool is_exact);
 
-    /// Writes the code of the values of a loop level. To be called once for each level, outer
-    /// levels first. Only for the level of cells, to be called once for each vector of the group.
-    /// These calls also write the stores of results.
+    /// Writes the code of the values of a loop level. Must be called once for each level, outer
+    /// levels first, but for the level of cells once for each vector of the group. The calls for
+    /// cells also write the stores of results.
     void write(LoopLevel level);
 
 private:
@@ -88,8 +88,8 @@ private:
     IdVector<ValueId, LoopLevel> levels_;
     CellSchedule schedule_;
     IdVector<ValueId, int> readers_;          ///< The number of instructions that read each value.
-    IdVector<ValueId, int> readers_to_come_;  ///< For each value, how many reads have yet to be
-                                              ///< written in the present vector.
+    IdVector<ValueId, int> readers_to_come_;  ///< The number of reads of each value that have yet
+                                              ///< to be written in the present vector.
     std::vector<ValueId> read_in_loop_;  ///< The values of cells that the present loop over links
                                          ///< reads.
     IdVector<ValueId, Value> values_;

@@ -35,10 +35,10 @@ struct WasmOptions {
 /// the beginning of the memory:
 ///
 /// - `fields`, `masks` and `results` are addresses of tables. A table has an address (32 bits,
-///   little endian) for each slot: that of cell (0, 0, 0) of a plane in the layout of PlaneLayout.
-///   Planes of fields and results contain floats, and planes of masks contain bytes. `uniforms` is
-///   the address of one float for each slot. In kernels of binary64 all floats are doubles. If the
-///   kernel has no slots of a kind, the argument may be 0.
+///   little endian) for each slot: the address of cell (0, 0, 0) of a plane in the layout of
+///   PlaneLayout. Planes of fields and results contain floats, and planes of masks contain bytes.
+///   `uniforms` is the address of one float for each slot. In kernels of binary64 all floats are
+///   doubles. If the kernel has no slots of a kind, the argument may be 0.
 /// - The function computes columns [column_begin, column_end), at least one, of rows [row_begin,
 ///   row_end). `column_begin` is a multiple of 16. So is `column_end`, unless it is the number of
 ///   cells in a row. `stride` is PlaneLayout::stride.
