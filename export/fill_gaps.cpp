@@ -11,8 +11,8 @@ namespace {
 
 constexpr int rim = 2;  ///< Width in texels.
 
-/// Fills texels that have filled neighbours. Neighbours at a side have twice the weight of those at
-/// a corner.
+/// Fills texels that have filled neighbours. Neighbours at a side have twice the weight of
+/// neighbours at a corner.
 void widen(PartialTexture& texture) {
     const std::vector<std::uint8_t> was_filled = texture.is_filled;
     const auto wrapped = [](std::int64_t place, std::int64_t size) {

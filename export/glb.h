@@ -23,7 +23,7 @@ struct GlbLook {
     std::string_view normal_map;
     std::string_view surface_map;   ///< A PNG file packed as MaterialMaps::surface.
     std::string_view emission_map;  ///< A PNG file of emitted colours.
-    MapSet has;  ///< Which parts the maps contain. Opacity is the alpha channel of the colours.
+    MapSet has;  ///< The parts that the maps contain. Opacity is the alpha channel of the colours.
     bool is_cut = false;  ///< Whether opacities only mark holes: an opacity below ½ is a hole.
     std::array<bool, 2> repeats{true, true};  ///< Whether the maps repeat along x and y.
     float roughness = 0.6F;                   ///< 0 … 1. Used if no map contains the roughness.

@@ -28,9 +28,9 @@ struct InstancedModel {
 /// The extension does not define colours. Some programs (three.js, Babylon.js) read them from the
 /// attribute `_COLOR_0`, linear light by which they multiply the material's colour. For all other
 /// programs, copies of similar colours share one of at most `most_copy_materials` materials, which
-/// has their mean colour. `_COLOR_0` is a copy's light over its material's light. So programs that
-/// read `_COLOR_0` show each colour exactly. The others show an approximation, which is exact if
-/// there are at most `most_copy_materials` colours.
+/// has their mean colour. `_COLOR_0` is a copy's light divided by its material's light. So programs
+/// that read `_COLOR_0` show each colour exactly. The others show an approximation, which is exact
+/// if there are at most `most_copy_materials` colours.
 Result<std::string> encode_instanced_glb(const InstancedModel& model);
 inline constexpr std::size_t most_copy_materials = 32;
 

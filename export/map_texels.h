@@ -1,4 +1,4 @@
-// How maps store heights and directions (internal to export/).
+// The format in which maps store heights and directions (internal to export/).
 #pragma once
 
 #include "core/vector3.h"

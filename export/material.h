@@ -9,9 +9,9 @@
 
 namespace cascade {
 
-/// Quantities from 0 to 1. They are stored in three textures. The channels of the first are
-/// occlusion, roughness and metalness, those of the second are red, green and blue of the emitted
-/// light, and the third has the opacity. The enumerators are in this order.
+/// Quantities from 0 to 1. They are stored in three textures: the first has occlusion, roughness
+/// and metalness, the second has red, green and blue of the emitted light, and the third has the
+/// opacity. The enumerators are in this order.
 enum class MaterialPart : std::uint8_t {
     occlusion,  ///< The visible part of the sky: 0 in the deepest crevice.
     roughness,
@@ -45,7 +45,7 @@ inline bool is_cut(std::span<const float> opacities) {
     });
 }
 
-/// Which maps exist, besides colours.
+/// The maps that exist, besides colours.
 struct MapSet {
     bool heights = false, normals = false;
     bool occlusion = false, roughness = false, metalness = false;

@@ -21,7 +21,7 @@ public:
 
 private:
     std::string text_ = "# Cascade\n";
-    // How many have been written so far. Indices in a file begin at 1 and continue from object to
+    // The numbers of items written so far. Indices in a file begin at 1 and continue from object to
     // object.
     std::size_t points_ = 0, normals_ = 0, places_ = 0;
 };

@@ -26,8 +26,8 @@ using ValueColours = std::function<void(std::span<const float> values, std::span
 struct PaintedCells {
     std::size_t channels = 1;
     std::span<const float> values;  ///< `channels` values per cell, cell after cell.
-    /// Gives the colour of a point. If a channel of it is NaN, the colour that represents NaN is
-    /// painted instead.
+    /// Gives the colour of a point. If a channel of this colour is NaN, the colour that represents
+    /// NaN is painted instead.
     PlaceColour colour;
     /// For each cell, its height above the surface, in the unit of the mesh. Empty if there are no
     /// heights.

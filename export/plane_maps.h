@@ -1,4 +1,5 @@
-// Maps of a plane of cells: textures of any size, which repeat where the plane's sides do.
+// Maps of a plane of cells: textures of any size, which repeat along the axes along which the plane
+// is periodic.
 #pragma once
 
 #include "export/flat_cells.h"

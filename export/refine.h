@@ -11,7 +11,7 @@
 
 namespace cascade {
 
-/// Which part of a triangle of the original mesh a triangle of the refined mesh is.
+/// The part of a triangle of the original mesh that a triangle of the refined mesh covers.
 struct TriangleOrigin {
     std::uint32_t triangle = 0;
     /// For each corner of the refined triangle: its weights of the original triangle's corners.

@@ -20,7 +20,7 @@ TexturePlace finite(TexturePlace place) {
     return place;
 }
 
-/// How the texture is oriented in a triangle.
+/// The orientation of the texture in a triangle.
 struct TriangleTangent {
     /// Direction in which the first coordinate grows; 0 if the triangle has no area in the texture.
     Vector3d direction;

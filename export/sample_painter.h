@@ -1,4 +1,4 @@
-// What baking paints: the appearance of a surface at the samples of a texture.
+// The appearance of a surface at the samples of a texture, which baking paints.
 #pragma once
 
 #include "atlas/texture_layout.h"
@@ -35,7 +35,8 @@ public:
     SamplePainter(const SamplePainter&) = delete;
     SamplePainter& operator=(const SamplePainter&) = delete;
 
-    /// Which maps this painter gives, besides colours. If it gives no heights, all heights are 0.
+    /// The maps that this painter gives, besides colours. Without a map of heights, all heights
+    /// are 0.
     virtual MapSet maps() const = 0;
 
     /// Sets all lights of the row, and the heights and the parts of the material that are in

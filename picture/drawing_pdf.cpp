@@ -28,7 +28,7 @@ struct Run {
 
 /// The code of a Greek letter in the font Symbol. 0 if there is none.
 char in_symbol(char32_t letter) {
-    // In the order of Unicode, from α and Α. A blank stands for a missing letter or glyph.
+    // In the order of Unicode, from α and Α. A blank marks a missing letter or glyph.
     constexpr std::string_view small = "abgdezhqiklmnxoprVstufcyw",
                                large = "ABGDEZHQIKLMNXOPR STUFCYW";
     if (letter >= U'α' && letter < U'α' + small.size()) return small[letter - U'α'];
@@ -168,7 +168,7 @@ private:
         const HPDF_Image made =
             HPDF_LoadRawImageFromMem(pdf_.get(), levels.data(), static_cast<HPDF_UINT>(image.width),
                                      static_cast<HPDF_UINT>(image.height), HPDF_CS_DEVICE_RGB, 8);
-        if (made == nullptr) return;  // The document itself remembers the error.
+        if (made == nullptr) return;  // The document itself records the error.
         HPDF_Page_DrawImage(page_, made, x(drawn.corner), y({0, drawn.corner[1] + drawn.height}),
                             number(drawn.width), number(drawn.height));
     }

@@ -29,7 +29,7 @@ struct Hdf5Column {
     std::vector<double> values;
 };
 
-/// What a file contains besides its moments.
+/// The content of a file besides its moments.
 struct Hdf5Layout {
     /// The axes of the cells, the slowest first, with the positions of the cells. Each name is
     /// also the name of a dimension scale.
@@ -68,7 +68,7 @@ public:
     /// Adds numbers to the attributes of a stage's group, /stages/NAME.
     virtual Result<void> describe(std::size_t stage,
                                   const std::map<std::string, double>& numbers) = 0;
-    /// Writes what is left and closes the file. Must be the last call.
+    /// Writes the remaining data and closes the file. Must be the last call.
     virtual Result<void> close() = 0;
 };
 

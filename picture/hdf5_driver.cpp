@@ -54,7 +54,7 @@ herr_t truncate_unless_dropped(H5FD_t* file, hid_t transfer, hbool_t closing) {
     return drops_writes ? 0 : files_of_library->truncate(file, transfer, closing);
 }
 
-/// Carries the gathered writes out.
+/// Performs the gathered writes.
 herr_t write_in_order(std::set<haddr_t>& written) {
     auto& writes = gathered.writes;
     if (writes.empty()) return 0;

@@ -2,10 +2,10 @@
 //
 // The library writes parts of a file in the order of their addresses, and the length of the file at
 // the end. So for a moment a part may point to a later part that is not yet written. This driver
-// gathers the writes of a flush. It writes the length first, then new parts from the highest
-// address down, because a new part points only to later ones, and then the old parts upwards: if a
-// node of an index is divided, its parent points to both halves before the old half becomes
-// shorter.
+// gathers the writes of a flush. It writes the length first. Then it writes new parts from the
+// highest address down, because a new part points only to later parts. Finally it writes the old
+// parts upwards. So if a node of an index is divided, its parent points to both halves before the
+// old half becomes shorter.
 #pragma once
 
 #include <hdf5.h>
@@ -22,7 +22,7 @@ hid_t hdf5_driver(const char* any_file);
 /// have been written before. The addresses of new parts are added. Negative if the flush fails.
 herr_t flush_in_order(hid_t file, std::set<haddr_t>& written);
 
-/// While an object with `drops` lives, files that this thread closes do not change on the disk.
+/// While an object with `drops` exists, files that this thread closes do not change on the disk.
 class DroppedWrites {
 public:
     explicit DroppedWrites(bool drops);

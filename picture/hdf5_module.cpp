@@ -40,7 +40,7 @@ Number good(Number result) {
     return result;
 }
 
-/// An identifier of the library, which is closed at the end of its life.
+/// An identifier of the library. The destructor closes it.
 class Handle {
 public:
     using Close = herr_t (*)(hid_t);
@@ -267,7 +267,7 @@ File::Growing File::make_growing(const std::string& name, hid_t type, std::vecto
     const Handle creation = dataset_properties();
     good(H5Pset_chunk(creation, static_cast<int>(chunk.size()), chunk.data()));
     if (fill) good(H5Pset_fill_value(creation, type, fill));
-    // Without a cache, numbers are written, and their places found, before the next flush.
+    // Without a cache, numbers are written, and get their addresses, before the next flush.
     const Handle use(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
     good(H5Pset_chunk_cache(use, 0, 0, 1));
     Growing growing{{H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, creation, use),
@@ -321,7 +321,7 @@ Result<void> File::close() {
     return attempt([&] { flush(); });
 }
 
-/// Closes the file. What is written after a failure would not be in order, so it is dropped.
+/// Closes the file. Writes after a failure would not be in order, so they are dropped.
 File::~File() {
     const DroppedWrites dropped(!is_whole_);
     fields_.clear();

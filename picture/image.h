@@ -126,11 +126,11 @@ using PngTexts = std::map<std::string, std::string>;
 /// The most bytes of all texts of a picture together, both for writing and for reading.
 inline constexpr std::size_t longest_png_text = std::size_t{16} << 20;
 
-/// What the numbers in a PNG file mean. They are either colours in sRGB, which the file then
+/// The meaning of the numbers in a PNG file. They are either colours in sRGB, which the file then
 /// declares, or the numbers of a map, to which readers must not apply colour correction.
 enum class PngMeaning { colours, numbers };
 
-/// How much time is spent on compression. `fast` takes a third of the time of `small`, and the
+/// The effort that is spent on compression. `fast` takes a third of the time of `small`, and the
 /// files of patterns become a tenth larger.
 enum class PngEffort { small, fast };
 

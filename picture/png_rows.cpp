@@ -68,7 +68,7 @@ WITH_WIDE_VECTORS bool find_painted_levels(std::span<const float> values, const 
     const double width = static_cast<double>(how.range.high) - low;
     const double from = static_cast<double>(how.palette.stops[0][0]);
     const double rise = static_cast<double>(how.palette.stops[1][0]) - from;
-    // The number is 1, but compilers do not vectorise the loop if they can see that.
+    // The number is 1, but compilers do not vectorise the loop if they can deduce that.
     const double last = static_cast<double>(how.palette.stops.size() - 1);
     int is_one_nan = 0;
     for (std::size_t k = 0; k < values.size(); ++k) {

@@ -11,7 +11,7 @@
 
 namespace cascade {
 
-/// How a PNG file stores pixels.
+/// The format in which a PNG file stores pixels.
 struct PngFormat {
     PngDepth depth = PngDepth::eight;
     bool is_grey = false;
