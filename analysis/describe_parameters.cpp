@@ -24,7 +24,7 @@ std::string pattern_words(const System& system, const ParameterScan& scan,
     if (by.quadratic == 0) {
         return by.ends_in_stripes() ? "stripes, grow smoothly" : "spots or squares";
     }
-    // The first species that takes part in the wave. Others may only fade, or follow.
+    // Finds the first species that takes part in the wave. A smaller component is a rounding error.
     constexpr double least_part = 1e-3;
     int first = 0;
     while (first + 1 < by.wave.size() && !(std::abs(by.wave[first]) > least_part)) ++first;

@@ -275,8 +275,8 @@ std::vector<Complex> eigenvalues(const LinearModel& model, const Matrices& matri
 
 namespace {
 
-/// The dispersion relation without its curve, from samples in this number of directions in a plane
-/// and of this number of waves along each direction.
+/// The dispersion relation without its curve. It is computed from waves in `directions_in`
+/// directions of a plane, `samples_along` waves along each.
 Dispersion without_curve(const LinearModel& model, const Matrices& matrices, int directions_in,
                          std::size_t samples_along) {
     const Relation relation(model, matrices);

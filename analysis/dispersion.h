@@ -32,7 +32,7 @@ struct GrowingBand {
     double least = 0, most = 0;
 };
 
-/// What happens to a flat state after a small change.
+/// The behaviour of a flat state after a small change.
 enum class Stability : std::uint8_t {
     stable,  ///< The change fades, or at least does not grow.
     turing,  ///< Standing waves of some lengths grow, but a uniform change does not.
@@ -68,9 +68,8 @@ struct Dispersion {
 std::vector<Complex> eigenvalues(const LinearModel& model, const Matrices& matrices,
                                  const Lattice& lattice, const Phases& phases);
 
-/// The dispersion relation of a state with these matrices. Waves shorter than two cells do not
-/// exist. On a model, the shortest wavelength is twice the mean distance
-/// between neighbours.
+/// The dispersion relation of a state with these matrices. No wave is shorter than two cells. On a
+/// model, the shortest wavelength is twice the mean distance between neighbours.
 Dispersion dispersion(const LinearModel& model, const Matrices& matrices);
 
 /// The same as dispersion(), but without the curve and the bands, and in a tenth of the time. Sets

@@ -33,7 +33,7 @@ FlatStates flat_states(const LocalRates& rates);
 std::optional<Vector> flat_state_near(const LocalRates& rates, const Vector& species,
                                       const Matrix& conserved);
 
-/// The combinations of species that the reaction conserves, whatever their values.
+/// The combinations of species that the reaction conserves for all values of the species.
 Matrix conserved_totals(const LocalRates& rates);
 
 }  // namespace cascade::analysis

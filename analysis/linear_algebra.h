@@ -41,11 +41,11 @@ Vector least_squares(const Matrix& matrix, const Vector& right);
 /// Does the same as least_squares() for each column of `right`.
 ComplexMatrix least_squares(const ComplexMatrix& matrix, const ComplexMatrix& right);
 
-/// The singular values of a matrix of any shape, in descending order. There are as many as its
-/// smaller side has elements.
+/// The singular values of a matrix of any shape, in descending order. Their number is the smaller
+/// of the numbers of rows and columns.
 Vector singular_values(const Matrix& matrix);
-/// Unit row vectors, orthogonal to each other and to all columns of the matrix. There are as many
-/// as the matrix has rows, minus its rank. Singular values of at most `resolution` times the
+/// Unit row vectors, orthogonal to each other and to all columns of the matrix. Their number is the
+/// number of the matrix's rows minus its rank. Singular values of at most `resolution` times the
 /// largest count as 0.
 Matrix rows_across_columns(const Matrix& matrix, double resolution);
 

@@ -1,4 +1,4 @@
-// How the class of a flat state (its Stability) depends on parameters: critical values of one
+// The dependence of a flat state's class (its Stability) on parameters: critical values of one
 // parameter, or a map over two parameters.
 #pragma once
 

@@ -30,7 +30,7 @@ bool is_stable(const StepPolynomial& polynomial, Complex z) {
     return std::norm(sum) <= 1 + 1e-12;
 }
 
-/// Where a ray from 0 leaves the region of stability, as a distance from 0. `angle` is the ray's
+/// The distance from 0 at which a ray from 0 leaves the region of stability. `angle` is the ray's
 /// angle to the negative axis, 0 … π/2.
 double reach(const StepPolynomial& polynomial, double angle) {
     const Complex direction = std::polar(1.0, std::numbers::pi - angle);

@@ -73,8 +73,8 @@ struct Lattice {
     std::array<bool, 3> has_axis{};  ///< Whether the grid has several cells along each axis.
     std::array<double, 3> cells{};   ///< The number of cells along each axis; 0 if unknown.
     std::array<bool, 3> is_periodic{};
-    /// Whether there are no axes, as on a model or a curved surface. Derivatives are then those of
-    /// calculus: lap is −k². The first axis stands for any direction.
+    /// Whether there are no axes, as on a model or a curved surface. Derivatives are then exact:
+    /// lap is −k². The first axis represents any direction.
     bool is_continuous = false;
     StencilKind stencil = StencilKind::cross;
 };

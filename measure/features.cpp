@@ -1,5 +1,5 @@
-// Of a uniform field only the values are measured. Spots are regions above the mean of the smallest
-// and the largest value.
+// In a uniform field, only the values are measured. Spots are regions above the mean of the
+// smallest and the largest value.
 #include "measure/features.h"
 
 #include "core/spread.h"

@@ -10,9 +10,9 @@ namespace cascade::measure {
 /// Along a diagonal the factor is larger.
 inline constexpr double fewest_cells_a_wave = 4;
 
-/// The wavelength of a field in cells, if it is below `fewest_cells_a_wave` but above 2 (that of a
-/// chequerboard). NaN for any other field, including fields without a wavelength, such as noise.
-/// Uses a Fourier transform only if neighbours are weakly correlated.
+/// The wavelength of a field in cells, if it is below `fewest_cells_a_wave` but above 2 (the
+/// wavelength of a chequerboard). NaN for any other field, including fields without a wavelength,
+/// such as noise. Uses a Fourier transform only if neighbours are weakly correlated.
 double unresolved_wavelength(const Samples& samples);
 
 /// The fraction, 0 … 1, of a field's variance that belongs to waves shorter than

@@ -17,8 +17,8 @@ namespace cascade::measure {
 
 namespace {
 
-/// The ratio of the wave number at the end of a peak to that at its centre. It is less than √2, the
-/// ratio for the second wave of a square lattice.
+/// The ratio of the wave number at the end of a peak to the wave number at its centre. It is less
+/// than √2, the ratio for the second wave of a square lattice.
 constexpr double peak_breadth = 1.3;
 
 struct Fftw {
