@@ -7,7 +7,8 @@
 
 namespace cascade {
 
-/// The table of one stage, with a sentence about what limits its speed. Ends with an empty line.
+/// The table of one stage, with a sentence that names the limit of its speed. Ends with an empty
+/// line.
 std::string bench_table(const std::string& script, const StageBench& bench);
 
 /// The limit of a stage's speed, such as "memory: 31.0 GB/s of 38.0 GB/s, 82 %". Empty if unknown.

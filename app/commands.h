@@ -36,7 +36,7 @@ int export_command(const Options& options, Console& console);
 int lsp_command(const Options& options, Console& console);
 int repl_command(const Options& options, Console& console);
 
-/// How a command can be used at the prompt. With `of_script`, ':check' does the same as 'cascade
+/// The ways to use a command at the prompt. With `of_script`, ':check' does the same as 'cascade
 /// check', for the script typed so far.
 enum class AtPrompt { absent, plain, of_script };
 

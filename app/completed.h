@@ -1,4 +1,4 @@
-// What can follow an option or stand for an argument, for shell completions.
+// The words that can follow an option or be an argument, for shell completions.
 #pragma once
 
 #include "app/manual.h"

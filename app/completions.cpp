@@ -20,7 +20,7 @@ std::string in_short(std::string about) {
     return about.substr(0, about.find_first_of(";"));
 }
 
-/// A word in single quotes. `inner` is what the shell needs in place of a quote inside the word.
+/// A word in single quotes. `inner` replaces a quote inside the word, as the shell requires.
 std::string quoted(const std::string& text, std::string_view inner) {
     std::string out = "'";
     for (const char c : text) {

@@ -35,7 +35,7 @@ public:
 
     /// From now on, collects all output in a single JSON object, which finish() writes.
     void answer_in_json(std::string_view command);
-    /// Drops what was collected for --json, because another process writes the object.
+    /// Drops the output collected for --json, because another process writes the object.
     void leave_answer_to_other() { answer_.reset(); }
     /// The object that collects output for --json. Null without --json.
     JsonAnswer* answer() const { return answer_.get(); }

@@ -1,4 +1,4 @@
-// The command `cascade continue` follows steady states, shows progress, and reports what it found.
+// The command `cascade continue` follows steady states, shows progress, and reports the branches.
 #include "app/commands.h"
 #include "app/exit_status.h"
 #include "app/interrupt.h"

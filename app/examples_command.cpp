@@ -38,7 +38,7 @@ std::vector<const Example*> mentioning(const std::vector<Example>& examples,
     return found;
 }
 
-/// Why a name or words select no example.
+/// The reason why a name or words select no example.
 Failure unknown_example(const std::vector<Example>& examples,
                         const std::vector<std::string>& words) {
     if (words.empty()) {

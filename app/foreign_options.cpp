@@ -9,7 +9,8 @@ namespace cascade {
 
 namespace {
 
-/// `here` begins what to write. The value follows, or `example` if there is none.
+/// `here` is the beginning of the replacement. The user's value follows, or `example` if there is
+/// none.
 struct ForeignOption {
     std::string_view name, here, example;
 };

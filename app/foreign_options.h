@@ -1,4 +1,4 @@
-// Options of other programs, and what to write in their place.
+// Options of other programs, and their replacements in Cascade.
 #pragma once
 
 #include <functional>
@@ -7,10 +7,10 @@
 
 namespace cascade {
 
-/// Advice about `option`, such as `--dt` or `--dt=0.1`, which the command does not have: what to
-/// write in its place, with the value that the user has given or an example. `is_option` tells
-/// whether the command has an option of this name, and `has_near` whether it has one with a similar
-/// name, which is more likely than a name of the script. Empty if there is no advice.
+/// Advice about `option`, such as `--dt` or `--dt=0.1`, which the command does not have: the
+/// replacement, with the value that the user has given or an example. `is_option` tells whether the
+/// command has an option of this name, and `has_near` whether it has one with a similar name, which
+/// is more likely than a name of the script. Empty if there is no advice.
 std::string advice_about_option(std::string_view option, const std::string& value,
                                 const std::function<bool(std::string_view)>& is_option,
                                 bool has_near);

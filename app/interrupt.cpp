@@ -24,8 +24,8 @@ constexpr std::array watched_signals = {SIGINT, SIGTERM, SIGHUP};
 constexpr std::int64_t least_milliseconds_between = 200;
 
 // A signal handler receives only a number, so everything that it changes must be global. These
-// three variables, those of TimeLimit and LastMoments, and the slots of temporary files are the
-// program's only global variables. All are lock-free.
+// three variables, the variables of TimeLimit and LastMoments, and the slots of temporary files are
+// the program's only global variables. All are lock-free.
 std::atomic<std::atomic<bool>*> cancel_flag{nullptr};
 std::atomic<int> received{0};
 /// The time of the first SIGINT in milliseconds. 0 if there was none.

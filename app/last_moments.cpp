@@ -24,7 +24,7 @@ constexpr double part_of_limit = 0.1;
 constexpr std::string_view farewell =
     "cascade: ended at once, because the missing outputs would take too long\n";
 
-/// What the signal handlers read and change, so it is global.
+/// The data that the signal handlers read and change. So it is global.
 struct Moments {
     std::atomic<bool> exist{false};
     std::atomic<std::atomic<bool>*> hurry{nullptr};

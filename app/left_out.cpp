@@ -1,5 +1,5 @@
 // The first program (cmake/first.cmake) calls this function instead of functions that it leaves
-// out. It has the launcher build the whole program, which then runs the same command.
+// out. This function makes the launcher build the whole program, which then runs the same command.
 
 #include "app/exit_status.h"
 

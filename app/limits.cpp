@@ -40,7 +40,7 @@ void set_timer(double seconds) {
 }
 
 /// glibc gives each thread a heap that reserves 64 MiB of addresses. Where `ulimit -v` limits
-/// addresses, these heaps would take what the run needs.
+/// addresses, these heaps would take the addresses that the run needs.
 void share_heap_of_threads() {
 #ifdef __GLIBC__
     rlimit addresses = {};

@@ -12,7 +12,7 @@
 namespace cascade {
 namespace {
 
-/// Text in which roff sees no command.
+/// Escapes a text, so that roff finds no command in it.
 std::string roff(std::string_view text) {
     std::string out;
     bool begins_line = true;

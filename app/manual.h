@@ -9,7 +9,7 @@ namespace cascade {
 /// An argument or option of a command.
 struct ManualOption {
     std::vector<std::string> names;  ///< "-o", "--output". For an argument its name, "SCRIPT".
-    std::string value;               ///< What follows the option: "FILE". Empty for a flag.
+    std::string value;               ///< The name of its value: "FILE". Empty for a flag.
     std::string about;               ///< In lines, as --help prints it.
     std::string group;               ///< The heading in --help.
     bool is_repeatable = false;      ///< Whether an argument may be given several times.

@@ -1,4 +1,4 @@
-// Recognises what mpiexec of Open MPI 4 prints, and Hydra, which is mpiexec of MPICH 4.
+// Recognises the messages of mpiexec of Open MPI 4, and of Hydra, the mpiexec of MPICH 4.
 #include "app/mpiexec_output.h"
 
 #include "ranks/launcher.h"

@@ -1,4 +1,4 @@
-// Reads what mpiexec and the ranks write to standard error.
+// Reads the messages that mpiexec and the ranks print.
 #pragma once
 
 #include <map>
@@ -9,8 +9,8 @@
 
 namespace cascade {
 
-/// A line that a rank prints when it starts. It tells the process that has called mpiexec which
-/// process must receive Ctrl-C, and which rank a killed process was.
+/// A line that a rank prints when it starts. From it, the process that has called mpiexec learns
+/// which process must receive Ctrl-C, and the rank of each process.
 std::string announcement_of_rank(int rank);
 
 /// Separates the output of ranks, which is passed on, from the explanations of mpiexec. Open MPI
@@ -29,7 +29,7 @@ public:
     }
 
     /// The signal that has killed a rank, as Open MPI or MPICH explains it; empty if there was
-    /// none: "rank 1 on MACHINE was killed by signal 9". `ranks` has seen the announcements of
+    /// none: "rank 1 on MACHINE was killed by signal 9". `ranks` has read the announcements of
     /// ranks.
     std::string killed(const MpiexecOutput& ranks) const;
     /// The explanations of mpiexec.

@@ -17,7 +17,7 @@ inline constexpr const char* execution_group =
 void add_script(CLI::App& app, Options& options, const std::string& help);
 void add_allow_read(CLI::App& app, ReadAccess& reads, const std::string& about);
 void add_overrides(CLI::App& app, Overrides& overrides);
-/// Adds the picture options of `cascade run`, or only those that `cascade sweep` has, too.
+/// Adds the picture options of `cascade run`, or only the options that `cascade sweep` has, too.
 void add_picture_options(CLI::App& app, PictureChanges& picture, bool is_sweep = false);
 void add_files(CLI::App& app, RunRequest& run);
 /// Adds the options of run_options.def from `first` to `last`.
@@ -28,7 +28,7 @@ void add_simulation(CLI::App& app, Options& options, const std::string& threads)
 /// Adds the arguments and options of `cascade mesh` for models and the cells on them.
 void add_mesh(CLI::App& app, Options& options);
 void add_timing(CLI::App& app, Options& options);
-/// `work` is what the ranks share: "steps" or "runs".
+/// `work` names the work that the ranks share: "steps" or "runs".
 void add_ranks(CLI::App& app, Options& options, std::string_view work);
 void add_device(CLI::App& app, Options& options);
 void add_limits(CLI::App& app, Options& options);

@@ -27,7 +27,7 @@ std::vector<std::string> palette_names() {
     return names;
 }
 
-/// How the values of options in all three tables are parsed. Each is a function of a text, or one
+/// The parsers for the values of options in all three tables. Each is a function of a text, or one
 /// of the following objects.
 namespace typed_values {
 

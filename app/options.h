@@ -46,7 +46,7 @@ enum class Command {
 };
 
 /// The picture options that the user has given explicitly. When the run of a saved picture is
-/// repeated, these options replace those stored in the picture. Defaults do not.
+/// repeated, these options replace the options stored in the picture. Defaults replace nothing.
 struct PictureChanges {
 #define CASCADE_PICTURE_OPTION(type, member, ...) std::optional<type> member;
 #include "run/script/picture_options.def"

@@ -5,9 +5,8 @@
 
 namespace cascade {
 
-/// Whether a process has children, and all of them, with the children of these and so on, either
-/// have ended without being waited for, or only wait for such processes. False if /proc does not
-/// list children.
+/// Whether a process has children, and every descendant has either ended without being waited for,
+/// or only waits for such processes. False if /proc does not list children.
 bool only_ended_below(pid_t process);
 
 }  // namespace cascade

@@ -37,7 +37,7 @@ public:
     bool take(const std::string& line);
     /// Discards an unfinished block after Ctrl-C.
     void drop_pending() { pending_.clear(); }
-    /// Prints, only once, in which file the session is stored.
+    /// Prints the path of the file that stores the session, but only once.
     void tell_where_kept() const {
         if (kept_) tell_news(*kept_, console_);
     }

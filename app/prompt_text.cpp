@@ -94,7 +94,7 @@ Completion complete_word(std::string_view line, std::vector<std::string> names) 
     choices.erase(std::unique(choices.begin(), choices.end()), choices.end());
     if (choices.empty()) return completion;
 
-    // The choices are sorted, so what the first and the last have in common is common to all.
+    // The choices are sorted, so a common beginning of the first and the last is common to all.
     const std::string& first = choices.front();
     const std::string& last = choices.back();
     std::size_t common = word.size();

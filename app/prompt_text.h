@@ -15,7 +15,7 @@ bool is_complete(std::string_view text);
 /// Whether the line is blank or a comment.
 bool says_nothing(std::string_view line);
 
-/// How the last word of a line can continue.
+/// The ways in which the last word of a line can continue.
 struct Completion {
     std::string insert;                ///< The text to insert. All choices begin with it.
     std::vector<std::string> choices;  ///< Sorted, without repetitions.

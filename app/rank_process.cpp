@@ -25,14 +25,14 @@
 namespace cascade {
 namespace {
 
-/// How long a rank waits for the message of rank 0 before it prints its own. Usually all ranks fail
+/// The time a rank waits for the message of rank 0 before it prints its own. Usually all ranks fail
 /// for the same reason. Ranks that share a processor reach that message later.
 std::chrono::seconds patience() {
     const int sharing = ranks_on_this_machine() / std::max(1, hardware_threads());
     return std::chrono::seconds(std::clamp(2 * sharing, 2, 20));
 }
 
-/// Stores what a rank other than rank 0 prints.
+/// Stores the messages of a rank other than rank 0.
 class Messages {
 public:
     Messages() : file_(::memfd_create("cascade", MFD_CLOEXEC)) {

@@ -16,7 +16,7 @@ Result<void> check_readable_by_ranks(const Options& options);
 
 /// Runs a command as one of the ranks that a launcher has started. Only rank 0 writes files and
 /// messages. If a rank fails, all ranks end: rank 0 reports its failure, and any other rank waits a
-/// moment for that before it reports its own.
+/// moment for this report before it reports its own failure.
 int run_as_rank(const Options& options, Console& console, CommandOnRanks& command);
 
 /// Makes this process take its share of the steps. On all ranks but rank 0, the request then writes

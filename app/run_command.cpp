@@ -75,7 +75,7 @@ std::optional<LoadedFile> load_for_run(const Options& options, const Console& co
     return LoadedFile{std::move(*saved), ""};
 }
 
-/// Whether the run does what the first program leaves out (cmake/later.txt).
+/// Whether the run needs parts that the first program lacks (cmake/later.txt).
 bool needs_more_than_planes(const Options& options, const Script& script) {
     const RunRequest& run = options.run;
     if (script.program && draws_scene(script, apply(options.picture, run.picture))) return true;

@@ -26,8 +26,8 @@ constexpr std::uint64_t usual_bytes = std::uint64_t{1} << 20;
 constexpr auto between_places = std::chrono::seconds(1);
 constexpr std::string_view mark = ".unsaved";
 
-/// A stem without the mark of unsaved sessions and what follows it. So the file of a session that
-/// continues an unsaved one has the same stem.
+/// The stem without the mark of unsaved sessions and the text after the mark. So the file of a
+/// session that continues an unsaved session has the same stem.
 std::string first_stem(std::string stem) {
     const std::size_t begin = stem.find(mark);
     if (begin != std::string::npos && begin > 0) stem.resize(begin);

@@ -39,8 +39,8 @@ public:
     /// Makes the destructor leave the file on the disk.
     void leave();
 
-    /// Something to tell the user, if there is any news since the last call: the path of the new
-    /// file, or a failure with the reason why there is no file.
+    /// The news for the user since the last call, if any: the path of the new file, or a failure
+    /// with the reason why there is no file.
     std::optional<Result<std::string>> news();
 
     /// The files of sessions that were not ended by their users.
@@ -68,7 +68,7 @@ private:
     std::optional<Result<std::string>> news_;
 };
 
-/// Tells the user the news of a file, if there is any.
+/// Prints the news of a file, if there is any.
 void tell_news(SessionFile& file, const Console& console);
 
 /// Prints which files earlier sessions of a script have left, except `file`, from which the present

@@ -145,7 +145,7 @@ struct ReadStream {
     MpiexecOutput seen = {};
     std::string text = {};  ///< The beginning of the next line.
 
-    /// Reads what is there. Returns whether the stream has ended.
+    /// Reads the available bytes. Returns whether the stream has ended.
     bool read_some() {
         std::array<char, 4096> buffer{};
         const ssize_t count = ::read(pipe, buffer.data(), buffer.size());
@@ -167,7 +167,7 @@ struct ReadStream {
     }
 };
 
-/// What mpiexec and the ranks have written.
+/// The output of mpiexec and the ranks.
 struct WrittenStreams {
     MpiexecOutput output, errors;
     bool is_stuck = false;  ///< mpiexec was ended, because it did not notice the end of the ranks.
@@ -191,7 +191,7 @@ public:
 
 private:
     static constexpr int most_looks = 4;
-    int looks_ = 0;  ///< In how many successive looks no rank was left.
+    int looks_ = 0;  ///< The number of successive looks that found no rank.
 };
 
 /// Prints the messages of ranks until mpiexec and all ranks have closed the pipes.
@@ -229,7 +229,7 @@ int wait_for(pid_t process) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : exit_status::signal_base + WTERMSIG(status);
 }
 
-/// What continues a run or a sweep after a rank was killed.
+/// Tells the user how to continue a run or a sweep after a rank was killed.
 std::string how_to_go_on(const Options& options) {
     if (options.command == Command::sweep) {
         return "the same command goes on with the runs that are missing";

@@ -14,8 +14,8 @@ namespace cascade {
 /// a newline.
 std::string time_table(TimeAccount& account, bool bars);
 
-/// Describes what each rank has spent on steps, a line for each rank: its machine, processor time
-/// in kernels and copies, time in messages, and bytes of halos. Ends with a newline.
+/// Describes the costs of steps in a line for each rank: its machine, processor time in kernels and
+/// copies, time in messages, and bytes of halos. Ends with a newline.
 std::string rank_table(std::span<const RankLoad> loads);
 
 }  // namespace cascade

@@ -5,7 +5,7 @@
 
 namespace cascade {
 
-/// Must be called while an exception is handled. Prints what has happened, and returns the exit
+/// Must be called while an exception is handled. Describes the exception, and returns the exit
 /// status.
 int tell_of_exception(const Console& console);
 

@@ -1,4 +1,4 @@
-// The first program leaves out this file, as it leaves out what the whole program is needed for.
+// The first program contains neither this file nor the parts for which the whole program is needed.
 #include "app/whole_program.h"
 
 namespace cascade {

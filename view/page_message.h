@@ -34,7 +34,7 @@ struct AskForValues { std::int64_t cell = -1; };
 /// Asks for the distribution and spectrum of species `x`, and for the joint distribution of `x` and
 /// `y`.
 struct AskForMeasures { std::string x, y; };
-/// Asks for the features of what the present stage shows, or of an expression.
+/// Asks for the features of the value that the present stage shows, or of an expression.
 struct AskForFeatures { std::string show; };
 /// Asks for a PNG file that contains the session.
 struct AskForPicture { PictureRequest request; };

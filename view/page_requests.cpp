@@ -1,5 +1,5 @@
-// The numbers of a page's requests increase. So the number of the last request that was carried out
-// tells which requests were.
+// The numbers of a page's requests increase. So a request was carried out if its number is at most
+// the number of the last request that was.
 #include "view/page_requests.h"
 
 #include <algorithm>

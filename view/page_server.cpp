@@ -137,7 +137,7 @@ constexpr int snapshot_frame = 0, surface_frame = 1, file_frame = 2;
 }  // namespace
 
 struct PageServer::State {
-    std::mutex mutex;  ///< Protects all members below, except those with their own locks.
+    std::mutex mutex;  ///< Protects all members below that have no own locks.
     std::condition_variable is_wanted;
     std::map<PageId, OpenPage> pages;
     PageRequests requests;

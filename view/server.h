@@ -39,7 +39,7 @@ using beast::error_code;
 
 class Connection;
 
-/// How long the server waits for pages to answer its close, and for clients to read a refusal.
+/// The time the server waits for pages to answer its close, and for clients to read a refusal.
 constexpr std::chrono::milliseconds farewell_time{500};
 
 /// The part of a connection to a page that other threads use. Only the server's thread locks
