@@ -75,8 +75,8 @@ std::string write_script(const Draft& draft) {
     Sources sources;
     Diagnostics diagnostics;
     const SourceId source = sources.add("imported", text);
-    // A text that cannot be formatted is returned unchanged. When the script is checked, its errors
-    // are reported.
+    // A text that cannot be formatted is returned unchanged. Its errors are reported when the
+    // script is checked.
     return format_script(source, sources, diagnostics).value_or(text);
 }
 

@@ -25,8 +25,8 @@ struct Draft {
     std::vector<std::string> domain;
     std::vector<std::string> stage;  ///< Its statements except `speed`.
     double speed = 1;                ///< 0 if the solver chooses its steps.
-    /// Whether differences between cells are not those of the source, so that its steps may be too
-    /// long here.
+    /// Whether the script computes differences between cells by other formulas than the source. The
+    /// steps of the source may then be too long.
     bool has_other_differences = false;
     /// Whether a shorter step gives the same equations. False if a formula computes values of the
     /// next step.

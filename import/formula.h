@@ -37,15 +37,16 @@ struct Expression {
     bool is_name(std::string_view value) const { return kind == Kind::name && text == value; }
 };
 
-/// The deepest tree. Deeper formulas are refused, because trees are traversed recursively.
+/// The largest depth of a tree. Deeper formulas are refused, because trees are traversed
+/// recursively.
 inline constexpr std::uint32_t deepest_formula = 1000;
 
-/// How a program writes formulas.
+/// The style in which a program writes formulas.
 struct Dialect {
     bool is_c = false;              ///< Suffixes of numbers, casts, and divisions of whole numbers.
     bool caret_is_power = false;    ///< `^` and `**` are powers.
     bool implies_products = false;  ///< `2u` and `k(1 - u)` are products.
-    bool ignores_case = false;      ///< Names are read as small letters.
+    bool ignores_case = false;      ///< Names are converted to small letters.
 };
 
 Expression number(double value);
@@ -63,8 +64,8 @@ std::string number_text(double value);
 std::optional<Expression> read_formula(Span span, const Sources& sources, Diagnostics& diagnostics,
                                        const Dialect& dialect);
 
-/// The tree as text. It is in brackets if its operator binds less than `least`, a precedence of the
-/// language's operators from 1 (`or`) to 9 (operands).
+/// The tree as text, in brackets if the precedence of its operator is below `least`. Precedences of
+/// the language go from 1 (`or`) to 9 (operands).
 std::string write_formula(const Expression& formula, int least = 0);
 
 /// Replaces each name and each call by the result of `replace`. The arguments of a call are

@@ -59,8 +59,8 @@ Expression negated(Expression operand) {
 
 namespace {
 
-/// `formula` without the minus sign at its beginning, such as a / b for -a / b. Nothing if it has
-/// none.
+/// `formula` without the minus sign at its beginning, such as a / b for -a / b. Empty if there is
+/// no such sign.
 std::optional<Expression> without_sign(const Expression& formula) {
     if (formula.kind == Expression::Kind::unary && formula.text == "-") return formula.of[0];
     const bool is_product =

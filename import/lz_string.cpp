@@ -88,7 +88,7 @@ Units units_of(const std::vector<LzEntry>& entries, std::uint32_t index) {
 std::optional<std::string> from_lz_string(std::string_view letters, std::size_t most) {
     LzBits bits(letters);
     std::vector<LzEntry> entries(3);  // The codes 0, 1 and 2 have other meanings.
-    std::uint32_t room = 4;           // How many more codes have the present width.
+    std::uint32_t room = 4;           // The number of further codes that have the present width.
     int width = 3;
     const auto counts_down = [&] {
         if (--room == 0) room = 1u << width++;

@@ -1,4 +1,5 @@
-// Patterns of Ready (github.com/GollyGang/ready): the parts of a file that its readers share.
+// Patterns of Ready (github.com/GollyGang/ready): the data that the readers of a file's parts
+// share.
 #pragma once
 
 #include "import/importer.h"

@@ -189,7 +189,7 @@ Span line_of_source(const Import& import, unsigned line) {
 }  // namespace
 
 std::optional<Draft> read_sbml(Import& import) {
-    // Document types and deep elements are refused before libSBML sees the file.
+    // Document types and deep elements are refused before libSBML reads the file.
     pugi::xml_document document;
     if (!read_xml(import, std::string_view::npos, document)) return std::nullopt;
     document.reset();

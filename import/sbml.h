@@ -1,5 +1,5 @@
-// Models in SBML, the Systems Biology Markup Language: what the module that uses libSBML reads from
-// a file.
+// Models in SBML, the Systems Biology Markup Language: the data that the module with libSBML reads
+// from a file.
 #pragma once
 
 #include <string>
@@ -28,15 +28,16 @@ struct SbmlRate {
     SbmlFormula start;
     SbmlFormula rule;
     std::vector<std::pair<double, std::string>> reactions;  ///< Factors and ids.
-    std::string compartment;  ///< By whose size the sum is divided. Empty if it is not.
+    std::string compartment;  ///< The sum is divided by its size. Empty: no division.
 };
 
 struct SbmlModel {
     std::string name;
-    std::vector<SbmlQuantity> constants;    ///< With the sizes of compartments.
+    std::vector<SbmlQuantity> constants;    ///< Includes the sizes of compartments.
     std::vector<SbmlQuantity> assignments;  ///< Rules, and the rates of reactions by their ids.
     std::vector<SbmlRate> rates;
-    /// What prevents the import, with lines. The rest is meaningless if there are any.
+    /// Problems that prevent the import, with their lines. If there are any, all other members are
+    /// meaningless.
     std::vector<std::pair<unsigned, std::string>> problems;
 };
 

@@ -116,7 +116,7 @@ private:
         }
     }
 
-    /// A species is its concentration, or its amount if the model says so.
+    /// The value of a species is its concentration, or its amount if the model says so.
     void add(const Species& part) {
         const Compartment* const compartment = model_.getCompartment(part.getCompartment());
         const double size = compartment != nullptr ? size_of(*compartment) : 1;

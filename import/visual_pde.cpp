@@ -90,7 +90,8 @@ private:
         return true;
     }
 
-    /// Gives a species its value outside of a mask that changes: 0, or that of 'dirichlet'.
+    /// Gives a species its value outside of a mask that changes: 0, or the value of the condition
+    /// 'dirichlet'.
     bool confine(std::size_t k, Expression& rate, Expression& start) {
         const std::string& u = names_.species()[k];
         const bool has_value = names_.kind_of_sides(k) == "dirichlet";

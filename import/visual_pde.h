@@ -1,4 +1,4 @@
-// Simulations of VisualPDE (visualpde.com): the parts of a reader that its files share.
+// Simulations of VisualPDE (visualpde.com): the declarations that the files of the reader share.
 #pragma once
 
 #include "import/importer.h"
@@ -53,15 +53,16 @@ public:
     const std::vector<std::string>& species() const { return species_; }
     std::size_t algebraic() const { return algebraic_; }
     bool is_line() const { return is_line_; }
-    /// The number of species, before the algebraic ones, whose formula is their next value.
+    /// The number of species whose formula is their next value. They come before the algebraic
+    /// species.
     std::size_t maps() const { return maps_; }
-    /// The definition that is 1 inside a mask that changes. Empty if the mask does not.
+    /// The definition that is 1 inside a mask that changes. Empty if the mask does not change.
     const std::string& inside() const { return inside_; }
     /// The boundary condition of a species in small letters.
     std::string kind_of_sides(std::size_t species) const;
     bool is_closed(const std::string& species) const;
     Expression operate(const std::string& function, const std::string& species);
-    /// Nothing if a tensor crosses a border that changes.
+    /// div(factor * grad(species)) in a domain whose mask changes. Empty if the factor is a tensor.
     std::optional<Expression> flow(Expression factor, const std::string& species);
     bool is_differentiated(const std::string& species) const {
         return differentiated_.contains(species);
@@ -106,7 +107,7 @@ private:
     std::vector<std::string> species_;
     std::map<std::string, std::string> own_species_;  ///< Names in the script by VisualPDE's.
     std::vector<Parameter> parameters_;
-    std::map<std::string, double> values_;  ///< Of parameters that are numbers.
+    std::map<std::string, double> values_;  ///< The values of parameters that are numbers.
     std::set<std::string> differentiated_;
     std::map<std::string, std::string> pictures_;
     std::size_t algebraic_ = 0, maps_ = 0;

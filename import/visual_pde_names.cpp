@@ -53,7 +53,7 @@ constexpr ForeignFunction visual_pde_functions[] = {
     {"float", 1, "A"},
 };
 
-/// The value of `text` up to a comma outside of brackets.
+/// The parts of `text` between the marks: the beginning and the end of each.
 std::vector<std::pair<std::size_t, std::size_t>> parts_of(std::string_view text, char mark) {
     std::vector<std::pair<std::size_t, std::size_t>> parts;
     std::size_t begin = 0;

@@ -11,8 +11,8 @@
 
 namespace cascade::importing {
 
-/// Whether nothing flows through the border of a mask that changes. VisualPDE reads the values
-/// outside of the mask for other conditions.
+/// Whether nothing flows through the border of a mask that changes. For other conditions, VisualPDE
+/// reads the values outside of the mask.
 bool VisualPdeNames::is_closed(const std::string& species) const {
     const auto found = std::find(species_.begin(), species_.end(), species);
     if (inside_.empty() || found == species_.end()) return false;

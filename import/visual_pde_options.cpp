@@ -149,7 +149,8 @@ void open_view(nlohmann::json& options) {
     options["whatToPlot"] = view["whatToPlot"];
 }
 
-/// Presets that once had a flag for each algebraic species have as many as flags.
+/// Old presets have a flag for each algebraic species instead of the number of these species.
+/// Counts the flags.
 void count_algebraic_species(nlohmann::json& options) {
     const auto given = options.find("numAlgebraicSpecies");
     if (given != options.end() && *given != 0 && *given != "0") return;
@@ -169,8 +170,8 @@ std::string preset_in_link(std::string_view link) {
     return std::string(rest.substr(0, rest.find_first_of("&# \r\n")));
 }
 
-/// The preset to import: that of a link, the one of the file, or the one that the user names.
-/// `known` gets all presets that can be parents. Null after an error.
+/// The preset to import: the preset of a link, the only preset of a file, or the preset that the
+/// user names. `known` gets all presets that can be parents. Null after an error.
 std::optional<VisualPdePreset> chosen_preset(Import& import, std::vector<VisualPdePreset>& known) {
     const auto refuse = [&](const std::string& why, const std::string& hint = "") {
         import.diagnostics.error({import.source, 0, 0}, why, hint);

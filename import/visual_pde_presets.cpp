@@ -1,4 +1,4 @@
-// Reads files of presets of VisualPDE, and lays presets over their parents.
+// Reads files of presets of VisualPDE, and completes presets by their parents.
 #include "import/visual_pde_presets.h"
 
 #include "core/near_name.h"
@@ -137,8 +137,8 @@ std::optional<std::vector<VisualPdePreset>> statements_of(std::string_view text,
     return all.empty() ? std::nullopt : std::optional(std::move(all));
 }
 
-/// VisualPDE's key for an option that it once had under another name: diffusionStrUV is
-/// diffusionStr_1_2. Empty for other keys.
+/// The present key of an option whose key VisualPDE has changed: diffusionStr_1_2 for
+/// diffusionStrUV. Empty for other keys.
 std::string key_of_old_option(std::string_view key) {
     constexpr std::pair<std::string_view, std::string_view> old_keys[] = {
         {"boundaryConditions", "boundaryConditions"},

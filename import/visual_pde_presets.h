@@ -20,23 +20,25 @@ struct VisualPdePreset {
 
 inline constexpr std::size_t largest_visual_pde = std::size_t{1} << 22;
 
-/// The presets of a text: the JSON of one preset, a JSON object of presets by name, or statements
-/// of JavaScript such as presets["NAME"] = {…}, as VisualPDE copies them and has them in its file
-/// presets.js. Nothing if the text is none of these; `wrong` is then where the first statement
-/// begins whose value cannot be read, or 0.
+/// The presets in a text. The text is the JSON of one preset, a JSON object of presets by name, or
+/// statements of JavaScript such as presets["NAME"] = {…}, which VisualPDE copies and which its
+/// file presets.js contains. Empty for any other text. Then `wrong` is the position of the first
+/// statement whose value cannot be read, or 0.
 std::optional<std::vector<VisualPdePreset>> visual_pde_presets(std::string_view text,
                                                                std::size_t& wrong);
 
-/// The options of the preset, and under them those of its parent and so on. Reports an error at the
-/// beginning of the import if a parent is missing from `known` or if parents form a ring.
+/// The options of the preset. Options that it lacks come from its parent, the parent of its parent,
+/// and so on. Reports an error at the beginning of the import if a parent is missing from `known`
+/// or if parents form a ring.
 std::optional<nlohmann::json> with_parents(Import& import, const VisualPdePreset& preset,
                                            const std::vector<VisualPdePreset>& known);
 
-/// The preset of this name, in any case, or else null.
+/// The preset of this name, ignoring case; null if there is none.
 const VisualPdePreset* preset_named(const std::vector<VisualPdePreset>& presets,
                                     std::string_view name);
 
-/// A hint that gives a name like `name`, or else the first names of presets.
+/// A hint with a preset's name that is similar to `name` or, if there is none, with the first
+/// names.
 std::string names_like(const std::vector<VisualPdePreset>& presets, const std::string& name);
 
 }  // namespace cascade::importing

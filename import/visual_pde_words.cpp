@@ -54,7 +54,7 @@ std::optional<Expression> VisualPdeNames::named(const Expression& part, Where wh
     return derivative(word);
 }
 
-/// Whether the cell is one of the outermost, or is not.
+/// The condition that the cell is one of the outermost or, if not `is_outer`, is none of them.
 Expression VisualPdeNames::on_edge(bool is_outer) {
     Expression all;
     for (const char* const axis : {"domain.x", "domain.y"}) {

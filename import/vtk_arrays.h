@@ -46,7 +46,7 @@ private:
 
     Import* import_;
     pugi::xml_node root_;
-    std::size_t word_size_ = 4;  ///< Bytes of a number of a header.
+    std::size_t word_size_ = 4;  ///< The size in bytes of a number in a header.
     bool is_compressed_ = false;
     bool is_appended_base64_ = false;
     std::string_view appended_;  ///< The bytes after the mark `_`.

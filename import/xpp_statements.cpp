@@ -125,7 +125,7 @@ private:
         for (const XppPair& each : all) file_.options[each.name] = lower(text(each.value));
     }
 
-    /// Takes "[1..50]" from a name, which then stands for all elements.
+    /// Takes "[1..50]" from a name, which then means all elements.
     bool array(XppPair& pair) {
         const std::size_t open = pair.name.find('[');
         if (open == std::string::npos) return true;
