@@ -1,4 +1,4 @@
-// A device that was opened, with what its probes found and the programs compiled for it.
+// A device that was opened, with the results of its probes and the programs compiled for it.
 #pragma once
 
 #include "device/devices.h"
@@ -21,8 +21,8 @@ public:
 
     OpenDevice& open() { return open_; }
     const DeviceFacts& facts() const { return open_.facts(); }
-    /// How programs of a precision are printed for this device, and whether its results have the
-    /// same bits as Cascade's. The first call runs a small program.
+    /// The form of programs of a precision for this device, and whether its results have the same
+    /// bits as Cascade's. The first call runs a small program.
     const ProbeResult& probe(Precision precision);
     /// A compiled program. Equal programs are compiled once.
     const DeviceProgram& program(const std::string& source, const TextTarget& target);

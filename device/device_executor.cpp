@@ -149,7 +149,7 @@ private:
     std::optional<HaloGroup> of_copies_;  ///< The halos of all species.
     std::vector<Field> fetched_, fetched_scratch_;
     std::optional<OpenclError> lost_;
-    Clock::time_point began_;  ///< When the queue was last empty.
+    Clock::time_point began_;  ///< The time at which the queue was last empty.
     std::size_t waiting_ = 0;  ///< Passes in the queue.
     std::int64_t rows_of_launch_ = 0;
 };

@@ -29,7 +29,7 @@ public:
     /// scratch.
     const DeviceBuffer& of(RegisterId id, CopyRoles roles) const;
 
-    /// Allocates the temporaries and registers that a problem needs, also registers for copies.
+    /// Allocates the temporaries and scratch registers that a problem needs.
     void make(std::uint32_t registers, std::uint32_t temporaries);
     void exchange(RegisterId one, RegisterId other);
 

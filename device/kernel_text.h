@@ -23,8 +23,8 @@ struct KernelNames {
 std::string cell_text(const CellKernel& kernel, const KernelNames& names, const TextTarget& target,
                       Stencil stencil, const PlaneLayout& layout);
 
-/// The beginning of a kernel: the loops over `rows` rows from c_first_row on, inside which the text
-/// of a cell follows. Work-items are columns, and bands of `rows_of_item` rows; in WGSL cells.
+/// The beginning of a kernel: the loop over the rows of a work-item, inside which the text of a
+/// cell follows. In OpenCL a work-item computes `rows_of_item` rows of a column, in WGSL one cell.
 std::string cells_begin(const TextTarget& target, Stencil stencil, const PlaneLayout& layout,
                         std::int64_t rows_of_item);
 inline constexpr std::string_view cells_end = "    }\n";

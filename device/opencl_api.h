@@ -1,5 +1,5 @@
-// The functions of OpenCL 1.2, loaded when a device is asked for. Cascade never links the loader:
-// without it, everything else works.
+// The functions of OpenCL 1.2, loaded when a device is asked for. Cascade does not link the loader,
+// so everything else works without it.
 //
 // Internal to device/.
 #pragma once

@@ -89,7 +89,7 @@ public:
         begin();
         (add(arguments), ...);
     }
-    // The same, one argument at a time.
+    // Sets the arguments one at a time.
     void begin() { next_ = 0; }
     void add(const DeviceBuffer& buffer) {
         const cl_mem memory = buffer.memory();

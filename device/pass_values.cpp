@@ -1,4 +1,4 @@
-// Computes what changes from step to step.
+// Computes the values that change from step to step.
 #include "device/pass_values.h"
 
 #include "core/check.h"

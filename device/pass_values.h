@@ -1,5 +1,5 @@
-// What changes from step to step in a pass: its uniforms, and the rules at the sides of its
-// results.
+// The values of a pass that change from step to step: its uniforms, and the rules at the sides of
+// its results.
 #pragma once
 
 #include "solvers/pass_runner.h"
@@ -22,10 +22,10 @@ SideRules halo_rules_at(const StepProblem& problem, const StepProblem::Result& r
 /// The rules of several planes as numbers, for a kernel that fills halos. SideKind is a number: 0
 /// periodic, 1 no_flux, 2 fixed, 3 slope.
 struct HaloRecords {
-    /// 12 for each plane: the kinds of the six sides, then for each side the position of its first
-    /// value in `values`, or -1 if it has one value.
+    /// 12 numbers for each plane: the kinds of the six sides, then for each side the position of
+    /// its first value in `values`, or -1 if it has one value.
     std::vector<std::int32_t> kinds;
-    /// 7 for each plane: the value of each side, then the spacing.
+    /// 7 numbers for each plane: the value of each side, then the spacing.
     std::vector<double> numbers;
     std::vector<double> values;
 

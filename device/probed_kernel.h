@@ -13,7 +13,7 @@ template <typename Number>
 struct ProbedKernel {
     /// A result for each probed operation on the fields a and b.
     CellKernel kernel;
-    /// Words for which inexact devices give wrong results. Each is combined with each.
+    /// Words for which inexact devices give wrong results. All pairs of them are operands.
     std::vector<WordOf<Number>> words;
     Grid grid;
 

@@ -35,7 +35,8 @@ std::vector<StepProblem::ChangingUniform> passed_uniforms(const StepProblem::Pas
 ///   - a word for each of passed_uniforms()
 std::string kernel_name(std::size_t pass);
 
-/// Why the passes of a problem cannot be printed, as the end of a sentence; empty if they can.
+/// The reason why the passes of a problem cannot be printed, as the end of a sentence; empty if
+/// they can.
 std::string reason_against_text(const StepProblem& problem);
 
 /// The whole program. A work-item computes `rows_of_item` rows of a column, in WGSL 1. A program in

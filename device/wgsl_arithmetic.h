@@ -1,5 +1,5 @@
 // Functions of WGSL programs that compute quotients, roots, roundings and fused sums exactly, with
-// integers. WebGPU allows errors in all of these, and lets compilers replace what they compute.
+// integers. WebGPU allows errors in all of these, and permits compilers to replace these functions.
 //
 // Numbers are words, whose denormal values count as zero. c_packed() rounds and packs a number of
 // 25 binary digits. A quotient or root begins with the device's inaccurate result, whose remainder
@@ -192,7 +192,7 @@ fn c_product(a: u32, b: u32) -> u32 {
 fn c_field_word(c_w: u32) -> u32 { return c_flush(c_w); }
 )";
 
-/// Functions that call those of operations. c_minus_multiple() is sum - times * c with one
+/// Functions that call the functions of operations. c_minus_multiple() is sum - times * c with one
 /// rounding, for times = 2 or 4.
 inline constexpr std::string_view compositions = R"(
 fn c_scale(a: u32, b: u32) -> u32 {

@@ -13,7 +13,7 @@
 
 namespace cascade {
 
-/// Kernels in one program, named c_kernel_0 and so on, with planes and uniforms of their own.
+/// Kernels in one program, named c_kernel_0 and so on, with separate planes and uniforms.
 struct WgslKernels {
     /// The numbers of a kernel's first plane, mask and uniform. Its planes are its fields, then its
     /// results.
@@ -30,8 +30,8 @@ WgslKernels wgsl_kernels(std::span<const CellKernel* const> kernels, const Grid&
 /// The kernel c_halo, which fills halo cells of planes on a grid. Work-items: halo cells of a slice
 /// × (planes · slices), where with halo slices `slices` is 2. Sides are described by words in the
 /// buffer c_sides, binding 5: for each plane its place in c_planes, then the lists of HaloRecords.
-/// Words of a call: first_call_word: the position of the description; then the number of planes;
-/// then 1 for halo slices, else 0.
+/// The words of a call from first_call_word on: the position of the description, the number of
+/// planes, and 1 for halo slices, else 0.
 std::string wgsl_halo(Flushing flushing, const PlaneLayout& layout);
 inline constexpr std::size_t wgsl_halo_words = 15;
 inline constexpr std::int64_t wgsl_halo_group = 64;

@@ -24,13 +24,14 @@ struct WgslCall {
     std::uint32_t groups_x = 1, groups_y = 1;  ///< The number of work-groups.
 };
 
-/// Why WebGPU cannot take the steps of a problem, as the end of a sentence; empty if it can.
+/// The reason why WebGPU cannot take the steps of a problem, as the end of a sentence. Empty if it
+/// can.
 std::string reason_against_wgsl(const StepProblem& problem);
 
 class WgslSteps {
 public:
-    /// Prints the programs. There must be no reason against the problem, which must live longer.
-    /// `copies` is the number of copies of the species.
+    /// Prints the programs. There must be no reason against the problem, which must outlive this
+    /// object. `copies` is the number of copies of the species.
     WgslSteps(const StepProblem& problem, Flushing flushing, std::size_t species,
               std::size_t copies);
 
