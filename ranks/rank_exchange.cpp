@@ -26,8 +26,9 @@ void copy(std::span<const std::byte> from, std::span<std::byte> to) {
 
 }  // namespace
 
-RankExchange::RankExchange(const Grid& grid, Messenger& messenger, RankLoad& load)
-    : Exchange(grid, cut_grid(grid, messenger.count()), static_cast<std::size_t>(messenger.rank())),
+RankExchange::RankExchange(const Grid& grid, Messenger& messenger, RankLoad& load, int levels)
+    : Exchange(grid, cut_grid(grid, messenger.count()), static_cast<std::size_t>(messenger.rank()),
+               levels),
       messenger_(messenger),
       load_(load),
       layer_(rows_of_layer(PlaneLayout(grid))) {
@@ -77,6 +78,7 @@ void RankExchange::fill_halos(std::span<const Shared> planes, std::int64_t width
     const TimeOfMessages time(load_);
     const auto own = static_cast<int>(number_);
     std::vector<Message> out, in;
+    ++load_.halo_exchanges;
     for (const Shared& plane : planes) {
         for (const Transfer& each : transfers(width)) {
             if (each.is_across && !plane.wraps) continue;

@@ -15,10 +15,11 @@ namespace cascade {
 class RankExchange final : public Exchange {
 public:
     /// Divides the grid among all ranks of the messenger. The grid must have at least as many rows
-    /// as there are ranks. If it has several slices, it must have at least as many slices. Adds the
-    /// time in messages and the bytes of halos to `load`. Messenger and load must outlive the
+    /// as there are ranks. If it has several slices, it must have at least as many slices. `levels`
+    /// is the largest number of passes between two exchanges. Adds the time in messages, the bytes
+    /// and the number of exchanges of halos to `load`. Messenger and load must outlive the
     /// exchange.
-    RankExchange(const Grid& grid, Messenger& messenger, RankLoad& load);
+    RankExchange(const Grid& grid, Messenger& messenger, RankLoad& load, int levels = 1);
 
     void fill_halos(std::span<const Shared> planes, std::int64_t width) override;
     void share_rows(std::span<std::vector<double>* const> rows) override;

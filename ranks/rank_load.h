@@ -17,8 +17,9 @@ struct RankLoad {
     double processor = 0;         ///< Processor seconds of all threads in the same time.
     double messages = 0;          ///< Seconds in messages, mostly waiting for other ranks.
     std::int64_t halo_bytes = 0;  ///< The bytes of halos sent to other ranks.
-    std::array<char, 64> machine{};  ///< The name of its machine, which ends with a 0.
-    bool is_stepping = false;        ///< Whether a TimeOfSteps exists.
+    std::int64_t halo_exchanges = 0;  ///< How often ranks have sent each other halos.
+    std::array<char, 64> machine{};   ///< The name of its machine, which ends with a 0.
+    bool is_stepping = false;         ///< Whether a TimeOfSteps exists.
 };
 
 /// Adds the time of its lifetime to a load, as steps.

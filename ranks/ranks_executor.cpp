@@ -27,7 +27,8 @@ public:
     RanksExecutor(const StepProblem& problem, std::vector<Field> species, int most_threads,
                   bool keeps, const Shared& shared)
         : shared_(shared),
-          exchange_(problem.grid, shared.messenger, shared.ranks.load()),
+          exchange_(problem.grid, shared.messenger, shared.ranks.load(),
+                    levels_of_halo(problem, cut_grid(problem.grid, shared.messenger.count()))),
           layout_(layout_of(problem, &exchange_)),
           part_(make_part_executor(problem, cut(species), most_threads, keeps, exchange_)) {}
 
@@ -89,8 +90,10 @@ public:
     int levels() const override { return part_->levels(); }
     Stepping stepping() const override {
         Stepping stepping = part_->stepping();
-        stepping.words = fmt::format("{} ranks, rank 0 sent {} bytes of halos", exchange_.count(),
-                                     shared_.ranks.load().halo_bytes - bytes_before_);
+        const RankLoad& load = shared_.ranks.load();
+        stepping.words = fmt::format("{} ranks, rank 0 sent {} bytes of halos in {} exchanges",
+                                     exchange_.count(), load.halo_bytes - bytes_before_,
+                                     load.halo_exchanges - exchanges_before_);
         stepping.why = "";
         return stepping;
     }
@@ -116,11 +119,13 @@ private:
             all.emplace_back(PlaneLayout(problem().grid), field.precision());
         }
         exchange_.gather_everywhere(own, all);
+        fill_across(problem(), all);
         return all;
     }
 
     Shared shared_;
     const std::int64_t bytes_before_ = shared_.ranks.load().halo_bytes;
+    const std::int64_t exchanges_before_ = shared_.ranks.load().halo_exchanges;
     RankExchange exchange_;
     PlaneLayout layout_;
     std::unique_ptr<Executor> part_;

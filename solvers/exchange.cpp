@@ -69,6 +69,13 @@ void copy_held(const Field& from, Field& to) {
     copy_rows(from, both, to, both.begin);
 }
 
+void copy_across(Field& whole) {
+    const RowRange rows = whole.layout().rows;
+    const std::int64_t layer = rows_of_layer(whole.layout());
+    copy_rows(whole, {rows.end - layer, rows.end}, whole, rows.begin - layer);
+    copy_rows(whole, {rows.begin, rows.begin + layer}, whole, rows.end);
+}
+
 void LocalExchange::fill_halos(std::span<const Shared> planes, std::int64_t width) {
     board_.shared[number_] = planes;
     board_.team.barrier();

@@ -2,8 +2,14 @@
 //
 // A part of a grid is a range of rows or, if there are several slices, of whole slices. Its cells
 // keep their numbers in the grid (core/grid.h). All parts call the same functions in the same
-// order, each with its own planes. Sums equal the sums of an undivided grid bit for bit, because
-// the sums of rows are added in the order of rows.
+// order, each with its own planes. Each part reduces its rows to one number a row, and every part
+// gets the numbers of all rows and combines them as a single process does: the numbers of an
+// aggregate in pairs (ir/reduction.h), and the squares of errors row by row
+// (solvers/field_norms.h). So the results equal those of an undivided grid bit for bit.
+//
+// A part may compute several passes between two exchanges. Its halos then have a layer for each
+// pass and row that the pass reaches. Each pass also computes those layers of the halo that the
+// later passes read, so neighbours compute the same values (solvers/part_halos.h).
 #pragma once
 
 #include "core/grid.h"
@@ -35,14 +41,17 @@ public:
                                  ///< follow the last.
     };
 
-    Exchange(const Grid& grid, std::vector<RowRange> parts, std::size_t number)
-        : grid_(grid), parts_(std::move(parts)), number_(number) {}
+    /// `levels` is the largest number of passes between two exchanges; see levels_of_halo().
+    Exchange(const Grid& grid, std::vector<RowRange> parts, std::size_t number, int levels)
+        : grid_(grid), parts_(std::move(parts)), number_(number), levels_(levels) {}
     virtual ~Exchange() = default;
     Exchange(const Exchange&) = delete;
     Exchange& operator=(const Exchange&) = delete;
 
     std::size_t count() const { return parts_.size(); }
     RowRange rows() const { return parts_[number_]; }
+    const std::vector<RowRange>& parts() const { return parts_; }
+    int levels() const { return levels_; }
     /// Whether this part does the computations that need the whole grid.
     bool is_root() const { return number_ == 0; }
 
@@ -62,6 +71,7 @@ protected:
     const Grid grid_;
     const std::vector<RowRange> parts_;
     const std::size_t number_;
+    const int levels_;
 };
 
 /// Exchange between parts in one process, each in a thread of a team.
@@ -77,8 +87,9 @@ public:
         Board(Team& of, std::size_t parts) : team(of), shared(parts), fields(parts), rows(parts) {}
     };
 
-    LocalExchange(const Grid& grid, std::vector<RowRange> parts, std::size_t number, Board& board)
-        : Exchange(grid, std::move(parts), number), board_(board) {}
+    LocalExchange(const Grid& grid, std::vector<RowRange> parts, std::size_t number, Board& board,
+                  int levels = 1)
+        : Exchange(grid, std::move(parts), number, levels), board_(board) {}
 
     void fill_halos(std::span<const Shared> planes, std::int64_t width) override;
     void share_rows(std::span<std::vector<double>* const> rows) override;
@@ -91,5 +102,9 @@ private:
 
 /// Copies all rows that both planes have in memory, halos included.
 void copy_held(const Field& from, Field& to);
+
+/// Copies the last rows or slices of a whole plane to the halo before the first, and the first to
+/// the halo after the last.
+void copy_across(Field& whole);
 
 }  // namespace cascade

@@ -9,6 +9,7 @@
 
 #include "core/plane.h"
 #include "solvers/exchange.h"
+#include "solvers/part_halos.h"
 #include "solvers/shared_steps.h"
 #include "solvers/stage_clock.h"
 #include "solvers/step_problem.h"
@@ -118,7 +119,8 @@ public:
     virtual std::vector<Tiling> tilings_to_try() const = 0;
     /// From now on uses this tiling, even if the problem changes.
     virtual void use_tiling(const Tiling& tiling) = 0;
-    /// The largest number of passes that are run in one pass through memory.
+    /// The largest number of passes that are run in one pass through memory or, in a part of a
+    /// grid, between two exchanges of halos.
     virtual int levels() const = 0;
     /// How steps pass through memory; see Stepping.
     virtual Stepping stepping() const = 0;
@@ -144,8 +146,9 @@ std::unique_ptr<Executor> make_part_executor(const StepProblem& problem, std::ve
 
 /// Divides the grid into `count` parts of nearly equal size, or fewer if there are fewer rows or
 /// slices. Each has a separate thread and separate memory. One part computes convolutions,
-/// constraints and filters of waves on planes that it gathers. Serves to test that the result is
-/// the same bit for bit with any number of parts.
-MakeExecutor in_parts(int count);
+/// constraints and filters of waves on planes that it gathers. Parts are at least `thickness` times
+/// as thick as their halos; see levels_of_halo(). Serves to test that the result is the same bit
+/// for bit with any number of parts.
+MakeExecutor in_parts(int count, std::int64_t thickness = least_thickness);
 
 }  // namespace cascade

@@ -15,12 +15,15 @@ namespace {
 
 class PartsExecutor final : public Executor {
 public:
-    PartsExecutor(const StepProblem& problem, std::vector<Field> species, int count, bool keeps)
+    PartsExecutor(const StepProblem& problem, std::vector<Field> species, int count, bool keeps,
+                  std::int64_t thickness)
         : team_(static_cast<int>(cut_grid(problem.grid, count).size())),
           board_(team_, static_cast<std::size_t>(team_.size())) {
         const std::vector<RowRange> rows = cut_grid(problem.grid, team_.size());
+        const int levels = levels_of_halo(problem, rows, thickness);
         for (std::size_t part = 0; part < rows.size(); ++part) {
-            exchanges_.push_back(std::make_unique<LocalExchange>(problem.grid, rows, part, board_));
+            exchanges_.push_back(
+                std::make_unique<LocalExchange>(problem.grid, rows, part, board_, levels));
             layouts_.push_back(layout_of(problem, exchanges_.back().get()));
             parts_.push_back(
                 make_part_executor(problem, cut(species, part), 1, keeps, *exchanges_.back()));
@@ -78,12 +81,15 @@ public:
 
     int most_threads() const override { return 1; }
     void use_threads(int) override {}
-    std::vector<Tiling> tilings_to_try() const override { return {Tiling{}}; }
-    void use_tiling(const Tiling&) override {}
-    int levels() const override { return 1; }
+    std::vector<Tiling> tilings_to_try() const override { return parts_[0]->tilings_to_try(); }
+    void use_tiling(const Tiling& tiling) override {
+        for (const auto& part : parts_) part->use_tiling(tiling);
+    }
+    int levels() const override { return parts_[0]->levels(); }
     Stepping stepping() const override {
         Stepping stepping = parts_[0]->stepping();
-        stepping.words = fmt::format("{} parts", parts_.size());
+        stepping.words = fmt::format("{} parts, {} passes between two exchanges of halos",
+                                     parts_.size(), exchanges_[0]->levels());
         stepping.why = gathers() ? "one of them computes what takes all cells" : "";
         return stepping;
     }
@@ -121,6 +127,7 @@ private:
             for (Field& field : all) to.push_back(&field);
             exchanges_[part]->gather(own, to);
         });
+        fill_across(problem(), all);
         return all;
     }
 
@@ -135,9 +142,10 @@ private:
 
 }  // namespace
 
-MakeExecutor in_parts(int count) {
-    return [count](const StepProblem& problem, std::vector<Field> species, int, bool keeps) {
-        return std::make_unique<PartsExecutor>(problem, std::move(species), count, keeps);
+MakeExecutor in_parts(int count, std::int64_t thickness) {
+    return [=](const StepProblem& problem, std::vector<Field> species, int, bool keeps) {
+        return std::make_unique<PartsExecutor>(problem, std::move(species), count, keeps,
+                                               thickness);
     };
 }
 

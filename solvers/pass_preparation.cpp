@@ -13,9 +13,11 @@ namespace cascade {
 
 PlaneLayout layout_of(const StepProblem& problem, const Exchange* others) {
     if (others == nullptr) return PlaneLayout(problem.grid);
-    if (!problem.grid.linked) return PlaneLayout(problem.grid, others->rows());
-    return PlaneLayout(problem.grid,
-                       with_neighbours(problem.grid, others->rows(), rows_reached(problem), false));
+    // Around these rows, planes have a halo of one more layer.
+    const std::int64_t layers =
+        problem.grid.linked ? others->levels() * rows_reached(problem) : others->levels() - 1;
+    return PlaneLayout(problem.grid, with_neighbours(problem.grid, others->rows(), layers,
+                                                     wraps_between_parts(problem)));
 }
 
 struct PassRunner::WholeGrid {
@@ -44,7 +46,9 @@ PassRunner::PassRunner(const StepProblem& problem, Exchange* others)
     : problem_(problem),
       others_(others),
       layout_(layout_of(problem, others)),
-      rows_(others != nullptr ? others->rows() : layout_.rows) {
+      rows_(others != nullptr ? others->rows() : layout_.rows),
+      wraps_(others != nullptr && wraps_between_parts(problem)),
+      reach_(others != nullptr ? rows_reached(problem) : 1) {
     CHECK(!problem.passes.empty(), "a step has a pass");
     CHECK(!problem.links ||
               (problem.grid.linked && problem.links->precision() == problem.precision),
@@ -162,7 +166,27 @@ bool PassRunner::wraps(const SideRules& sides) const {
 }
 
 void PassRunner::share(std::span<const Exchange::Shared> planes) const {
-    others_->fill_halos(planes, rows_reached(problem_));
+    others_->fill_halos(planes, reach_);
+}
+
+void PassRunner::add_reads(std::size_t pass, Registers registers, HaloReads& reads) {
+    reads.add(pass, [&](const StepProblem::PlaneRef& ref) { return &written(ref, registers); });
+}
+
+void PassRunner::share_reads(const HaloReads& reads) const {
+    std::vector<Exchange::Shared> planes;
+    for (Field* const plane : reads.planes()) planes.push_back({plane, wraps_});
+    if (!planes.empty()) others_->fill_halos(planes, reads.width() * reach_);
+}
+
+void PassRunner::fill_sides(std::span<Field> species, SideMoment moment) const {
+    if (!problem_.has_halo()) return;
+    const SpeciesPlanes present = planes_of(species);
+    for (std::size_t s = 0; s < species.size(); ++s) {
+        const SideRules rules = problem_.sides_of(SpeciesId(s), moment, present, {rows_});
+        species[s].visit(
+            [&](auto& plane) { fill_halo_from(plane.origin(), plane.layout(), rules, {rows_}); });
+    }
 }
 
 void PassRunner::share_results(std::size_t pass, Registers registers) {

@@ -7,6 +7,7 @@
 #include "core/overloaded.h"
 #include "ir/draw_of_step.h"
 #include "solvers/constraint_solver.h"
+#include "solvers/layers_in_memory.h"
 #include "solvers/tiling.h"
 
 #include <algorithm>
@@ -71,7 +72,7 @@ void PassRunner::run(Worker& worker, Team& team, Registers registers, const Step
     for (std::size_t pass = 0; pass < problem_.passes.size(); ++pass) {
         if (pass > 0) team.barrier();
         prepare_pass(worker, team, pass, registers, moment);
-        bind(worker, 0, pass, registers, moment);
+        bind(worker, 0, pass, registers, moment, {});
         run_cells(worker, 0, {worker.rows});
     }
 }
@@ -97,29 +98,55 @@ void PassRunner::set_uniforms(std::vector<Number>& uniforms, const StepProblem::
 }
 
 void PassRunner::bind(Worker& worker, std::size_t level, std::size_t pass, Registers registers,
-                      const StepMoment& moment, bool is_near, const RowsWritten* when_written) {
+                      const StepMoment& moment, const LevelOptions& options) {
     std::visit(
-        [&](auto& arguments) {
-            bind_as(arguments, level, pass, registers, moment, is_near, when_written);
-        },
+        [&](auto& arguments) { bind_as(arguments, level, pass, registers, moment, options); },
         worker.arguments);
 }
 
 template <typename Number>
-void PassRunner::bind_as(Arguments<Number>& arguments, std::size_t number, std::size_t pass_number,
-                         Registers registers, const StepMoment& moment, bool is_near,
-                         const RowsWritten* when_written) {
-    if (arguments.levels.size() <= number) arguments.levels.resize(number + 1);
+void PassRunner::bind_as(Arguments<Number>& arguments, std::size_t number, std::size_t pass,
+                         Registers registers, const StepMoment& moment,
+                         const LevelOptions& options) {
+    const auto bind = [&](std::vector<Level<Number>>& levels, int beyond) {
+        if (levels.size() <= number) levels.resize(number + 1);
+        bind_level(levels[number], arguments, pass, registers, moment, options, beyond);
+    };
+    bind(arguments.levels, 0);
+    if (layout_.rows.begin < 0) bind(arguments.before, -1);
+    if (layout_.rows.end > layout_.row_count()) bind(arguments.after, 1);
+}
+
+RowRange PassRunner::rows_with(std::int64_t followers) const {
+    if (others_ == nullptr) return rows_;
+    return with_neighbours(problem_.grid, rows_, followers * reach_, wraps_);
+}
+
+/// Rows before a periodic grid have the numbers of its last rows, but their values lie in the halo
+/// before its first row.
+template <typename Number>
+void PassRunner::bind_level(Level<Number>& level, Arguments<Number>& arguments,
+                            std::size_t pass_number, Registers registers, const StepMoment& moment,
+                            const LevelOptions& options, int beyond) {
     const StepProblem::Pass& pass = problem_.passes[pass_number];
-    Level<Number>& level = arguments.levels[number];
     level.pass = pass_number;
     level.moment = moment;
-    level.when_written = when_written;
+    level.rows = rows_with(options.followers);
+    level.when_written = options.when_written;
     level.uniforms = arguments.uniforms[pass_number];
     set_uniforms(level.uniforms, pass, moment);
+    PlaneLayout layout = layout_;
+    if (beyond != 0) {
+        const std::int64_t all = layout_.row_count();
+        layout = PlaneLayout(problem_.grid, {layout_.rows.begin - beyond * all,  //
+                                             layout_.rows.end - beyond * all});
+    }
+    const std::int64_t shift = beyond * layout_.row_start(layout_.row_count());
     level.fields.clear();
     for (const StepProblem::PlaneRef& ref : pass.fields) {
-        level.fields.push_back(read(ref, registers).template origin<Number>());
+        const bool is_whole = std::holds_alternative<const Field*>(ref);
+        level.fields.push_back(read(ref, registers).template origin<Number>() +
+                               (is_whole ? 0 : shift));
     }
     level.masks.clear();
     for (const Mask* const mask : pass.masks) level.masks.push_back(mask->origin());
@@ -127,18 +154,41 @@ void PassRunner::bind_as(Arguments<Number>& arguments, std::size_t number, std::
     level.written.clear();
     for (const StepProblem::Result& result : pass.results) {
         Field& plane = written(result.plane, registers);
-        level.results.push_back(plane.template origin<Number>());
+        level.results.push_back(plane.template origin<Number>() + shift);
         level.written.push_back(&plane);
     }
     const LinkTable<Number> links =
         problem_.links ? problem_.links->template table<Number>() : LinkTable<Number>{};
-    level.given = {level.fields, level.masks, level.uniforms, level.results,
-                   layout_,      links,       is_near,        sides_[pass_number].copied};
+    level.given = {level.fields, level.masks, level.uniforms,  level.results,
+                   layout,       links,       options.is_near, sides_[pass_number].copied};
 }
 
 void PassRunner::run_cells(Worker& worker, std::size_t level, const Patch& cells) const {
-    std::visit([&](const auto& arguments) { run_level(arguments.levels[level], cells); },
-               worker.arguments);
+    std::visit(
+        [&](const auto& arguments) {
+            const auto& within = arguments.levels[level];
+            if (others_ == nullptr) return run_level(within, cells);
+            const RowRange rows = common(cells.rows, within.rows);
+            const std::int64_t all = layout_.row_count();
+            const auto run = [&](const auto& bound, RowRange part, std::int64_t shift) {
+                if (part.empty()) return;
+                run_level(bound, {{part.begin + shift, part.end + shift}, cells.columns});
+            };
+            run(within, common(rows, {0, all}), 0);
+            if (rows.begin < 0) {
+                run(arguments.before[level], common(rows, {rows.begin, 0}), all);
+            }
+            if (rows.end > all) run(arguments.after[level], common(rows, {all, rows.end}), -all);
+        },
+        worker.arguments);
+}
+
+void PassRunner::run_share(Worker& worker, std::size_t level) const {
+    const RowRange rows =
+        std::visit([&](const auto& arguments) { return arguments.levels[level].rows; },
+                   worker.arguments);
+    const RowRange own = split_rows(rows.count(), worker.number, worker.count);
+    run_cells(worker, level, {{rows.begin + own.begin, rows.begin + own.end}});
 }
 
 template <typename Number>
@@ -147,7 +197,7 @@ void PassRunner::run_level(const Level<Number>& level, const Patch& cells) const
     const std::int64_t band =
         problem_.has_halo() || level.when_written != nullptr
             ? rows_of_a_band<Number>(layout_, std::max<std::size_t>(1, level.results.size()))
-            : cells.rows.end - cells.rows.begin;
+            : cells.rows.count();
     const ColumnRange columns = cells.columns.within(layout_.width);
     const bool is_whole = columns.begin == 0 && columns.end == layout_.width;
     for (std::int64_t row = cells.rows.begin; row < cells.rows.end; row += band) {
@@ -183,7 +233,7 @@ void PassRunner::fill_halo_of(const Level<Number>& level, std::size_t number,
                               const Patch& cells) const {
     const StepProblem::Result& result = problem_.passes[level.pass].results[number];
     const auto fill = [&](const SideRules& rules) {
-        fill_halo_from(level.results[number], layout_, rules, cells);
+        fill_halo_from(level.results[number], level.given.layout, rules, cells);
     };
     const SideRules& rules = sides_[level.pass].rules[number];
     const auto* const own = std::get_if<StepProblem::SpeciesPlane>(&result.plane);

@@ -10,6 +10,7 @@
 #include "core/plane.h"
 #include "solvers/exchange.h"
 #include "solvers/leave_if.h"
+#include "solvers/part_halos.h"
 #include "solvers/step_problem.h"
 #include "solvers/wave_filter.h"
 
@@ -49,7 +50,8 @@ template <typename Number>
 class ConstraintSolver;
 
 /// The layout of a problem's planes in this process. They cover the whole grid or, if `others` is
-/// not null, a part of the grid and as many rows of other parts as passes read.
+/// not null, a part of the grid and as many rows of other parts as Exchange::levels() passes read.
+/// On a periodic axis these rows may be beyond the grid.
 PlaneLayout layout_of(const StepProblem& problem, const Exchange* others);
 
 class PassRunner {
@@ -61,11 +63,20 @@ public:
     explicit PassRunner(const StepProblem& problem, Exchange* others = nullptr);
     ~PassRunner();
 
+    /// How a pass runs as a level.
+    struct LevelOptions {
+        /// Whether the pass will find the values that it reads in a near cache.
+        bool is_near = false;
+        const RowsWritten* when_written = nullptr;  ///< May be null. Must outlive the level.
+        /// In a part of a grid: how many levels follow before halos are exchanged.
+        std::int64_t followers = 0;
+    };
     /// A pass with all data needed to run it on some rows.
     template <typename Number>
     struct Level {
         std::size_t pass = 0;
         StepMoment moment;
+        RowRange rows;  ///< The rows that the level computes. They may be beyond the grid.
         std::vector<Number> uniforms;
         std::vector<const Number*> fields;
         std::vector<const std::uint8_t*> masks;
@@ -77,6 +88,8 @@ public:
     template <typename Number>
     struct Arguments {
         std::vector<Level<Number>> levels;
+        /// The same levels for rows before and after a periodic grid. Empty if there are none.
+        std::vector<Level<Number>> before, after;
         std::vector<std::vector<Number>>
             uniforms;  ///< The uniforms of each pass, with the latest values of aggregates.
         IdVector<AggregateId, Number> aggregates;
@@ -107,17 +120,25 @@ public:
     /// filters. All threads of the team call it, as they call run().
     void prepare_pass(Worker& worker, Team& team, std::size_t pass, Registers registers,
                       const StepMoment& moment);
-    /// Binds a pass as level `level` of the worker. Reads `registers` during this call only. If
-    /// `is_near` is true, the pass will find the values that it reads in a near cache.
-    /// `when_written` may be null and must outlive the level.
+    /// Binds a pass as level `level` of the worker. Reads `registers` during this call only.
     void bind(Worker& worker, std::size_t level, std::size_t pass, Registers registers,
-              const StepMoment& moment, bool is_near = false,
-              const RowsWritten* when_written = nullptr);
-    /// Runs a bound level on some cells, and fills the halo cells that depend on them.
+              const StepMoment& moment, const LevelOptions& options);
+    /// Runs a bound level on some cells, and fills the halo cells that depend on them. In a part of
+    /// a grid, leaves out the rows that the level does not compute.
     void run_cells(Worker& worker, std::size_t level, const Patch& cells) const;
+    /// Runs this thread's share of a bound level.
+    void run_share(Worker& worker, std::size_t level) const;
 
-    // The next two functions are for parts of a grid only. One thread calls them when all threads
-    // have written their rows.
+    // The next functions are for parts of a grid only. One thread calls them when all threads have
+    // written their rows.
+
+    bool is_part() const { return others_ != nullptr; }
+    /// Adds the planes that a pass reads with these registers.
+    void add_reads(std::size_t pass, Registers registers, HaloReads& reads);
+    /// Fills the halos of planes that the next levels read.
+    void share_reads(const HaloReads& reads) const;
+    /// Fills the halos beyond the sides of the grid for a moment.
+    void fill_sides(std::span<Field> species, SideMoment moment) const;
 
     /// Fills the halos of all results of a pass from other parts.
     void share_results(std::size_t pass, Registers registers);
@@ -158,8 +179,14 @@ private:
                       const StepMoment& moment) const;
     template <typename Number>
     void bind_as(Arguments<Number>& arguments, std::size_t level, std::size_t pass,
-                 Registers registers, const StepMoment& moment, bool is_near,
-                 const RowsWritten* when_written);
+                 Registers registers, const StepMoment& moment, const LevelOptions& options);
+    /// Binds a pass as a level for rows of the grid (`beyond` = 0), before it (−1) or after it (1).
+    template <typename Number>
+    void bind_level(Level<Number>& level, Arguments<Number>& arguments, std::size_t pass,
+                    Registers registers, const StepMoment& moment, const LevelOptions& options,
+                    int beyond);
+    /// The rows that a level computes, if `followers` more levels run before halos are exchanged.
+    RowRange rows_with(std::int64_t followers) const;
     template <typename Number>
     void run_level(const Level<Number>& level, const Patch& cells) const;
     template <typename Number>
@@ -171,7 +198,9 @@ private:
     Exchange* others_;
     std::unique_ptr<WholeGrid> whole_;  ///< Null until it is needed.
     PlaneLayout layout_;
-    RowRange rows_;  ///< The rows that are computed here.
+    RowRange rows_;       ///< This part's own rows.
+    bool wraps_ = false;  ///< Whether this is a part of a grid that is periodic from part to part.
+    std::int64_t reach_ = 1;  ///< The number of rows or slices that a pass reaches.
     /// Objects that passes need besides kernels.
     template <typename Number>
     struct Helpers {

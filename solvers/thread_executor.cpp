@@ -20,22 +20,6 @@
 namespace cascade {
 namespace {
 
-/// With fewer values than this per thread and step, a barrier costs more than a thread saves:
-/// computing so many values takes about 10 µs, and a barrier about 1 µs. Values of cells with links
-/// take longer.
-constexpr std::int64_t least_values_per_thread = 16384;
-constexpr std::int64_t least_linked_values_per_thread = 8192;
-
-int worthwhile_threads(const Grid& grid, std::size_t species, int most) {
-    const std::int64_t values = grid.cell_count() * static_cast<std::int64_t>(species);
-    const std::int64_t least =
-        grid.linked ? least_linked_values_per_thread : least_values_per_thread;
-    const std::int64_t parts =
-        has_few_rows(grid) ? grid.width / PlaneLayout::row_pad : grid.height * grid.depth;
-    const std::int64_t worth = std::min(values / least, parts);
-    return static_cast<int>(std::clamp<std::int64_t>(worth, 1, std::max(most, 1)));
-}
-
 StepMoment moment_of(std::int64_t complete, const StageClock& clock,
                      const std::atomic<bool>* cancel) {
     return {complete, clock.at(complete), clock.step, clock.at(complete + 1), cancel};
@@ -67,8 +51,10 @@ public:
     void exchange(RegisterId one, RegisterId other) override { planes_.exchange(one, other); }
     void fill_halos(int copy, SideMoment moment) override {
         const FlushDenormals environment;
-        problem_->fill_halos(planes_.copy(copy), moment);
-        if (others_ != nullptr) runner_->share_species(planes_.copy(copy));
+        if (others_ == nullptr) return problem_->fill_halos(planes_.copy(copy), moment);
+        runner_->fill_sides(planes_.copy(copy), moment);
+        are_halos_shared_ = levels_of_halo_ == 1;
+        if (are_halos_shared_) runner_->share_species(planes_.copy(copy));
     }
 
     bool run(const StageClock& clock, StepPass first, std::size_t count, bool check,
@@ -80,11 +66,11 @@ public:
     int most_threads() const override { return team_.size(); }
     void use_threads(int threads) override;
     std::vector<Tiling> tilings_to_try() const override {
-        if (others_ != nullptr) return {Tiling{}};
+        if (others_ != nullptr) return {best_tiling()};
         return cascade::tilings_to_try(*problem_, reach_, CacheSizes::here(), most_threads());
     }
     void use_tiling(const Tiling& tiling) override;
-    int levels() const override { return tiles_->levels(); }
+    int levels() const override { return std::max(tiles_->levels(), levels_of_halo_); }
     Stepping stepping() const override {
         return stepping_with(*problem_, tiling_, tiles_->levels(), tiles_->phases());
     }
@@ -113,8 +99,12 @@ private:
     void run(const Given& given, const StepPass& first, std::size_t count, const OwnCells& after);
     void run_passes(Worker& worker, const Given& given, StepPass next, std::size_t left,
                     bool meets);
-    std::size_t passes_together(const StepPass& next, std::size_t left) const;
-    void run_together(Worker& worker, const Given& given, StepPass& next, std::size_t count);
+    void run_tiles(Worker& worker, const Given& given, StepPass& next, std::size_t count,
+                   bool meets);
+    std::size_t passes_together(const StepPass& next, std::size_t left, int most) const;
+    void run_together(Worker& worker, const Given& given, StepPass& next, std::size_t count,
+                      std::size_t followers);
+    void share_reads(Worker& worker, StepPass next, std::size_t count, bool one_by_one);
     OwnCells check_of(int copy);
     bool all_finite() const;
     void add_squares(RowRange rows, const std::vector<Field>& values);
@@ -125,6 +115,9 @@ private:
     Team team_;
     std::optional<PassRunner> runner_;
     std::int64_t reach_ = 1;  ///< The number of rows that links reach.
+    int levels_of_halo_ = 1;  ///< The largest number of passes between two exchanges of halos.
+    /// Whether halos have been exchanged after the last pass, which is so if passes run one by one.
+    bool are_halos_shared_ = true;
     Tiling tiling_;
     bool is_tiling_given_ = false;
     std::optional<TileRunner> tiles_;
@@ -143,6 +136,8 @@ ThreadExecutor::ThreadExecutor(const StepProblem& problem, std::vector<Field> sp
       finite_(static_cast<std::size_t>(team_.size())) {
     planes_.make_registers(problem.registers);
     reach_ = rows_reached(problem);
+    if (others != nullptr) levels_of_halo_ = others->levels();
+    are_halos_shared_ = levels_of_halo_ == 1;
     tiling_ = best_tiling();
     use_threads(team_.size());
 }
@@ -153,15 +148,29 @@ void ThreadExecutor::prepare(const StepProblem& problem) {
     problem_ = &problem;
     planes_.make_registers(problem.registers);
     runner_.emplace(problem, others_);
+    CHECK(runner_->layout() == planes_.layout(), "all passes have planes of one layout");
+    if (others_ != nullptr) {
+        levels_of_halo_ = std::min(others_->levels(), levels_of_halo(problem, others_->parts(), 1));
+    }
     for (Worker& worker : workers_) {
         runner_->prepare(worker.passes, worker.passes.number, worker.passes.count);
     }
     set_tiling(is_tiling_given_ ? tiling_ : best_tiling());
 }
 
-/// Parts of a grid exchange halos after each pass, so passes run separately.
+/// In a part of a grid, passes run together if its halo is wide enough.
 Tiling ThreadExecutor::best_tiling() const {
-    return others_ != nullptr ? Tiling{} : choose_tiling(*problem_, reach_, CacheSizes::here());
+    if (others_ == nullptr) return choose_tiling(*problem_, reach_, CacheSizes::here());
+    if (levels_of_halo_ == 1) return {};
+    Grid part = problem_->grid;
+    const std::int64_t rows = planes_.layout().rows.count();
+    (part.depth > 1 ? part.depth : part.height) = part.depth > 1 ? rows / part.height : rows;
+    // Parts on one machine share its third-level cache, so tiles fit into the second if they can.
+    CacheSizes near = CacheSizes::here();
+    near.third = 0;
+    Tiling tiling = choose_tiling(*problem_, part, reach_, near);
+    if (tiling.levels == 1) tiling = choose_tiling(*problem_, part, reach_, CacheSizes::here());
+    return tiling.levels > 1 ? tiling : Tiling{};
 }
 
 void ThreadExecutor::use_threads(int threads) {
@@ -174,7 +183,8 @@ void ThreadExecutor::use_threads(int threads) {
 }
 
 void ThreadExecutor::use_tiling(const Tiling& tiling) {
-    if (others_ != nullptr || (is_tiling_given_ && tiling == tiling_)) return;
+    if (levels_of_halo_ == 1 && others_ != nullptr) return;
+    if (is_tiling_given_ && tiling == tiling_) return;
     is_tiling_given_ = true;
     set_tiling(tiling);
 }
@@ -269,36 +279,74 @@ void ThreadExecutor::run(const Given& given, const StepPass& first, std::size_t 
             if (after) after(thread, worker.passes.cells);
         },
         static_cast<int>(workers_.size()));
+    are_halos_shared_ = levels_of_halo_ == 1;
 }
 
 /// Runs `left` passes from `next` on. If `meets` is true, each thread's own cells are complete at
-/// the end.
+/// the end. Parts exchange halos before each batch of passes.
 void ThreadExecutor::run_passes(Worker& worker, const Given& given, StepPass next, std::size_t left,
                                 bool meets) {
+    if (others_ == nullptr) {
+        run_tiles(worker, given, next, left, meets);
+        left = 0;
+    } else if (levels_of_halo_ == 1 && !are_halos_shared_) {
+        share_reads(worker, next, std::min(left, problem_->passes.size()), true);
+    }
     while (left > 0) {
-        const std::size_t together = passes_together(next, left), pass = next.pass;
-        run_together(worker, given, next, together);
-        left -= together;
-        if (others_ != nullptr) {
-            team_.barrier();
-            if (worker.passes.number == 0) runner_->share_results(pass, worker.registers);
-        }
-        // One barrier is enough: after it, no thread reads the copy that the next pass overwrites,
-        // and every thread has filled the halo cells that copy its own rows. With tiles or columns,
-        // a thread's cells may have been computed by other threads.
-        const bool is_elsewhere =
-            tiles_->levels() > 1 || has_few_rows(problem_->grid) || others_ != nullptr;
-        if (left > 0 || (meets && is_elsewhere)) team_.barrier();
+        const std::size_t batch = passes_together(next, left, levels_of_halo_), pass = next.pass;
+        left -= batch;
+        if (levels_of_halo_ > 1) share_reads(worker, next, batch, false);
+        run_tiles(worker, given, next, batch, true);
+        if (levels_of_halo_ > 1) continue;
+        if (worker.passes.number == 0) runner_->share_results(pass, worker.registers);
+        if (left > 0 || meets) team_.barrier();
     }
     if (given.written_by_last == nullptr || !tiles_->is_along_columns()) return;
     team_.barrier();
     (*given.written_by_last)(worker.passes.rows);
 }
 
+/// Runs `left` passes without an exchange of halos between them.
+void ThreadExecutor::run_tiles(Worker& worker, const Given& given, StepPass& next, std::size_t left,
+                               bool meets) {
+    // One barrier after each tile is enough: after it, no thread reads the copy that the next pass
+    // overwrites, and every thread has filled the halo cells that copy its own rows. With tiles or
+    // columns, a thread's cells may have been computed by other threads.
+    const bool is_elsewhere =
+        tiles_->levels() > 1 || has_few_rows(problem_->grid) || others_ != nullptr;
+    while (left > 0) {
+        const std::size_t together = passes_together(next, left, tiles_->levels());
+        left -= together;
+        run_together(worker, given, next, together, left);
+        if (left > 0 || (meets && is_elsewhere)) team_.barrier();
+    }
+}
+
+/// Fills the halos that the next `count` passes read. If they run `one_by_one`, each needs a halo
+/// for itself alone. The team has to have met after the last pass.
+void ThreadExecutor::share_reads(Worker& worker, StepPass next, std::size_t count,
+                                 bool one_by_one) {
+    if (worker.passes.number == 0) {
+        const auto levels = static_cast<std::int64_t>(one_by_one ? 1 : count);
+        HaloReads reads(*problem_, levels);
+        for (std::size_t number = 0; number < count; ++number) {
+            if (number == 0 || next.pass == 0) planes_.list(next.roles, worker.registers);
+            runner_->add_reads(next.pass, worker.registers, reads);
+            go_on(next, problem_->passes.size());
+            if (!one_by_one) continue;
+            runner_->share_reads(reads);
+            reads = HaloReads(*problem_, levels);
+        }
+        if (!one_by_one) runner_->share_reads(reads);
+    }
+    team_.barrier();
+}
+
 /// The number of passes to run together if `left` remain. Divides the passes up to the next pass
-/// that needs all rows into tiles of nearly equal heights.
-std::size_t ThreadExecutor::passes_together(const StepPass& next, std::size_t left) const {
-    const auto most = static_cast<std::size_t>(tiles_->levels());
+/// that needs all rows into groups of nearly equal size, at most `limit`.
+std::size_t ThreadExecutor::passes_together(const StepPass& next, std::size_t left,
+                                            int limit) const {
+    const auto most = static_cast<std::size_t>(limit);
     const std::size_t passes = problem_->passes.size();
     std::size_t free = 1;
     while (free < left && !needs_all_rows(problem_->passes[(next.pass + free) % passes])) {
@@ -308,8 +356,9 @@ std::size_t ThreadExecutor::passes_together(const StepPass& next, std::size_t le
     return (free + tiles - 1) / tiles;
 }
 
+/// Runs `count` passes as one tile. `followers` more passes run before halos are exchanged.
 void ThreadExecutor::run_together(Worker& worker, const Given& given, StepPass& next,
-                                  std::size_t count) {
+                                  std::size_t count, std::size_t followers) {
     const std::size_t passes = problem_->passes.size();
     for (std::size_t number = 0; number < count; ++number) {
         if (number == 0 || next.pass == 0) planes_.list(next.roles, worker.registers);
@@ -318,14 +367,16 @@ void ThreadExecutor::run_together(Worker& worker, const Given& given, StepPass& 
             runner_->prepare_pass(worker.passes, team_, next.pass, worker.registers, moment);
         }
         // The first pass of a tile brings the data of the other passes into the cache.
+        const bool is_last = next.pass + 1 == passes;
+        const auto left = static_cast<std::int64_t>(count - 1 - number + followers);
         runner_->bind(worker.passes, number, next.pass, worker.registers, moment,
-                      tiling_.is_near && number > 0,
-                      next.pass + 1 == passes && !tiles_->is_along_columns() ? given.written_by_last
-                                                                             : nullptr);
+                      {tiling_.is_near && number > 0,
+                       is_last && !tiles_->is_along_columns() ? given.written_by_last : nullptr,
+                       left});
         go_on(next, passes);
     }
     if (count == 1 && !tiles_->is_along_columns()) {
-        runner_->run_cells(worker.passes, 0, {worker.passes.rows});
+        runner_->run_share(worker.passes, 0);
     } else {
         tiles_->run(worker.passes, team_, static_cast<int>(count));
     }

@@ -16,7 +16,16 @@ bool is_of_slices(const Grid& grid, const Tiling& tiling) {
     return grid.depth > 1 && tiling.along == Tiling::Along::slices;
 }
 
-TileAxis outer_axis(const StepProblem& problem, const Tiling& tiling, int threads) {
+/// The rows or slices of which layers of the outer axis consist, unless they consist of columns.
+RowRange outer_range(const PassRunner& runner, const Tiling& tiling) {
+    const PlaneLayout& layout = runner.layout();
+    if (layout.depth == 1) return layout.rows;
+    if (!is_of_slices(runner.problem().grid, tiling)) return {0, layout.height};
+    return {layout.rows.begin / layout.height, layout.rows.end / layout.height};
+}
+
+TileAxis outer_axis(const PassRunner& runner, const Tiling& tiling, int threads) {
+    const StepProblem& problem = runner.problem();
     const Grid& grid = problem.grid;
     if (tiling.along == Tiling::Along::columns) {
         CHECK(!grid.linked && tiling.outer_layer % PlaneLayout::row_pad == 0,
@@ -24,9 +33,11 @@ TileAxis outer_axis(const StepProblem& problem, const Tiling& tiling, int thread
         return {std::max<std::int64_t>(grid.width / tiling.outer_layer, 1), threads,
                 wraps(problem, Side::left)};
     }
-    const bool of_slices = is_of_slices(grid, tiling);
-    return {layers_of(of_slices ? grid.depth : grid.height, tiling.outer_layer), threads,
-            !grid.linked && wraps(problem, of_slices ? Side::front : Side::top)};
+    // A part has halos at the ends of its axis, and computes the layers there itself.
+    const bool is_divided = runner.is_part() && (grid.depth == 1 || is_of_slices(grid, tiling));
+    const Side side = is_of_slices(grid, tiling) ? Side::front : Side::top;
+    return {layers_of(outer_range(runner, tiling).count(), tiling.outer_layer), threads,
+            !grid.linked && !is_divided && wraps(problem, side)};
 }
 
 /// An axis that is not cut counts as one layer.
@@ -41,7 +52,7 @@ TileAxis inner_axis(const StepProblem& problem, const Tiling& tiling) {
 TileRunner::TileRunner(const PassRunner& runner, const Tiling& tiling, int threads)
     : runner_(runner),
       tiling_(tiling),
-      outer_(outer_axis(runner.problem(), tiling, threads)),
+      outer_(outer_axis(runner, tiling, threads)),
       inner_(inner_axis(runner.problem(), tiling)),
       levels_(std::clamp(std::min({tiling.levels, outer_.most_levels(), inner_.most_levels()}), 1,
                          most_levels)) {}
@@ -105,13 +116,13 @@ void TileRunner::run_layer(PassRunner::Worker& worker, int level, std::int64_t l
     const auto run = [&](std::int64_t begin, std::int64_t end) {
         if (begin < end) runner_.run_cells(worker, static_cast<std::size_t>(level), {{begin, end}});
     };
-    const bool of_slices = is_of_slices(runner_.problem().grid, tiling_);
-    const std::int64_t first = layer * tiling_.outer_layer;
-    const std::int64_t last =
-        std::min(first + tiling_.outer_layer, of_slices ? layout.depth : layout.height);
-    if (!of_slices) {
-        for (std::int64_t slice = 0; slice < layout.depth; ++slice) {
-            run(slice * layout.height + first, slice * layout.height + last);
+    const RowRange axis = outer_range(runner_, tiling_);
+    const std::int64_t first = axis.begin + layer * tiling_.outer_layer;
+    const std::int64_t last = std::min(first + tiling_.outer_layer, axis.end);
+    if (layout.depth == 1) return run(first, last);
+    if (!is_of_slices(runner_.problem().grid, tiling_)) {
+        for (std::int64_t row = layout.rows.begin; row < layout.rows.end; row += layout.height) {
+            run(row + first, row + last);
         }
         return;
     }
@@ -133,8 +144,7 @@ void TileRunner::run_layer(PassRunner::Worker& worker, int level, std::int64_t l
 void TileRunner::run_columns(PassRunner::Worker& worker, int level, LayerRange layers) const {
     const PlaneLayout& layout = runner_.layout();
     const auto run = [&](std::int64_t begin, std::int64_t end) {
-        runner_.run_cells(worker, static_cast<std::size_t>(level),
-                          {{0, layout.row_count()}, {begin, end}});
+        runner_.run_cells(worker, static_cast<std::size_t>(level), {layout.rows, {begin, end}});
     };
     if (layers.begin == 0 && layers.end == outer_.layers()) return run(0, layout.width);
     const std::int64_t columns = tiling_.outer_layer, left_over = outer_.layers() * columns;

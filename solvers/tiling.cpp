@@ -85,8 +85,8 @@ std::int64_t columns_of_a_layer(const Grid& grid) {
 
 /// The tiling of a grid with slices. Layers are whole slices or, with few slices, the same rows of
 /// all slices. If neither fits, slices are cut into bands of rows.
-Tiling tiling_of_slices(const StepProblem& problem, std::int64_t bytes, const CacheSizes& caches) {
-    const Grid& grid = problem.grid;
+Tiling tiling_of_slices(const StepProblem& problem, const Grid& grid, std::int64_t bytes,
+                        const CacheSizes& caches) {
     const std::int64_t stride = PlaneLayout(grid).stride;
     const std::int64_t slices = height_of_layer(problem, stride * grid.height, grid.depth);
     const std::int64_t rows = height_of_layer(problem, stride * grid.depth, grid.height);
@@ -119,25 +119,31 @@ bool has_changing_rows(const StepProblem& problem) {
 }
 
 /// The tiling with one level, which runs each pass separately.
-Tiling plain_tiling(const StepProblem& problem) {
+Tiling plain_tiling(const StepProblem& problem, const Grid& grid) {
     Tiling plain;
-    if (!has_few_rows(problem.grid) || has_changing_rows(problem)) return plain;
+    if (!has_few_rows(grid) || has_changing_rows(problem)) return plain;
     plain.along = Tiling::Along::columns;
-    plain.outer_layer = columns_of_a_layer(problem.grid);
+    plain.outer_layer = columns_of_a_layer(grid);
     return plain;
 }
 
+/// The bytes of bytes_of_step() in the rows or slices of `grid`.
+std::int64_t bytes_of_rows(const StepProblem& problem, const Grid& grid) {
+    const auto part =
+        static_cast<double>(grid.cell_count()) / static_cast<double>(problem.grid.cell_count());
+    return static_cast<std::int64_t>(part * static_cast<double>(bytes_of_step(problem)));
+}
+
 /// The tiling of planes that are too large for the caches and mostly come from memory in every
-/// step.
-Tiling tiling_beyond_cache(const StepProblem& problem, std::int64_t reach,
+/// step. `grid` has the rows or slices that are computed here.
+Tiling tiling_beyond_cache(const StepProblem& problem, const Grid& grid, std::int64_t reach,
                            const CacheSizes& caches) {
-    const Grid& grid = problem.grid;
-    const Tiling plain = plain_tiling(problem);
+    const Tiling plain = plain_tiling(problem, grid);
     if (std::all_of(problem.passes.begin(), problem.passes.end(), needs_all_rows)) return plain;
-    const std::int64_t bytes = bytes_of_step(problem);
+    const std::int64_t bytes = bytes_of_rows(problem, grid);
     std::int64_t rows = height_of_layer(problem, PlaneLayout(grid).stride, grid.height);
     if (grid.linked) rows = std::max(rows, reach);
-    const Tiling of_rows = grid.depth > 1 ? tiling_of_slices(problem, bytes, caches)
+    const Tiling of_rows = grid.depth > 1 ? tiling_of_slices(problem, grid, bytes, caches)
                                           : tiling_of_layers(rows, grid.height, bytes, caches);
     if (grid.linked || has_changing_rows(problem)) return of_rows;
     const std::int64_t columns = columns_of_a_layer(grid);
@@ -150,6 +156,12 @@ Tiling tiling_beyond_cache(const StepProblem& problem, std::int64_t reach,
     return of_columns;
 }
 
+/// With fewer values than this per thread and step, a barrier costs more than a thread saves:
+/// computing so many values takes about 10 µs, and a barrier about 1 µs. Values of cells with links
+/// take longer.
+constexpr std::int64_t least_values_per_thread = 16384;
+constexpr std::int64_t least_linked_values_per_thread = 8192;
+
 }  // namespace
 
 bool has_few_rows(const Grid& grid) {
@@ -161,6 +173,16 @@ Patch share_of(const Grid& grid, int index, int count) {
     if (!has_few_rows(grid)) return {split_rows(rows, index, count)};
     const RowRange columns = split_rows(grid.width, index, count);
     return {{0, rows}, {columns.begin, columns.end}};
+}
+
+int worthwhile_threads(const Grid& grid, std::size_t species, int most) {
+    const std::int64_t values = grid.cell_count() * static_cast<std::int64_t>(species);
+    const std::int64_t least =
+        grid.linked ? least_linked_values_per_thread : least_values_per_thread;
+    const std::int64_t parts =
+        has_few_rows(grid) ? grid.width / PlaneLayout::row_pad : grid.height * grid.depth;
+    const std::int64_t worth = std::min(values / least, parts);
+    return static_cast<int>(std::clamp<std::int64_t>(worth, 1, std::max(most, 1)));
 }
 
 bool needs_all_rows(const StepProblem::Pass& pass) {
@@ -213,14 +235,21 @@ bool wraps(const StepProblem& problem, Side side) {
 }
 
 Tiling choose_tiling(const StepProblem& problem, std::int64_t reach, const CacheSizes& caches) {
-    return stays_in_cache(problem, caches) ? plain_tiling(problem)
-                                           : tiling_beyond_cache(problem, reach, caches);
+    return choose_tiling(problem, problem.grid, reach, caches);
+}
+
+Tiling choose_tiling(const StepProblem& problem, const Grid& grid, std::int64_t reach,
+                     const CacheSizes& caches) {
+    const bool is_small =
+        static_cast<double>(bytes_of_rows(problem, grid)) <= bytes_for_layers(caches);
+    return is_small ? plain_tiling(problem, grid)
+                    : tiling_beyond_cache(problem, grid, reach, caches);
 }
 
 std::vector<Tiling> tilings_to_try(const StepProblem& problem, std::int64_t reach,
                                    const CacheSizes& caches, int threads) {
     std::vector<Tiling> tilings = {choose_tiling(problem, reach, caches)};
-    const Tiling tiled = tiling_beyond_cache(problem, reach, caches);
+    const Tiling tiled = tiling_beyond_cache(problem, problem.grid, reach, caches);
     const bool is_small = static_cast<double>(bytes_of_step(problem)) / threads <=
                           part_of_second * static_cast<double>(caches.second);
     if (tiled.levels == 1 || is_small) return tilings;
@@ -237,7 +266,7 @@ std::vector<Tiling> tilings_to_try(const StepProblem& problem, std::int64_t reac
                                         static_cast<std::int64_t>(layer)),
                               2, fewer.levels);
     add(fewer);
-    add(plain_tiling(problem));
+    add(plain_tiling(problem, problem.grid));
     return tilings;
 }
 

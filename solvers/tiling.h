@@ -5,6 +5,7 @@
 #include "core/cache_sizes.h"
 #include "solvers/step_problem.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -44,6 +45,10 @@ bool has_few_rows(const Grid& grid);
 /// of all rows.
 Patch share_of(const Grid& grid, int index, int count);
 
+/// The number of threads that are worthwhile for steps of this many species, at most `most`. Small
+/// grids have fewer.
+int worthwhile_threads(const Grid& grid, std::size_t species, int most);
+
 /// Whether all rows of the preceding passes must be complete before this pass begins, because it
 /// has an aggregate or a filter of waves.
 bool needs_all_rows(const StepProblem::Pass& pass);
@@ -64,6 +69,9 @@ bool stays_in_cache(const StepProblem& problem, const CacheSizes& caches);
 
 /// The tiling whose levels' data fit into the caches. `reach` is the result of rows_reached().
 Tiling choose_tiling(const StepProblem& problem, std::int64_t reach, const CacheSizes& caches);
+/// The same for a part of the problem's grid, of the size of `part`.
+Tiling choose_tiling(const StepProblem& problem, const Grid& part, std::int64_t reach,
+                     const CacheSizes& caches);
 
 /// The result of choose_tiling() first, then others that may be faster on this machine or for these
 /// kernels: one step per pass through memory, fewer levels, or tiles if planes stay in a

@@ -53,9 +53,12 @@ while IFS='|' read -r counts domain; do
 done <<'END'
 2 3 4|grid: 21, 18; seed: 3
 3|grid: 9, 8, 6; boundary: noflux
+2 3|grid: 11, 75; seed: 5
+2|grid: 7, 40; boundary: noflux; mask: sy < 0.9
+2|grid: 6, 5, 34
 2|grid: 20, 15; mask: hypot(sx - 0.5, sy - 0.5) < 0.45
 END
-[ "$combinations" = 45 ] || fail "$combinations combinations instead of 45"
+[ "$combinations" = 81 ] || fail "$combinations combinations instead of 81"
 
 # --ranks starts the ranks itself. Each message and each file is written once.
 run 0 run all.cascade --ranks 3 --save shared -o again.png
@@ -65,6 +68,19 @@ cmp again.png whole.png || fail "--ranks differs"
 run 0 run all.cascade --ranks 2 -q --timing -o again.png
 says err '2 ranks, rank 0 sent '
 grep -qE '^  1 on \S+ +[0-9.]+ ms +[0-9.]+ ms +[0-9,]+$' err || fail "no line for rank 1 in --timing"
+# Ranks exchange halos of 16 rows before 16 steps, of 2 rows before 2, and of thin parts after each step. If all steps
+# fall into one batch between checks, 160 steps take 10 exchanges. Batches end earlier while the program measures their
+# time.
+exchanges() {
+    printf 'domain { grid: 40, %s }\nstage s: gray_scott { iterations: %s }\n' "$1" "$2" >tall.cascade
+    run 0 run tall.cascade --ranks 2 -q --timing -o tall.png
+    grep -oE 'in [0-9]+ exchanges' err | grep -oE '[0-9]+'
+}
+few=$(exchanges 256 160)
+[ "$few" -ge 10 ] && [ "$few" -le 32 ] || fail "160 steps with halos of 16 rows take $few exchanges"
+some=$(exchanges 32 160)
+[ "$some" -ge 80 ] && [ "$some" -le 120 ] || fail "160 steps with halos of 2 rows take $some exchanges"
+[ "$(exchanges 15 160)" = 161 ] || fail "other than one exchange for each step and one at the start"
 run 64 run all.cascade --ranks 2 --mpi lam
 says err '--mpi'
 

@@ -136,7 +136,7 @@ std::vector<Field>& ValueRunner::run(const CellValues& values, std::vector<Field
         known.runner->prepare(worker, thread, threads);
         for (std::size_t pass = 0; pass < known.patches.size(); ++pass) {
             if (pass > 0) team_.barrier();
-            known.runner->bind(worker, 0, pass, registers, moment);
+            known.runner->bind(worker, 0, pass, registers, moment, {});
             const Patches& patches = known.patches[pass];
             const auto count = static_cast<std::int64_t>(patches.size());
             const RowRange own = split_rows(count, thread, threads);

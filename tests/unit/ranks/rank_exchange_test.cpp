@@ -125,6 +125,7 @@ TEST(RankExchange, CountsTheBytesOfHalos) {
         const Exchange::Shared shared{&field, true};
         exchange.fill_halos({&shared, 1}, 1);
         EXPECT_EQ(load.halo_bytes, 2 * field.layout().stride * std::int64_t{4});
+        EXPECT_EQ(load.halo_exchanges, 1);
     });
 }
 

@@ -114,7 +114,7 @@ Ended run_on(const MakeExecutor& executor, const StepProblem& problem, Schedule 
 Ended run_on_all(const StepProblem& problem, const Schedule& schedule) {
     Ended here = run_on(make_thread_executor, problem, schedule);
     for (const MakeExecutor& executor :
-         {MakeExecutor(make_distant_executor), in_parts(2), in_parts(3), in_parts(5)}) {
+         {MakeExecutor(make_distant_executor), in_parts(2), in_parts(3, 1), in_parts(5)}) {
         const Ended other = run_on(executor, problem, schedule);
         EXPECT_EQ(here.outcome.steps, other.outcome.steps);
         EXPECT_EQ(here.outcome.t, other.outcome.t);
@@ -130,6 +130,14 @@ TEST(Executors, MayLendCopiesToObservers) {
     Schedule schedule{.last_step = 300, .interval = 70, .threads = 2};
     schedule.time.clock.step = 0.1;
     EXPECT_EQ(run_on_all(heat_problem(of_executors, 0.2F), schedule).seen.size(), 4u);
+}
+
+TEST(Executors, MayExchangeHalosOnlyNowAndThen) {
+    for (const Grid& grid : {Grid{37, 21}, Grid{5, 80}}) {
+        Schedule schedule{.last_step = 300, .interval = 70};
+        schedule.time.clock.step = 0.1;
+        EXPECT_EQ(run_on_all(heat_problem(grid, 0.1F), schedule).seen.size(), 4u);
+    }
 }
 
 TEST(Executors, MayKeepTheStatesOfAReplayToThemselves) {

@@ -252,9 +252,10 @@ private:
 
 /// Takes steps in batches. Between them it reads, keeps and restores the species.
 template <typename Number>
-std::string steps_of(const RandomSystem<Number>& system, const Tiling& tiling, int threads) {
+std::string steps_of(const RandomSystem<Number>& system, const Tiling& tiling, int threads,
+                     const MakeExecutor& make = make_thread_executor) {
     const FlushDenormals environment;
-    Stepper stepper(system.problem(), system.start(), threads);
+    Stepper stepper(system.problem(), system.start(), threads, true, make);
     stepper.executor().use_tiling(tiling);
     StageClock clock;
     clock.step = 0.01;
@@ -304,6 +305,13 @@ void compare(const Grid& grid, std::uint64_t seed) {
             << "seed " << seed << ", " << threads << " threads, " << tiling.levels << " levels of "
             << tiling.outer_layer << ", " << tiling.inner_bands << " bands of "
             << tiling.inner_layer << ", along " << static_cast<int>(tiling.along) << ", grid "
+            << grid.width << " x " << grid.height << " x " << grid.depth;
+        if (threads > 2) continue;
+        // Parts with halos as wide as they are.
+        const int parts = 1 + threads;
+        EXPECT_TRUE(plain == steps_of(system, tiling, 1, in_parts(parts, 1)))
+            << "seed " << seed << ", " << parts << " parts, " << tiling.levels << " levels of "
+            << tiling.outer_layer << ", along " << static_cast<int>(tiling.along) << ", grid "
             << grid.width << " x " << grid.height << " x " << grid.depth;
     }
 }
