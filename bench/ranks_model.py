@@ -2,9 +2,10 @@
 """The time of a step on many ranks, on paper and simulated: bench/ranks_model.py MEASURED.json …
 
 The files are written by bench/ranks.py --save. The first one on 2 ranks and the last one on 4 ranks give the constants
-of the kernels, and the measured processor times of all files are compared with the model. Then the model is applied to large grids on fast networks,
-and a simulator lets 1,000 virtual ranks take steps whose times are drawn from the measured ones. All times are seconds
-for a step of a rank whose part has `rows` rows of `width` cells, with a halo of T rows, exchanged every T steps:
+of the kernels, and the measured processor times of all files are compared with the model. Then the model is applied to
+large grids on fast networks, and a simulator lets 1,000 virtual ranks take steps whose times are drawn from the
+measured ones. All times are seconds for a step of a rank whose part has `rows` rows of `width` cells, with a halo of T
+rows, exchanged every T steps:
 
   kernels    cell * width * rows
   fixed      seconds of a step that do not depend on the cells: starting kernels and messages
@@ -15,8 +16,8 @@ for a step of a rank whose part has `rows` rows of `width` cells, with a halo of
              after it whether all values are finite
   uneven     what the largest part has more than the mean: rows are whole
 
-Cascade exchanges halos after each pass, so T is 1, and ranks compute nothing while halos travel. A volume is a plane
-whose rows are slices, with `width` cells each.
+Cascade chooses T = 16, or fewer if parts have fewer than 128 rows (solvers/part_halos.h). Ranks compute nothing while
+halos travel. A volume is a plane whose rows are slices, with `width` cells each.
 """
 
 import argparse
@@ -47,15 +48,21 @@ class Machine:
         }
 
 
+def halo_of(rows, ranks):
+    """The rows of the halos that Cascade chooses for Euler's method."""
+    return max(1, min(16, rows // ranks // 8)) if ranks > 1 else 1
+
+
 def efficiency(terms):
     return terms["kernels"] / sum(terms.values())
 
 
-def smallest_part(machine, width, ranks, halo=1, least=0.95):
+def smallest_part(machine, width, ranks, least=0.95):
     """The fewest rows of a part with which `least` of the ideal is reached."""
     low, high = 1, 1 << 40
     while low < high:
         middle = (low + high) // 2
+        halo = halo_of(middle * ranks, ranks)
         if efficiency(machine.terms(width, middle * ranks, ranks, halo)) >= least:
             high = middle
         else:
@@ -91,32 +98,37 @@ def read(path):
 
 
 def kernels_of(measured, ranks):
-    """The measured processor seconds of a rank for a step, of all turns and ranks."""
-    return [rank["processor"] for turn in measured["ranks"][ranks] for rank in turn]
+    """The measured processor seconds for a step of each rank."""
+    return [rank["processor"] for rank in measured["ranks"][ranks]]
+
+
+def cells_of(measured, ranks):
+    """The cells that a rank computes in a step, as the mean of the steps between two exchanges."""
+    side = measured["side"]
+    return side * (side / ranks + halo_of(side, ranks) - 1)
 
 
 def compare(machine, measured):
     for ranks in sorted(measured["ranks"], key=int):
         found = min(kernels_of(measured, ranks))
-        terms = machine.terms(measured["side"], measured["side"], int(ranks))
+        halo = halo_of(measured["side"], int(ranks))
+        terms = machine.terms(measured["side"], measured["side"], int(ranks), halo)
         wanted = terms["kernels"] + terms["fixed"] + terms["repeated"]
         print(f"  {measured['side']:>6} x {measured['side']:<6} on {ranks} ranks: measured {1e3 * found:8.3f} ms, "
               f"model {1e3 * wanted:8.3f} ms, ratio {wanted / found:.3f}")
-        sent = measured["ranks"][ranks][0][0]["bytes"]
+        sent = measured["ranks"][ranks][0]["bytes"]
         padded = (measured["side"] + 15) // 16 * 16 + 32
-        wanted = 2 * SPECIES * padded * BYTES * (measured["steps"] + 1) / measured["steps"]
+        wanted = 2 * SPECIES * padded * BYTES
         print(f"{'':>9}bytes of halos a step: measured {sent:,.0f}, model {wanted:,.0f}")
 
 
 def tell(machine, name, width, rows, ranks, factors, steps):
     print(f"{name}: {width * rows:.1e} cells on {ranks} ranks, each with {rows / ranks:,.0f} rows of {width:,} cells")
-    for halo in (1, 4, 16):
-        if rows / ranks < halo:
-            continue
+    for halo in sorted({min(4, halo_of(rows, ranks)), halo_of(rows, ranks)}):
         terms = machine.terms(width, rows, ranks, halo)
         words = ", ".join(f"{key} {1e3 * value:.3g}" for key, value in terms.items())
         print(f"  T = {halo:<2}  {words} ms: {efficiency(terms):.3f} of ideal; 0.95 needs "
-              f"{smallest_part(machine, width, ranks, halo):,} rows a rank")
+              f"{smallest_part(machine, width, ranks):,} rows a rank")
         if ranks <= 1000 and steps > 0:
             step = simulate(machine, width, rows, ranks, halo, factors, steps)
             ideal = machine.cell * width * rows / ranks
@@ -137,11 +149,11 @@ def main():
     # The constants are measured on the largest and the smallest part, and the other runs test them. Other programs only
     # make times longer, so the least one counts; the simulator draws from all of them.
     last = files[-1]
-    seconds = kernels_of(first, "2")
-    many, few = first["side"] ** 2 / 2, last["side"] ** 2 / 4
-    cell = (min(seconds) - min(kernels_of(last, "4"))) / (many - few)
-    fixed = min(seconds) - cell * many
-    factors = [each / min(seconds) for each in seconds]
+    least = min(kernels_of(first, "2"))
+    many, few = cells_of(first, 2), cells_of(last, 4)
+    cell = (least - min(kernels_of(last, "4"))) / (many - few)
+    fixed = least - cell * many
+    factors = [each / min(first["turns"]["2"]) for each in first["turns"]["2"]]
     print(f"kernels: {1e9 * cell:.3f} ns a cell and step on one core, and {1e6 * fixed:.0f} us a step; up to "
           f"{max(factors):.2f} times that in single runs")
     core = Machine(cell, fixed, options.latency, options.bandwidth, options.batch)
