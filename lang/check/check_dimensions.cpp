@@ -34,6 +34,9 @@ public:
         : program_(program), units_(units_of(script)), measured_(script) {}
 
     const ScriptUnits& units() const { return units_; }
+    Measure measure_in_stage(const Formula& formula, std::uint32_t stage) {
+        return stage < stages_.size() ? measure_in_step(formula, stages_[stage]) : Measure{};
+    }
     const std::vector<Measures>& stages() const { return stages_; }
     const std::vector<Contradiction>& found() const { return found_; }
 
@@ -222,6 +225,14 @@ void check_dimensions(const ast::Script& script, const Sources& sources, const P
                                       text_of_part(sources, each.second), right),
                           "a sum, a comparison or a rate needs the same unit on both sides");
     }
+}
+
+std::string unit_of_formula(const ast::Script& script, const Program& program, std::uint32_t stage,
+                            const Formula& formula) {
+    DimensionChecker checker(script, program);
+    checker.run();
+    const Measure measure = checker.measure_in_stage(formula, stage);
+    return measure.is_known() ? checker.units().name_of(measure.dimension) : "";
 }
 
 ProgramUnits units_of_program(const ast::Script& script, const Program& program) {

@@ -33,6 +33,10 @@ struct ProgramUnits {
 void check_dimensions(const ast::Script& script, const Sources& sources, const Program& program,
                       Diagnostics& diagnostics);
 
+/// The unit of a formula of a stage, such as that of a picture. Empty if it has none.
+std::string unit_of_formula(const ast::Script& script, const Program& program, std::uint32_t stage,
+                            const Formula& formula);
+
 /// The units of a checked program.
 ProgramUnits units_of_program(const ast::Script& script, const Program& program);
 

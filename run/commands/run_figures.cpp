@@ -1,6 +1,7 @@
 // Draws the figures of a run: the picture with labelled axes and a bar of its colours.
 #include "core/file.h"
 #include "core/printable.h"
+#include "lang/check/check_dimensions.h"
 #include "run/commands/run_results.h"
 #include "run/pictures/figure.h"
 #include "run/pictures/measured.h"
@@ -23,8 +24,17 @@ std::string title_of(const Script& script, const Simulation& simulation) {
         fmt::format("{}: {}", printable(std::filesystem::path(script.name).filename().string()),
                     script.program->stages[stage].name);
     const double time = time_of(simulation, stage);
-    if (std::isfinite(time)) title += fmt::format(", t = {:.6g}", time);
+    const ProgramUnits units = units_of_program(script.tree, *script.program);
+    const std::string unit = units.name_of(BaseQuantity::time);
+    if (std::isfinite(time)) {
+        title += fmt::format(", t = {:.6g}{}{}", time, unit.empty() ? "" : " ", unit);
+    }
     return title;
+}
+
+/// The name of an axis: `x (mm)`, or `x` if there is no unit.
+std::string with_unit(std::string name, const std::string& unit) {
+    return unit.empty() ? name : fmt::format("{} ({})", name, unit);
 }
 
 /// The value of a part of a formula. Empty unless the part consists of numbers alone.
@@ -36,6 +46,13 @@ std::optional<double> number_in(const Simulation& simulation, const Formula& for
     if (!is_known) return std::nullopt;
     const std::array formulas{&number};
     return evaluate_numbers(simulation, formulas, shown_stage(simulation)).front();
+}
+
+/// The unit of a part of a formula of the shown stage. Empty if it has none.
+std::string unit_of_part(const Script& script, const Simulation& simulation, const Formula& formula,
+                         NodeId part) {
+    return unit_of_formula(script.tree, *script.program, shown_stage(simulation),
+                           formula_of(formula.nodes, part));
 }
 
 /// The bar for a colour. Empty unless the whole colour is palette(e, low, high, "name") with
@@ -50,12 +67,14 @@ std::optional<ColourBar> bar_of(const Script& script, const Simulation& simulati
     if (!low || !high || name == nullptr) return std::nullopt;
     return ColourBar{find_palette(script.program->literals->text(*name)),
                      {static_cast<float>(*low), static_cast<float>(*high)},
-                     std::string(script.sources.text(formula->nodes[value].span))};
+                     with_unit(std::string(script.sources.text(formula->nodes[value].span)),
+                               unit_of_part(script, simulation, *formula, value))};
 }
 
 /// The extent of a flat picture, which may show several copies of the plane, in the script's unit
 /// of length.
-PlaneExtent extent_of(const Simulation& simulation, const PictureRequest& request) {
+PlaneExtent extent_of(const Simulation& simulation, const PictureRequest& request,
+                      const std::string& unit) {
     constexpr std::array names{"x", "y", "z"};
     const Grid& grid = simulation.domain().grid;
     const PlaneLayout layout(grid);
@@ -68,25 +87,34 @@ PlaneExtent extent_of(const Simulation& simulation, const PictureRequest& reques
         return static_cast<double>(count * copies) * cells[axis];
     };
     return {length(shown.width, request.copies.across, across),
-            length(shown.height, request.copies.down, down), names[across], names[down]};
+            length(shown.height, request.copies.down, down), with_unit(names[across], unit),
+            with_unit(names[down], unit)};
 }
 
 }  // namespace
 
 Drawing RunResults::figure_of(Painter& of, const Canvas& canvas, const std::string& title) const {
     const PictureRequest& wanted = of.request();
-    const std::string name = name_of_number(script, shown_stage(simulation), wanted);
+    const ProgramUnits units = units_of_program(script.tree, *script.program);
+    const std::string length_unit = units.name_of(BaseQuantity::length);
+    std::string name = name_of_number(script, shown_stage(simulation), wanted);
+    if (!canvas.is_colour()) {
+        const std::uint32_t stage = shown_stage(simulation);
+        const Formula shown = of.formula(simulation).value_or(script.program->stages[stage].show);
+        name = with_unit(name, unit_of_formula(script.tree, *script.program, stage, shown));
+    }
     const Grid& grid = simulation.domain().grid;
     if (of.is_flat() && grid.height == 1 && grid.depth == 1 && !canvas.is_colour()) {
         std::vector<double> values;
         const Field& line = canvas.fields[0];
         for (std::int64_t k = 0; k < line.layout().width; ++k) values.push_back(line.at(k, 0));
         const double cell = cell_lengths(simulation, shown_stage(simulation))[0];
-        return draw_curve_figure(values, static_cast<double>(grid.width) * cell, title, name);
+        return draw_curve_figure(values, static_cast<double>(grid.width) * cell, title, name,
+                                 with_unit("x", length_unit));
     }
     const Image picture = of.image(canvas);
     std::optional<PlaneExtent> plane;
-    if (of.is_flat()) plane = extent_of(simulation, wanted);
+    if (of.is_flat()) plane = extent_of(simulation, wanted, length_unit);
     const auto bar = canvas.is_colour() ? bar_of(script, simulation, of.formula(simulation))
                                         : ColourBar{&of.palette(), of.range_of(canvas), name};
     return draw_figure(picture, title, plane, bar);

@@ -139,7 +139,8 @@ Drawing side_by_side(std::span<const Drawing> panels, const std::string& title) 
 }
 
 Drawing draw_curve_figure(const std::vector<double>& values, double length,
-                          const std::string& title, const std::string& name) {
+                          const std::string& title, const std::string& name,
+                          const std::string& across) {
     constexpr double width = 640, height = 360;
     double low = std::numeric_limits<double>::infinity(), high = -low;
     std::vector<double> places;
@@ -153,7 +154,7 @@ Drawing draw_curve_figure(const std::vector<double>& values, double length,
     if (!(low <= high)) low = high = 0;
     const double pad = low < high ? 0.05 * (high - low) : std::max(1.0, std::abs(low));
     Drawing drawing = empty_figure(width, height);
-    const Axes axes({0, length, "x"}, {low - pad, high + pad, name}, width, height);
+    const Axes axes({0, length, across}, {low - pad, high + pad, name}, width, height);
     axes.draw(drawing);
     axes.draw_curve(drawing, places, values, DrawnLine{{}, {0.10F, 0.35F, 0.65F}, 1.5, false});
     add_text(drawing, {axes.left(), 14}, title, DrawnText::Anchor::start);

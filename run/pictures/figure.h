@@ -36,8 +36,9 @@ Drawing draw_figure(const Image& picture, const std::string& title,
 Drawing side_by_side(std::span<const Drawing> panels, const std::string& title);
 
 /// Draws a number along a line of cells as a curve, from its lowest to its highest value. Values
-/// that are not finite leave gaps.
+/// that are not finite leave gaps. `across` is the name of the axis along the line.
 Drawing draw_curve_figure(const std::vector<double>& values, double length,
-                          const std::string& title, const std::string& name);
+                          const std::string& title, const std::string& name,
+                          const std::string& across = "x");
 
 }  // namespace cascade
