@@ -21,6 +21,8 @@ for words in 'x (mm)' 'c (uM)' 't = 3 h'; do
 done
 tex=$("$CASCADE" check "$out/line.cascade" --dump tex) || fail "no TeX"
 [[ $tex == *'\mathrm{m^{2}/s}'* ]] || fail "TeX lacks a unit: $tex"
+[[ $tex == *'\frac{\mathrm{width}^{2} \, k}{D}'* ]] || fail "TeX lacks a dimensionless group: $tex"
+[[ $tex == *'\mathrm{duration} \, k'* ]] || fail "TeX lacks the other group: $tex"
 value() { "$CASCADE" check "$out/line.cascade" --dump program --set "$1" | grep "^  D:.*uniform"; }
 [[ $(value 'D=2e-11') == '  D: 0.072  # uniform' ]] || fail "a number does not keep the unit: $(value 'D=2e-11')"
 [[ $(value 'D=20 um^2/s') == '  D: 0.072  # uniform' ]] || fail "a unit is not converted"

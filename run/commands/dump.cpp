@@ -2,6 +2,8 @@
 #include "run/commands/dump.h"
 
 #include "ir/cell_kernel.h"
+#include "lang/check/dimensionless_groups.h"
+#include "lang/equations/equation_symbols.h"
 #include "lang/equations/equations.h"
 #include "lang/lower/lower.h"
 #include "lang/syntax/parse.h"
@@ -9,8 +11,11 @@
 #include "jit/jit.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
+#include <cstdlib>
 
 namespace cascade {
 
@@ -53,6 +58,41 @@ std::string dump_ir(const Program& program) {
     return text;
 }
 
+/// A group in TeX: a fraction of powers.
+std::string group_in_tex(const DimensionlessGroup& group) {
+    const Symbols symbols{Notation::tex, true, {}, {}};
+    std::string above, below;
+    for (const GroupFactor& factor : group) {
+        const std::int64_t power = std::abs(factor.power);
+        std::string text = symbols.name(factor.name);
+        if (power != 1) text += fmt::format("^{{{}}}", power);
+        std::string& part = factor.power > 0 ? above : below;
+        part += (part.empty() ? "" : " \\, ") + text;
+    }
+    if (above.empty()) above = "1";
+    return below.empty() ? above : fmt::format("\\frac{{{}}}{{{}}}", above, below);
+}
+
+/// A sentence with the dimensionless groups of the first stage of a system. Without units, a
+/// comment that says which values lack them. Empty if there is nothing to say.
+std::string groups_in_tex(const Script& script, const ProgramUnits& units, SystemId system) {
+    const Program& program = *script.program;
+    const auto stage = std::ranges::find(program.stages, system, &Stage::system);
+    if (stage == program.stages.end()) return "";
+    const auto found =
+        dimensionless_groups(units, program,
+                             static_cast<std::uint32_t>(stage - program.stages.begin()));
+    if (!found.without_unit.empty()) {
+        return fmt::format("% dimensionless groups need units, and there is none for {}\n",
+                           fmt::join(found.without_unit, ", "));
+    }
+    std::string text;
+    for (const DimensionlessGroup& group : found.groups) {
+        text += fmt::format("{}${}$", text.empty() ? "" : ",\n  ", group_in_tex(group));
+    }
+    return text.empty() ? "" : fmt::format("Dimensionless groups: {}.\n", text);
+}
+
 /// The equations of the systems that stages use. If the script has no stages, the equations of all
 /// its systems.
 std::string dump_equations(const Script& script, Notation notation) {
@@ -60,10 +100,14 @@ std::string dump_equations(const Script& script, Notation notation) {
     IdVector<SystemId, bool> shown(program.systems.size(), false);
     for (const Stage& stage : program.stages) shown[stage.system] = true;
     std::vector<std::string_view> names;
+    std::vector<SystemId> ids;
     for (const SystemId id : program.systems.ids()) {
         const System& system = program.systems[id];
-        if (program.stages.empty() ? !system.built_in : shown[id]) names.push_back(system.name);
+        if (program.stages.empty() ? system.built_in : !shown[id]) continue;
+        names.push_back(system.name);
+        ids.push_back(id);
     }
+    const ProgramUnits units = units_of_program(script.tree, program);
     const auto equations =
         print_equations(script.tree, script.sources, names, notation, EquationParts::all);
     std::string text;
@@ -71,6 +115,7 @@ std::string dump_equations(const Script& script, Notation notation) {
         if (!text.empty()) text += '\n';
         if (notation == Notation::unicode) text += fmt::format("{}\n", names[k]);
         text += equations[k];
+        if (notation == Notation::tex) text += groups_in_tex(script, units, ids[k]);
     }
     return text;
 }

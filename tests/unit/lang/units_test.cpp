@@ -1,6 +1,8 @@
 // Units of numbers: their table, their sizes, and the names of a script's units.
 #include "lang/vocabulary/units.h"
 
+#include "lang/check/check.h"
+#include "lang/check/dimensionless_groups.h"
 #include "lang/syntax/parse.h"
 #include "lang/syntax/script_units.h"
 
@@ -93,6 +95,45 @@ TEST(Units, ConcentrationsStayAsTheyAreWritten) {
     EXPECT_EQ(units.name_of(unit_of("m^3/mol/s").dimension), "1/(mol/m^3)/s");
     EXPECT_DOUBLE_EQ(
         units_of_text("system s { u: 3; k: 2 l/mol/s; u' = 0 }\n").convert(5, unit_of("mol/l")), 5);
+}
+
+DimensionlessGroups groups_of(std::string text) {
+    Sources sources;
+    Diagnostics diagnostics;
+    const SourceId source = sources.add("script", std::move(text));
+    const ast::Script tree = parse(source, sources, diagnostics);
+    const auto program = check(tree, sources, diagnostics);
+    EXPECT_TRUE(program);
+    return program ? dimensionless_groups(units_of_program(tree, *program), *program, 0)
+                   : DimensionlessGroups{};
+}
+
+std::string words_of(const DimensionlessGroups& found) {
+    std::string text;
+    for (const DimensionlessGroup& group : found.groups) {
+        for (const GroupFactor& factor : group) {
+            text += factor.name + "^" + std::to_string(factor.power) + " ";
+        }
+        text += "; ";
+    }
+    for (const std::string& name : found.without_unit) text += "not " + name + "; ";
+    return text;
+}
+
+TEST(DimensionlessGroups, AreACompleteSet) {
+    const std::string system =
+        "system s { u: 1 uM; v: 1 uM; D: 2 um^2/s; E: 40 um^2/s; k: 3 /s; c: 2 uM; q: 1 uM/s\n"
+        "u' = D * lap(u) - k * (u - c) + q; v' = E * lap(v) - k * v }\n";
+    EXPECT_EQ(words_of(groups_of(system + "domain { extent: 3 mm }\nstage a: s { iterations: 1 }")),
+              "E^1 D^-1 ; q^1 k^-1 c^-1 ; width^2 D^-1 k^1 ; ");
+    EXPECT_EQ(words_of(groups_of(system + "stage a: s { duration: 4 h }")),
+              "E^1 D^-1 ; q^1 k^-1 c^-1 ; width^2 D^-1 k^1 ; duration^1 k^1 ; ");
+}
+
+TEST(DimensionlessGroups, NeedUnits) {
+    EXPECT_EQ(words_of(groups_of("system s { u: 1; D: 2 m^2/s; k: 3; u' = D * lap(u) - k * u }\n"
+                                 "stage a: s { iterations: 1 }")),
+              "not k; ");
 }
 
 TEST(Units, RootsHaveDimensions) {
