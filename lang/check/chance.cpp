@@ -52,8 +52,8 @@ void warn_of_draws_by_step(const Program& program, Diagnostics& diagnostics) {
                                                "of the steps, which stage '{}' chooses itself: "
                                                "shorter steps weaken the noise",
                                                stage.name),
-                                   "write white(s): its strength does not depend on the length "
-                                   "of the steps");
+                                   "use white(s): its strength does not depend on the length of "
+                                   "the steps");
     }
 }
 

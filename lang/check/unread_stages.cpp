@@ -34,23 +34,23 @@ std::string how_to_go_on(const Program& program, std::uint32_t stage) {
     const bool has_cells = is_of_cells(program, stage);
     if (has_cells != is_of_cells(program, stage + 1)) {
         return has_cells ? ""
-                         : fmt::format("cells can read it at their positions, as in {}.{}",
+                         : fmt::format("cells can read it at their positions by {}.{}",
                                        program.stages[stage].name,
                                        species_of(program.system_of(stage)).front());
     }
-    if (has_cells) return "leave 'founders' out of the next stage to continue with these cells";
+    if (has_cells) return "without 'founders' the next stage continues with these cells";
     const std::vector<std::string> species = species_of(program.system_of(stage));
     const bool is_alike = species == species_of(program.system_of(stage + 1));
     const bool is_family = std::any_of(species.begin(), species.end(), [](const std::string& name) {
         return name.find('[') != std::string::npos;
     });
     if (!is_alike || is_family || species.size() > 4) {
-        return fmt::format("write 'p: {}.{}' in a later stage to begin with values of this stage",
+        return fmt::format("use 'p: {}.{}' in a later stage to begin with values of this stage",
                            program.stages[stage].name, species.front());
     }
     std::vector<std::string> statements;
     for (const std::string& name : species) statements.push_back(fmt::format("{}: {}", name, name));
-    return fmt::format("write '{}' in stage '{}' to continue from it", fmt::join(statements, "; "),
+    return fmt::format("use '{}' in stage '{}' to continue from it", fmt::join(statements, "; "),
                        next.name);
 }
 

@@ -8,21 +8,6 @@ namespace cascade::test {
 
 inline constexpr HintCase hint_cases_of_checks[] = {
     // Parts of formulas.
-    {"script", "system s { u: 1; u' = normal(0, 0.1) }\nstage a: s { solver: rk45; duration: 9 }",
-     "write white(s): its strength does not depend on the length of the steps",
-     "system s { u: 1; u' = white(0.1) }\nstage a: s { solver: rk45; duration: 9 }"},
-    {"script",
-     "domain { grid: 8, 8, 8 }\nstage g: gray_scott { iterations: 1 }\ncells c { a: 1; a' = 1 "
-     "}\nstage s: c { founders: 2; duration: 1 }",
-     "cells can read it at their positions, as in g.u",
-     "domain { grid: 8, 8, 8 }\nstage g: gray_scott { iterations: 1 }\ncells c { a: 1; a' = "
-     "g.u }\nstage s: c { founders: 2; duration: 1 }"},
-    {"tissue", "duration: 1; founders: 2",
-     "leave 'founders' out of the next stage to continue with these cells", "duration: 1"},
-    {"script", "stage one: turing_spots { }\nstage two: gray_scott { }",
-     "write 'p: one.a' in a later stage to begin with values of this stage",
-     "stage one: turing_spots { }\nstage two: gray_scott { u: one.a }"},
-    {"second", " ", "write 'u: u; v: v' in stage 'b' to continue from it", "u: u; v: v"},
     {"family", "u[i]' = sum(u[i] over j)", "declare the index in the system, as in i: 1..3",
      "j: 1..3; u[i]' = sum(u[i] over j)"},
     {"system", "u' = v\nw[m]: 1", "declare it in the system, as in m: 1..3",
