@@ -69,6 +69,7 @@ void follow(CLI::App& command, Options& options) {
     groups::add_simulation(command, options, "Threads of the run; by default all cores");
     groups::add_quiet(command, options);
     groups::add_limits(command, options);
+    groups::add_json(command, options);
 }
 
 void check(CLI::App& command, Options& options) {

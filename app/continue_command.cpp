@@ -2,6 +2,7 @@
 #include "app/commands.h"
 #include "app/exit_status.h"
 #include "app/interrupt.h"
+#include "app/json_answer.h"
 #include "app/last_moments.h"
 #include "app/limits.h"
 #include "app/option_values.h"
@@ -14,13 +15,26 @@
 
 namespace cascade {
 
+namespace {
+
+/// Adds the members of --json that describe the branches.
+void answer(const FollowReport& report, const std::string& varied, JsonAnswer& all) {
+    using Json = nlohmann::ordered_json;
+    all["varied"] = varied;
+    all["branches"] = Json::parse(report.json);
+    all["written"] = Json::array();
+    for (const auto& path : report.written) all["written"].push_back(path.string());
+}
+
+}  // namespace
+
 int continue_command(const Options& options, Console& console) {
     Overrides overrides = options.overrides;
     overrides.precision = Precision::binary64;
     auto file = load(options.scripts[0], overrides, console, typed_of(options));
     if (!file) return exit_status::wrong_script;
     Script& script = file->script;
-    console.say(script.messages(console.error().colour));
+    console.tell(script);
     if (!script.program) return exit_status::wrong_script;
 
     FollowRequest request = options.follow;
@@ -43,7 +57,7 @@ int continue_command(const Options& options, Console& console) {
                                : exit_status::signal_base + std::max(interrupt.signal(), 2);
     };
     if (!report && script.diagnostics.has_errors()) {
-        console.say(script.messages(console.error().colour));
+        console.tell(script);
         return exit_status::wrong_script;
     }
     if (!report) {
@@ -51,6 +65,12 @@ int continue_command(const Options& options, Console& console) {
         return control.cancel ? status_of_end() : exit_status::failed_run;
     }
     console.print(report->text);
+    if (JsonAnswer* const all = console.answer()) {
+        answer(*report, request.varied->name, *all);
+        (*all)["outcome"] = !control.cancel   ? "finished"
+                            : limit.reached() ? "time limit"
+                                              : "interrupted";
+    }
     if (!options.quiet) {
         for (const auto& path : report->written) {
             console.say(fmt::format("wrote {}\n", path.string()));

@@ -71,6 +71,11 @@ void add_follow(CLI::App& app, Options& options) {
         "another, as in max_v",
         any_text, [&](auto number) { follow.up = number; })
         ->group(files);
+    add_value(app, "--pictures", "N",
+              "The most small pictures of states below the diagram,\n0 to 12 (6)",
+              whole_number(0, 12),
+              [&](auto count) { follow.pictures = static_cast<std::size_t>(count); })
+        ->group(files);
     add_value(app, "--save", "DIR", "Save every state as a run, to go on from it by run --resume",
               parse_folder, [&](auto path) { follow.save = path; })
         ->group(files);

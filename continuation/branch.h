@@ -23,9 +23,12 @@ enum class PointKind : std::uint8_t {
 
 struct Point {
     Place place;
-    Direction tangent;
+    Tangent tangent;
     PointKind kind = PointKind::regular;
     int crossing = 0;  ///< For special points: the number of eigenvalues that pass 0.
+    /// For branch points: whether this branch consists of patterns, and meets a state that is the
+    /// same in all cells.
+    bool vanishes = false;
     /// The number of eigenvalues with positive real part. Empty if they could not be found.
     std::optional<int> growing;
     std::vector<Complex> leading;  ///< The eigenvalues with the largest real parts.
@@ -60,7 +63,7 @@ public:
     std::vector<Branch> follow(const Corrector::Solved& start);
 
 private:
-    Point point_at(const Corrector::Solved& solved, Direction tangent) const;
+    Point point_at(const Corrector::Solved& solved, Tangent tangent) const;
     void find_stability(Point& point, const Corrector::Solved& solved) const;
     std::optional<Point> try_point(const Point& from, double step, int& rounds) const;
     std::string go(std::vector<Point>& points, std::size_t number);
@@ -74,9 +77,11 @@ private:
                               const std::function<double(const Point&)>& test) const;
     std::vector<Event> crossings(const Point& from, const Point& to, double step) const;
     bool is_known(const Point& point) const;
+    double unevenness(const Vector& state) const;
+    bool vanishes_between(const Point& at, const Point& from, const Point& to) const;
     void turn_from(std::size_t branch, std::size_t point);
-    std::vector<Vector> ways_from(const Point& point) const;
-    std::optional<Point> first_on(const Point& from, const Vector& way) const;
+    std::vector<Direction> ways_from(const Point& point) const;
+    std::optional<Point> first_on(const Point& from, Direction way) const;
     bool is_inside(const Place& place) const {
         return settings_.low <= place.parameter && place.parameter <= settings_.high;
     }
@@ -85,6 +90,8 @@ private:
     Corrector& corrector_;
     FollowSettings settings_;
     std::vector<Branch> branches_;
+    /// The eigenvalues with positive real part at the point whose stability was found last.
+    mutable std::vector<Complex> growing_before_;
     std::vector<Place> meetings_;  ///< The branch points from which a branch was followed or at
                                    ///< which one has ended.
 };

@@ -11,6 +11,7 @@ namespace cascade::continuation {
 namespace {
 
 constexpr int most_rounds = 12;
+constexpr int rounds_of_modes = 5;
 constexpr double end_of_steps = 1e-9;      ///< Of a last step, in parts of the usual sizes.
 constexpr double largest_residual = 1e-8;  ///< In parts of the sizes of the terms of rates.
 
@@ -37,15 +38,15 @@ void Scales::normalise(Direction& direction) const {
 
 Freedoms Corrector::freedoms_at(const Place& place) const {
     std::vector<Vector> moved;
-    if (holds_translations_) {
-        for (Vector& each : problem_.translations(place.state)) {
-            // A uniform state has no translations, nor has a pattern along its stripes.
+    if (holds_motions_) {
+        for (Vector& each : problem_.motions(place.state)) {
+            // Nothing moves a uniform state, nor a pattern along its stripes.
             const double size = std::sqrt((each.array().square() * scales_.weights.array()).sum());
             if (size < 1e-6) continue;
             // Oblique stripes are moved alike along both axes.
             const double length = each.norm();
             for (const Vector& other : moved) each -= other.dot(each) * other;
-            if (each.norm() > 0.02 * length) moved.push_back(each.normalized());
+            if (each.norm() > problem_.least_part() * length) moved.push_back(each.normalized());
         }
     }
     const auto count = static_cast<Index>(moved.size()) + totals_.cols();
@@ -123,7 +124,7 @@ std::optional<Corrector::Solved> Corrector::solve(const Place& guess, const Dire
     return solved;
 }
 
-std::optional<Direction> Corrector::tangent(const Solved& at, const Direction& direction) const {
+std::optional<Tangent> Corrector::tangent(const Solved& at, const Direction& direction) const {
     const Freedoms freedoms = freedoms_at(at.place);
     const Index size = problem_.size();
     const SparseColumns matrix = whole(at.at, freedoms, direction);
@@ -133,7 +134,7 @@ std::optional<Direction> Corrector::tangent(const Solved& at, const Direction& d
     right[size] = 1;
     const auto solved = solution(matrix, factors, right);
     if (!solved) return std::nullopt;
-    Direction tangent{solved->head(size), (*solved)[size]};
+    Tangent tangent{{solved->head(size), (*solved)[size]}, factors.sign(), freedoms.count()};
     scales_.normalise(tangent);
     return tangent;
 }
@@ -144,16 +145,29 @@ std::vector<NeutralMode> Corrector::neutral_modes(const Solved& at) const {
     const Index moves = count - totals_.cols();
     std::vector<NeutralMode> modes;
     if (moves > 0) {
-        // The eigenvectors next to the translations: solutions of J x + Σ μ b = 0 with bᵀ x = 1.
+        // The eigenvectors X next to the motions B: J X + B N = X Λ with Bᵀ X = 1. Where the cells
+        // hold a pattern weakly, Λ is near 0, and the rounds find it so that N becomes 0.
         const SparseColumns matrix = with_border(at.at.jacobian, freedoms.columns, freedoms.rows,
                                                  Matrix::Zero(count, count));
         const Factors factors(matrix);
-        for (Index k = 0; k < moves && factors.is_regular(); ++k) {
-            Vector right = Vector::Zero(size + count);
-            right[size + k] = 1;
-            const auto solved = solution(matrix, factors, right);
-            if (!solved) continue;
-            modes.push_back({solved->head(size), freedoms.columns.col(k)});
+        Matrix found = freedoms.columns.leftCols(moves), values = Matrix::Zero(moves, moves);
+        bool is_good = factors.is_regular();
+        for (int round = 0; round < rounds_of_modes && is_good; ++round) {
+            Matrix right = Matrix::Zero(size + count, moves);
+            right.topRows(size) = found * values;
+            right.middleRows(size, moves).setIdentity();
+            Matrix rest(moves, moves);
+            for (Index k = 0; k < moves && is_good; ++k) {
+                const auto solved = solution(matrix, factors, right.col(k));
+                is_good = solved.has_value();
+                if (!is_good) break;
+                found.col(k) = solved->head(size);
+                rest.col(k) = solved->segment(size, moves);
+            }
+            if (is_good) values -= rest;
+        }
+        for (Index k = 0; k < moves && is_good; ++k) {
+            modes.push_back({found.col(k), freedoms.columns.col(k)});
         }
     }
     for (Index k = moves; k < count; ++k) {

@@ -26,6 +26,8 @@ public:
     /// Whether the matrix has an inverse, as far as the elimination shows. A sparse elimination
     /// does not notice every singular matrix, so check what is solved.
     bool is_regular() const;
+    /// The sign of the determinant: 1, or −1.
+    int sign() const;
     Vector solve(const Vector& right) const;
 
 private:

@@ -1,4 +1,5 @@
-// The differences of lang/program/stencils.h as sparse matrices over a padded grid.
+// The differences of lang/program/stencils.h as sparse matrices over a padded grid, and sums over
+// the links of a model's cells.
 #pragma once
 
 #include "continuation/padded_grid.h"
@@ -8,6 +9,15 @@
 
 namespace cascade::continuation {
 
+/// A difference. At the border of a mask, neighbours outside are replaced by values beyond the
+/// border (lang/lower/lower_mask.cpp).
+struct Reads {
+    SparseRows all;  ///< For values that are mirrored at the border.
+    /// The three parts of `all`, by what is read: values of cells, values beyond the border and
+    /// values beyond two borders. Without rows if no position is outside of the domain.
+    SparseRows inside, once, twice;
+};
+
 /// Makes each matrix once.
 class Differences {
 public:
@@ -16,29 +26,38 @@ public:
     const PaddedGrid& grid() const { return grid_; }
 
     /// A difference in the cells of the grid. Beyond sides its values are copied as `beyond` says.
-    const SparseRows& in_cells(Difference difference, int first, int second,
-                               const Boundaries& beyond);
+    const Reads& in_cells(Difference difference, int first, int second, const Boundaries& beyond);
     /// The value in the cell at an offset.
-    const SparseRows& beside(Offset offset, const Boundaries& beyond);
+    const Reads& beside(Offset offset, const Boundaries& beyond);
 
     /// Values at the faces along an axis. The row of a cell belongs to the face after it. Faces
     /// before the first cells belong to cells of the halo. `difference` is `average` or `across`.
-    const SparseRows& at_faces(Difference difference, int axis);
+    const Reads& at_faces(Difference difference, int axis);
     /// The mean over both cells of a face of the central difference along another axis.
-    const SparseRows& along_faces(int axis, int component);
+    const Reads& along_faces(int axis, int component);
     /// The difference of the values at both faces of a cell, divided by the spacing.
     const SparseRows& between_faces(int axis, const Boundaries& beyond);
     /// Whether each cell's face after it along `axis` lies on a side of the grid: 1 or 0.
     Values on_side(int side) const;
+    /// Whether each cell's face after it along `axis` lies between two cells of the domain: 1 or 0.
+    Values within_border(int axis) const;
+    /// Σ w (f_j − f_i) over the links of each cell.
+    const SparseRows& over_links();
+    /// Σ g (f_j − f_i) over the links of each cell, with the weights of a gradient's component.
+    const SparseRows& gradient_over_links(int component);
 
 private:
     using Key = std::tuple<int, int, int, int>;
     using Entries = std::vector<Eigen::Triplet<double>>;
+    struct Taking;
     SparseRows made(const Entries& entries) const;
+    Reads made(const Taking& taking) const;
+    SparseRows linked(const double* weights) const;
     bool is_face(Index cell, int axis) const;
 
     const PaddedGrid& grid_;
-    std::map<Key, SparseRows> known_;
+    std::map<Key, Reads> known_;
+    std::map<Key, SparseRows> others_;
 };
 
 }  // namespace cascade::continuation

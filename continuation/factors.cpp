@@ -28,6 +28,8 @@ Factors::Factors(Factors&&) noexcept = default;
 
 bool Factors::is_regular() const { return self_->lu.info() == Eigen::Success; }
 
+int Factors::sign() const { return self_->lu.signDeterminant() < 0 ? -1 : 1; }
+
 Vector Factors::solve(const Vector& right) const { return self_->lu.solve(right); }
 
 SparseColumns with_border(const SparseColumns& matrix, const Matrix& columns, const Matrix& rows,

@@ -18,8 +18,8 @@ namespace {
 /// them.
 bool is_known_operator(const Node& node) {
     const bool is_sum_of_cells = is_aggregate(node) && is_linear_in(node.function, 0, 1);
-    return is_sum_of_cells || node.calls(Function::div) || difference_of(node.function) ||
-           FieldExpressions::rule_of(node.function) != nullptr;
+    return is_sum_of_cells || node.calls(Function::div) || node.calls(Function::bordered) ||
+           difference_of(node.function) || FieldExpressions::rule_of(node.function) != nullptr;
 }
 
 /// Whether the values are read once, before anything changes.
@@ -124,8 +124,16 @@ Result<void> FieldExpressions::prepare_leaf(NodeId id, const ConstantValues& con
         parts_[id].values = Values::Constant(1, *number);
         return {};
     }
-    const bool is_known =
-        node.is<ItemId>() || node.is<StageItem>() || node.is<Builtin>() || node.is<Call>();
+    if (node.is<InsideMask>()) {
+        parts_[id].values = Values::Zero(grid_->size());
+        for (Index k = 0; k < grid_->size(); ++k) {
+            if (grid_->is_inside(k)) parts_[id].values[k] = 1;
+        }
+        return {};
+    }
+    const bool is_known = node.is<ItemId>() || node.is<StageItem>() || node.is<Builtin>() ||
+                          node.is<Call>() || node.is<MetricPlane>() || node.is<ModelPlane>() ||
+                          node.is<SurfaceValueId>();
     if (!is_known) return failure("its rates read values that only a run has");
     if (plan.is_open(id)) {
         return failure("its rates read an earlier stage beyond sides that have values");
@@ -135,8 +143,12 @@ Result<void> FieldExpressions::prepare_leaf(NodeId id, const ConstantValues& con
         parts_[id].values = Values::Constant(1, values.front());
         return {};
     }
+    has_places_ = has_places_ || !node.is(ModelPlane::area);
     Values padded = Values::Zero(grid_->size());
-    for (std::size_t k = 0; k < values.size(); ++k) padded[grid_->cells()[k]] = values[k];
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        const Index cell = grid_->positions()[k];
+        if (grid_->is_inside(cell)) padded[cell] = values[k];
+    }
     const std::vector<Index> sources = grid_->sources(plan.boundary(id));
     parts_[id].values = padded(sources);
     return {};
@@ -221,9 +233,18 @@ SparseRows FieldExpressions::chained(NodeId id) const {
     return sum;
 }
 
-bool FieldExpressions::is_same_everywhere() const {
-    return std::ranges::all_of(parts_.ids(),
-                               [&](NodeId id) { return changes_[id] || parts_[id].is_uniform(); });
+bool FieldExpressions::is_same_along(int axis) const {
+    const Index step = grid_->shift(Offset::along(axis, 1));
+    const auto is_same = [&](const Values& values) {
+        const double least = 1e-7 * values.abs().maxCoeff() + 1e-9;
+        return std::ranges::all_of(grid_->cells(), [&](Index cell) {
+            const bool is_last = grid_->position(cell, axis) + 1 == grid_->length(axis);
+            return is_last || std::abs(values[cell + step] - values[cell]) <= least;
+        });
+    };
+    return std::ranges::all_of(parts_.ids(), [&](NodeId id) {
+        return changes_[id] || parts_[id].is_uniform() || is_same(parts_[id].values);
+    });
 }
 
 std::vector<Part> FieldExpressions::roots(const ItemParts& items, bool with_slopes) {

@@ -44,9 +44,15 @@ public:
     /// The rule of an operator. Null for plain differences, divergences, means and other functions.
     static OperatorRule rule_of(Function function);
 
-    /// Whether every value that does not change during the continuation is the same in all cells.
-    bool is_same_everywhere() const;
+    /// Whether the expressions treat all cells along an axis alike: no value that stays the same
+    /// during the continuation changes along it, to the accuracy
+    /// of a metric.
+    bool is_same_along(int axis) const;
+    /// Whether a value other than the area of cells differs from cell to cell and stays the same
+    /// during the continuation.
+    bool has_places() const { return has_places_; }
     std::size_t root_count() const { return plan_->roots().size(); }
+    Differences& differences() { return *differences_; }
     /// The parts of the roots. If `with_slopes` is false, no part has slopes.
     std::vector<Part> roots(const ItemParts& items, bool with_slopes);
 
@@ -66,6 +72,8 @@ private:
     Values folded(const Node& node) const;
     SparseRows chained(NodeId id) const;
     Part operated(NodeId id);
+    Part over_links(const Node& node);
+    Part read(const Reads& reads, NodeId operand) const;
     Part beside(const Node& node, const Boundaries& beyond);
     Part squared_gradient(const Node& node, const Boundaries& beyond);
     Part advection(const Node& node, const Boundaries& beyond);
@@ -88,6 +96,7 @@ private:
     Algebra algebra_;            ///< The nodes of the plan, then their derivatives.
     std::vector<NodeId> order_;  ///< The nodes that change, in an order in which to compute them.
     IdVector<NodeId, bool> changes_;
+    bool has_places_ = false;
     /// For each function of numbers: its derivatives with respect to its operands.
     IdVector<NodeId, std::array<std::optional<NodeId>, most_operands>> slope_nodes_;
     IdVector<NodeId, Part> parts_;

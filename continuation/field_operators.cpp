@@ -21,12 +21,48 @@ Part chosen(const Values& is_first, const Part& first, const Part& second) {
 Part FieldExpressions::difference(NodeId operand, Difference kind, int first, int second,
                                   const Boundaries& beyond) {
     if (parts_[operand].is_uniform()) return {};
-    return applied(differences_->in_cells(kind, first, second, beyond), parts_[operand]);
+    return read(differences_->in_cells(kind, first, second, beyond), operand);
+}
+
+/// A difference of an operand, whose values beyond the border of a mask may be other nodes.
+Part FieldExpressions::read(const Reads& reads, NodeId operand) const {
+    const Node& node = algebra_[operand];
+    if (!node.calls(Function::bordered)) return applied(reads.all, parts_[operand]);
+    const auto all = [&](NodeId id) {
+        const Part& part = parts_[id];
+        return part.is_uniform() ? product(Part{Values::Ones(grid_->size()), {}}, part) : part;
+    };
+    return sum(applied(reads.inside, all(node.operands[0])),
+               sum(applied(reads.once, all(node.operands[1])),
+                   applied(reads.twice, all(node.operands[2]))));
+}
+
+/// As lang/lower/lower_operators.cpp, with sums over links of products expanded: Σ w (a_i + a_j)
+/// (e_j − e_i) = a L(e) + L(a e) − e L(a), where L is the Laplacian.
+Part FieldExpressions::over_links(const Node& node) {
+    const Part& of = parts_[node.reads().back()];
+    if (of.is_uniform()) return {};
+    if (const Derivative derivative = derivative_of(node.function); derivative.order == 1) {
+        return applied(differences_->gradient_over_links(derivative.first), of);
+    }
+    const SparseRows& links = differences_->over_links();
+    const Part change = applied(links, of);
+    if (node.calls(Function::grad2)) {
+        const Part squares = applied(links, product(of, of));
+        return scaled(sum(squares, scaled(product(of, change), -2)), 0.5);
+    }
+    if (node.operand_count == 1) return change;
+    const Part& weight = parts_[node.operands[0]];
+    if (weight.is_uniform()) return product(weight, change);
+    const Part flow = sum(product(weight, change), applied(links, product(weight, of)));
+    return scaled(sum(flow, scaled(product(of, applied(links, weight)), -1)), 0.5);
 }
 
 Part FieldExpressions::operated(NodeId id) {
     const Node& node = (*plan_)[id];
     if (is_aggregate(node)) return aggregated(node);
+    if (node.calls(Function::bordered)) return parts_[node.operands[0]];
+    if (grid_->links() != nullptr && is_stencil(node.function)) return over_links(node);
     if (node.calls(Function::div)) return divergence(id);
     const Boundaries beyond = plan_->boundary(id);
     const NodeId operand = node.reads().back();
@@ -56,7 +92,8 @@ FieldExpressions::OperatorRule FieldExpressions::rule_of(Function function) {
 Part FieldExpressions::beside(const Node& node, const Boundaries& beyond) {
     const Part& of = parts_[node.operands[0]];
     if (of.is_uniform()) return of;
-    return applied(differences_->beside(Offset::of(node.as<Call>()->detail), beyond), of);
+    return read(differences_->beside(Offset::of(node.as<Call>()->detail), beyond),
+                node.operands[0]);
 }
 
 Part FieldExpressions::squared_gradient(const Node& node, const Boundaries& beyond) {
@@ -140,15 +177,15 @@ struct FieldExpressions::AtFace {
     Part average(NodeId number) const {
         const Part& part = own.parts_[number];
         if (part.is_uniform()) return part;
-        return applied(own.differences_->at_faces(Difference::average, axis), part);
+        return own.read(own.differences_->at_faces(Difference::average, axis), number);
     }
 
     Part gradient(NodeId of) const {
         const Part& part = own.parts_[of];
         if (part.is_uniform() || !own.grid_->axes().has(component)) return {};
-        return applied(component == axis ? own.differences_->at_faces(Difference::across, axis)
-                                         : own.differences_->along_faces(axis, component),
-                       part);
+        return own.read(component == axis ? own.differences_->at_faces(Difference::across, axis)
+                                          : own.differences_->along_faces(axis, component),
+                        of);
     }
     Part components(std::span<const NodeId> parts) const {
         const auto k = static_cast<std::size_t>(component);
@@ -187,6 +224,9 @@ struct FieldExpressions::AtFace {
 Part FieldExpressions::through_sides(NodeId flux, int axis, Part at_faces) {
     const lowering::Crossing& crossing = crossings_[flux];
     if (!crossing.goes_across || at_faces.is_uniform()) return at_faces;
+    if (grid_->has_outside() && !crossing.is_open[static_cast<std::size_t>(Side::border)]) {
+        at_faces = product(at_faces, Part{differences_->within_border(axis), {}});
+    }
     for (const int side : {2 * axis, 2 * axis + 1}) {
         const auto k = static_cast<std::size_t>(side);
         const SideKind usual = SideRules(plan_->grid().boundary).at[k].kind;

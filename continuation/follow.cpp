@@ -44,6 +44,8 @@ void Follower::find_stability(Point& point, const Corrector::Solved& solved) con
     }
     std::vector<Complex> places{growth};
     if (turning.imag() > 0) places.emplace_back(0, turning.imag());
+    // Eigenvalues that have grown away from 0 are near those of the point before.
+    places.insert(places.end(), growing_before_.begin(), growing_before_.end());
     const auto modes = leading_modes(solved.at.jacobian, neutral, places, kept_eigenvalues, false,
                                      settings_.cancel);
     if (modes.empty()) return;
@@ -54,9 +56,11 @@ void Follower::find_stability(Point& point, const Corrector::Solved& solved) con
     }
     const auto kept = static_cast<std::size_t>(*point.growing + kept_eigenvalues);
     if (point.leading.size() > kept) point.leading.resize(kept);
+    growing_before_.assign(point.leading.begin(), point.leading.begin() + *point.growing);
+    for (Complex& value : growing_before_) value = {value.real(), std::abs(value.imag())};
 }
 
-Point Follower::point_at(const Corrector::Solved& solved, Direction tangent) const {
+Point Follower::point_at(const Corrector::Solved& solved, Tangent tangent) const {
     Point point;
     point.place = solved.place;
     point.tangent = std::move(tangent);
@@ -117,6 +121,8 @@ std::string Follower::go(std::vector<Point>& points, std::size_t number) {
             const bool ends = event.kind == PointKind::branch && is_known(event);
             points.push_back(event);
             if (ends) return "it meets another branch";
+            const bool turns = from.tangent.parameter * next->tangent.parameter < 0;
+            if (event.vanishes && turns) return "the pattern vanishes";
         }
         if (!is_inside(next->place)) {
             if (auto end = end_at(from, *next)) points.push_back(*std::move(end));
@@ -141,8 +147,7 @@ std::vector<Branch> Follower::follow(const Corrector::Solved& start) {
     if (!tangent) return {};
     Branch first;
     std::vector<Point> ahead{point_at(start, *tangent)}, behind = ahead;
-    behind[0].tangent.state *= -1;
-    behind[0].tangent.parameter *= -1;
+    behind[0].tangent.reverse();
     branches_.emplace_back();
     first.begins = go(behind, 0);
     if (first.begins == "the branch is closed") {
@@ -151,8 +156,7 @@ std::vector<Branch> Follower::follow(const Corrector::Solved& start) {
         first.ends = go(ahead, 0);
     }
     for (std::size_t k = behind.size(); k > 1; --k) {
-        behind[k - 1].tangent.state *= -1;
-        behind[k - 1].tangent.parameter *= -1;
+        behind[k - 1].tangent.reverse();
         first.points.push_back(std::move(behind[k - 1]));
     }
     std::ranges::move(ahead, std::back_inserter(first.points));

@@ -277,12 +277,22 @@ std::vector<Mode> leading_modes(const SparseColumns& matrix, std::span<const Neu
         is_found = growing + 2 < static_cast<Index>(modes.size());
         if (is_found) break;
     }
+    // The discs in which all eigenvalues are known.
+    std::vector<std::pair<Complex, double>> known{{shift, radius}};
     for (const Complex place : places) {
-        if (!is_found || std::abs(place) < radius) continue;
-        auto near =
-            modes_near(matrix, neutral, away, shift + place, std::max(4, count / 2), cancel);
+        const Complex at = shift + place;
+        const auto distance = [&](Complex to) {
+            return std::min(std::abs(to - at), std::abs(std::conj(to) - at));
+        };
+        const auto contains = [&](const auto& disc) { return distance(disc.first) < disc.second; };
+        if (!is_found || std::ranges::any_of(known, contains)) continue;
+        auto near = modes_near(matrix, neutral, away, at, std::max(4, count / 2), cancel);
         is_found = near.has_value();
-        if (near) join(modes, *std::move(near), 1e-7 * (std::abs(place) + radius));
+        if (!near) continue;
+        double farthest = 0;
+        for (const Mode& mode : *near) farthest = std::max(farthest, distance(mode.value));
+        known.emplace_back(at, farthest);
+        join(modes, *std::move(near), 1e-7 * (std::abs(place) + radius));
     }
     if (!is_found) {
         if (size > most_dense_rescue) return {};

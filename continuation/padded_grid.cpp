@@ -6,8 +6,11 @@
 
 namespace cascade::continuation {
 
-PaddedGrid::PaddedGrid(const Grid& grid)
-    : axes_(grid.stencil()), spacing_(grid.spacing), lengths_{grid.width, grid.height, grid.depth} {
+PaddedGrid::PaddedGrid(const DomainCells& cells)
+    : axes_(cells.grid.stencil()),
+      spacing_(cells.grid.spacing),
+      lengths_{cells.grid.width, cells.grid.height, cells.grid.depth},
+      links_(cells.links) {
     std::int64_t size = 1;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         padded_[axis] = lengths_[axis] + (axes_.has(static_cast<int>(axis)) ? 2 : 0);
@@ -15,16 +18,33 @@ PaddedGrid::PaddedGrid(const Grid& grid)
         size *= padded_[axis];
     }
     size_ = static_cast<Index>(size);
-    const auto is_inside = [&](Index cell) {
+    find_halo();
+    find_cells(cells);
+}
+
+void PaddedGrid::find_cells(const DomainCells& cells) {
+    const auto is_in_grid = [&](Index cell) {
         for (int axis = 0; axis < 3; ++axis) {
             if (position(cell, axis) < 0 || position(cell, axis) >= length(axis)) return false;
         }
         return true;
     };
+    inside_.resize(static_cast<std::size_t>(size_), true);
+    std::size_t number = 0;
     for (Index cell = 0; cell < size_; ++cell) {
-        if (is_inside(cell)) cells_.push_back(cell);
+        if (!is_in_grid(cell)) continue;
+        positions_.push_back(cell);
+        const bool is_cell = cells.inside.empty() || cells.inside[number];
+        inside_[static_cast<std::size_t>(cell)] = is_cell;
+        if (is_cell) cells_.push_back(cell);
+        has_outside_ = has_outside_ || !is_cell;
+        ++number;
     }
-    find_halo();
+    const std::vector<Index> sources = this->sources(cells.grid.boundary);
+    for (const HaloCell& halo : halo_) {
+        const auto from = static_cast<std::size_t>(sources[static_cast<std::size_t>(halo.cell)]);
+        inside_[static_cast<std::size_t>(halo.cell)] = inside_[from];
+    }
 }
 
 Index PaddedGrid::shift(Offset offset) const {

@@ -1,9 +1,11 @@
 // A grid with a halo of one cell on both sides of every axis that has several cells.
 //
 // Values of expressions are stored for all cells of the padded grid. A value beyond a side then is
-// a number like any other, and derivatives pass through the rules of sides by themselves.
+// a number like any other, and derivatives pass through the rules of sides by themselves. The cells
+// of a model have links in place of axes, and no halo.
 #pragma once
 
+#include "continuation/domain_cells.h"
 #include "continuation/sparse_rows.h"
 #include "core/grid.h"
 #include "lang/program/stencils.h"
@@ -16,14 +18,23 @@ namespace cascade::continuation {
 
 class PaddedGrid {
 public:
-    explicit PaddedGrid(const Grid& grid);
+    explicit PaddedGrid(const DomainCells& cells);
 
     const GridAxes& axes() const { return axes_; }
     double spacing() const { return spacing_; }
     /// The number of cells of the padded grid, and of the grid.
     Index size() const { return size_; }
     Index cell_count() const { return static_cast<Index>(cells_.size()); }
-    /// The numbers of the grid's cells in the padded grid. x varies fastest, z slowest.
+    /// The numbers of all positions of the grid, in the same order.
+    const std::vector<Index>& positions() const { return positions_; }
+    /// Whether some positions of the grid are not cells of the domain.
+    bool has_outside() const { return has_outside_; }
+    /// Whether a cell of the padded grid, or the cell from which the domain's boundary copies it,
+    /// belongs to the domain.
+    bool is_inside(Index padded) const { return inside_[static_cast<std::size_t>(padded)]; }
+    /// The links of a model's cells. Null on grids.
+    const Links* links() const { return links_; }
+    /// The numbers of the domain's cells in the padded grid. x varies fastest, z slowest.
     const std::vector<Index>& cells() const { return cells_; }
     /// The number of cells along an axis.
     std::int64_t length(int axis) const { return lengths_[static_cast<std::size_t>(axis)]; }
@@ -47,12 +58,16 @@ public:
 
 private:
     void find_halo();
+    void find_cells(const DomainCells& cells);
 
     GridAxes axes_;
     double spacing_;
     std::array<std::int64_t, 3> lengths_{}, padded_{}, strides_{};
     Index size_ = 0;
-    std::vector<Index> cells_;
+    std::vector<Index> positions_, cells_;
+    std::vector<bool> inside_;
+    bool has_outside_ = false;
+    const Links* links_ = nullptr;
     std::vector<HaloCell> halo_;
 };
 

@@ -12,7 +12,7 @@ namespace cascade::continuation {
 namespace {
 
 constexpr int most_halvings = 40;
-constexpr double beside_singular = 1e-7;  ///< The distance from a singular point, per step.
+constexpr double beside_singular = 1e-7;  ///< The least distance from a singular point, per step.
 constexpr double narrow = 1e-7;  ///< The length of an interval that contains a point, per step.
 
 }  // namespace
@@ -37,7 +37,9 @@ std::optional<Follower::Event> Follower::find(
         auto point = try_point(from, middle, rounds);
         // Where branches meet, the equations have no solution to be computed. Very near they have.
         const bool is_singular = !point;
-        if (is_singular) point = try_point(from, middle + beside_singular * step, rounds);
+        for (double beside = beside_singular; !point && beside < 2e-3; beside *= 10) {
+            point = try_point(from, middle + beside * step, rounds);
+        }
         if (!point) break;
         const double value = test(*point);
         if (std::isnan(value)) break;
@@ -93,26 +95,58 @@ std::vector<Follower::Event> Follower::crossings(const Point& from, const Point&
     return found;
 }
 
+/// The size of what differs from cell to cell, in the lengths of Scales.
+double Follower::unevenness(const Vector& state) const {
+    const Index species = corrector_.problem().species_count();
+    const Vector& weights = corrector_.scales().weights;
+    double sum = 0;
+    for (Index s = 0; s < species; ++s) {
+        const auto every = Eigen::seq(s, Eigen::last, species);
+        const Values values = state(every).array();
+        sum += (weights(every).array() * (values - values.mean()).square()).sum();
+    }
+    return std::sqrt(sum);
+}
+
+/// Whether a point between two points of a branch is the same in all cells, and they are not.
+bool Follower::vanishes_between(const Point& at, const Point& from, const Point& to) const {
+    const double beside = std::max(unevenness(from.place.state), unevenness(to.place.state));
+    return beside > 1e-6 && unevenness(at.place.state) < 0.01 * beside;
+}
+
 std::vector<Point> Follower::events(const Point& from, const Point& to, double step) const {
     std::vector<Event> found = crossings(from, to, step);
     const auto turns_back = [](const Point& point) { return point.tangent.parameter; };
-    if (auto fold = find(from, to, step, 0, turns_back)) {
-        fold->point.kind = PointKind::fold;
-        fold->point.crossing = 1;
+    if (auto turn = find(from, to, step, 0, turns_back)) {
         // At a fold an eigenvalue passes 0 without another branch.
         const auto distance = [&](const Event& event) {
             const bool is_real = event.point.kind == PointKind::branch;
-            return is_real ? std::abs(event.at - fold->at) : step;
+            return is_real ? std::abs(event.at - turn->at) : step;
         };
         const auto same = std::ranges::min_element(found, {}, distance);
         if (same != found.end() && distance(*same) < 0.03 * step && --same->point.crossing == 0) {
             found.erase(same);
         }
-        found.push_back(*std::move(fold));
+        // A symmetric branch turns back where it meets the branch of symmetric states. There the
+        // orientation changes once more than at the other branch points.
+        int changes = from.tangent.orientation == to.tangent.orientation ? 0 : 1;
+        for (const Event& event : found) {
+            if (event.point.kind == PointKind::branch) changes += event.point.crossing;
+        }
+        const bool is_comparable = from.tangent.freedoms == to.tangent.freedoms;
+        const bool meets =
+            (is_comparable && changes % 2 == 1) || vanishes_between(turn->point, from, to);
+        turn->point.kind = meets ? PointKind::branch : PointKind::fold;
+        turn->point.crossing = 1;
+        found.push_back(*std::move(turn));
     }
     std::ranges::sort(found, {}, &Event::at);
     std::vector<Point> points;
-    for (Event& event : found) points.push_back(std::move(event.point));
+    for (Event& event : found) {
+        event.point.vanishes =
+            event.point.kind == PointKind::branch && vanishes_between(event.point, from, to);
+        points.push_back(std::move(event.point));
+    }
     return points;
 }
 
@@ -126,8 +160,9 @@ bool Follower::is_known(const Point& point) const {
 
 /// The directions of the branches that begin at a branch point, without its own tangent: vectors
 /// that no rate feels. If there are several, the symmetric ones whose mirror is the first cell:
-/// stripes across each axis, and spots.
-std::vector<Vector> Follower::ways_from(const Point& point) const {
+/// stripes across each axis, and spots. If the branch itself goes in such a direction, the other
+/// branch is found by changing the parameter alone.
+std::vector<Direction> Follower::ways_from(const Point& point) const {
     const auto solved = corrector_.solve(point.place, point.tangent);
     if (!solved) return {};
     const auto modes = leading_modes(solved->at.jacobian, corrector_.neutral_modes(*solved), {},
@@ -144,30 +179,43 @@ std::vector<Vector> Follower::ways_from(const Point& point) const {
         }
     }
     basis.resize(std::min(basis.size(), static_cast<std::size_t>(point.crossing)));
-    if (basis.size() < 2) return basis;
-    std::vector<Vector> ways;
+    std::vector<Direction> ways;
+    const auto add = [&](const Vector& way) {
+        Direction direction{way, 0};
+        corrector_.scales().normalise(direction);
+        const double along = std::abs(corrector_.scales().product(direction, point.tangent));
+        if (along > 0.9) direction = {Vector::Zero(way.size()), 1};
+        corrector_.scales().normalise(direction);
+        ways.push_back(std::move(direction));
+    };
+    if (basis.size() < 2) {
+        for (const Vector& each : basis) add(each);
+        return ways;
+    }
+    std::vector<Vector> known;
     for (const Vector& target : corrector_.problem().even_shapes(basis[0])) {
         Vector way = Vector::Zero(target.size());
         for (const Vector& each : basis) way += each.dot(target) * each;
         if (way.norm() < 1e-6 * target.norm()) continue;
         way.normalize();
-        const bool is_new = std::ranges::none_of(ways, [&](const Vector& known) {
-            return std::abs(known.dot(way)) > 0.98;
+        const bool is_new = std::ranges::none_of(known, [&](const Vector& other) {
+            return std::abs(other.dot(way)) > 0.98;
         });
-        if (is_new) ways.push_back(std::move(way));
+        if (!is_new) continue;
+        add(way);
+        known.push_back(std::move(way));
     }
     return ways;
 }
 
 /// The first point of the branch that begins at a point in a direction.
-std::optional<Point> Follower::first_on(const Point& from, const Vector& way) const {
-    Direction direction{way, 0};
-    corrector_.scales().normalise(direction);
+std::optional<Point> Follower::first_on(const Point& from, Direction way) const {
     for (double step = settings_.step; step > settings_.step / 1000; step /= 3) {
-        const Place guess{from.place.state + step * direction.state, from.place.parameter};
-        const auto solved = corrector_.solve(guess, direction);
+        const Place guess{from.place.state + step * way.state,
+                          from.place.parameter + step * way.parameter};
+        const auto solved = corrector_.solve(guess, way);
         if (!solved || !is_inside(solved->place)) continue;
-        auto tangent = corrector_.tangent(*solved, direction);
+        auto tangent = corrector_.tangent(*solved, way);
         if (tangent) return point_at(*solved, *std::move(tangent));
     }
     return std::nullopt;
@@ -177,9 +225,9 @@ std::optional<Point> Follower::first_on(const Point& from, const Vector& way) co
 void Follower::turn_from(std::size_t branch, std::size_t point) {
     const Point from = branches_[branch].points[point];
     meetings_.push_back(from.place);
-    for (const Vector& way : ways_from(from)) {
+    for (const Direction& way : ways_from(from)) {
         std::optional<double> change;
-        for (const Vector& side : {way, Vector(-way)}) {
+        for (const Direction& side : {way, Direction{-way.state, -way.parameter}}) {
             if (branches_.size() >= settings_.most_branches || is_cancelled()) return;
             auto first = first_on(from, side);
             if (!first) continue;

@@ -55,12 +55,8 @@ bool is_number(const Stage& stage, ItemId item, double value) {
 Result<void> check_steady(const Program& program, std::uint32_t stage) {
     const System& system = program.system_of(stage);
     const Stage& own = program.stages[stage];
-    const DomainSettings& domain = program.domain;
     if (system.cells) return failure("its cells crawl, " + std::string(no_steady_state));
     if (system.species().empty()) return failure("it has no species");
-    if (domain.model) return failure("states on models are not supported");
-    if (domain.surface) return failure("states on surfaces are not supported");
-    if (domain.mask) return failure("states in domains of other shapes are not supported");
     if (own.coarse != 1) return failure("its cells are wider than those of the domain");
     if (own.size) return failure("it has a size", "give it the parameters of that size instead");
     if (!own.definition_sides.empty()) {
@@ -83,13 +79,14 @@ Result<void> check_steady(const Program& program, std::uint32_t stage) {
 }
 
 Result<SteadyProblem> SteadyProblem::create(const Program& program, std::uint32_t stage,
-                                            ItemId varied, const ConstantValues& constants) {
+                                            const DomainCells& cells, ItemId varied,
+                                            const ConstantValues& constants) {
     if (auto good = check_steady(program, stage); !good) return tl::unexpected(good.error());
     auto followers = followers_of(program, stage, varied);
     if (!followers) return tl::unexpected(followers.error());
     const System& system = program.system_of(stage);
     SteadyProblem problem;
-    problem.grid_ = std::make_shared<PaddedGrid>(program.domain.grid);
+    problem.grid_ = std::make_shared<PaddedGrid>(cells);
     problem.varied_ = varied;
     std::vector<ItemId> changing{varied};
     for (const ItemId item : system.species()) {
@@ -122,7 +119,9 @@ Result<SteadyProblem> SteadyProblem::create(const Program& program, std::uint32_
     if (!sides) return tl::unexpected(sides.error());
     problem.rates_ = std::make_shared<FieldExpressions>(*std::move(rates));
     problem.sides_ = std::make_shared<FieldExpressions>(*std::move(sides));
+    problem.find_areas(cells);
     problem.find_free_axes();
+    problem.find_turns(cells);
     return problem;
 }
 
@@ -189,17 +188,6 @@ void SteadyProblem::extend(Species& species, Index number, const lowering::SideK
     species.inside = matrix_of(inside, size() + 1);
     for (const auto& [side, root] : values) {
         species.by_side.emplace_back(root, matrix_of(by_side[side], grid_->size()));
-    }
-}
-
-/// Finds the axes along which states can be moved.
-void SteadyProblem::find_free_axes() {
-    const bool has_values =
-        std::ranges::any_of(species_, [](const Species& each) { return !each.by_side.empty(); });
-    if (has_values || !rates_->is_same_everywhere()) return;
-    for (const int axis : grid_->axes().present) {
-        const bool is_moved = is_periodic_[static_cast<std::size_t>(axis)];
-        if (is_moved && grid_->length(axis) > 2) free_axes_.push_back(axis);
     }
 }
 
@@ -285,7 +273,8 @@ Matrix SteadyProblem::conserved_near(const Vector& state, double parameter) {
     Matrix sums = Matrix::Zero(species_count(), size() + 1);
     for (Index column = 0; column < size(); ++column) {
         for (SparseColumns::InnerIterator entry(at.jacobian, column); entry; ++entry) {
-            sums(entry.row() % species_count(), column) += entry.value();
+            sums(entry.row() % species_count(), column) +=
+                areas_[entry.row() / species_count()] * entry.value();
         }
     }
     double largest = 0;
@@ -293,55 +282,14 @@ Matrix SteadyProblem::conserved_near(const Vector& state, double parameter) {
         largest = std::max(largest, std::abs(at.jacobian.valuePtr()[k]));
     }
     for (Index row = 0; row < size(); ++row) {
-        sums(row % species_count(), size()) += at.by_parameter[row];
+        sums(row % species_count(), size()) += areas_[row / species_count()] * at.by_parameter[row];
     }
     const Matrix weights = across_rows(sums, 1e-9 * largest * std::sqrt(size()));
     Matrix totals(size(), weights.cols());
-    for (Index row = 0; row < size(); ++row) totals.row(row) = weights.row(row % species_count());
+    for (Index row = 0; row < size(); ++row) {
+        totals.row(row) = areas_[row / species_count()] * weights.row(row % species_count());
+    }
     return totals;
-}
-
-std::vector<Vector> SteadyProblem::translations(const Vector& state) const {
-    std::vector<Vector> moved;
-    std::array<Index, 3> strides{1, static_cast<Index>(grid_->length(0)),
-                                 static_cast<Index>(grid_->length(0) * grid_->length(1))};
-    for (const int axis : free_axes_) {
-        const auto length = static_cast<Index>(grid_->length(axis));
-        const Index stride = strides[static_cast<std::size_t>(axis)];
-        Vector derivative(size());
-        for (Index k = 0; k < cell_count(); ++k) {
-            const Index at = k / stride % length;
-            const Index next = k + ((at + 1) % length - at) * stride;
-            const Index before = k + ((at + length - 1) % length - at) * stride;
-            for (Index s = 0; s < species_count(); ++s) {
-                derivative[k * species_count() + s] =
-                    (state[next * species_count() + s] - state[before * species_count() + s]) /
-                    (2 * grid_->spacing());
-            }
-        }
-        moved.push_back(std::move(derivative));
-    }
-    return moved;
-}
-
-std::vector<Vector> SteadyProblem::even_shapes(const Vector& like) const {
-    Index strongest = 0;
-    like.cwiseAbs().maxCoeff(&strongest);
-    const Index species = strongest % species_count();
-    std::vector<Vector> shapes;
-    const auto add = [&](const auto& is_in) {
-        Vector shape = Vector::Zero(size());
-        for (Index k = 0; k < cell_count(); ++k) {
-            const Index cell = grid_->cells()[static_cast<std::size_t>(k)];
-            if (is_in(cell)) shape[k * species_count() + species] = 1;
-        }
-        shapes.push_back(std::move(shape));
-    };
-    for (const int axis : grid_->axes().present) {
-        add([&](Index cell) { return grid_->position(cell, axis) == 0; });
-    }
-    add([&](Index cell) { return cell == grid_->cells().front(); });
-    return shapes;
 }
 
 }  // namespace cascade::continuation

@@ -1,7 +1,7 @@
 // The equations of a steady state of a stage: all rates are 0 in all cells.
 //
-// The unknowns are the values of the species in the cells of the grid. The unknown of species s in
-// cell k has the number k · species + s.
+// The unknowns are the values of the species in the cells of the domain. The unknown of species s
+// in cell k has the number k · species + s.
 #pragma once
 
 #include "continuation/field_expressions.h"
@@ -32,24 +32,31 @@ class SteadyProblem {
 public:
     /// `varied` is a parameter that is the same in all cells. Parameters that depend on it follow
     /// it. Fails like check_steady(), and if an expression is not supported. The program must
-    /// outlive the problem.
-    static Result<SteadyProblem> create(const Program& program, std::uint32_t stage, ItemId varied,
+    /// outlive the problem. `constants` also gives the planes of a model or of a metric.
+    static Result<SteadyProblem> create(const Program& program, std::uint32_t stage,
+                                        const DomainCells& cells, ItemId varied,
                                         const ConstantValues& constants);
 
     Index size() const { return cell_count() * species_count(); }
     Index cell_count() const { return grid_->cell_count(); }
     Index species_count() const { return static_cast<Index>(species_.size()); }
+    /// The area of each cell, in parts of the mean area.
+    const Vector& areas() const { return areas_; }
 
     Vector rates(const Vector& state, double parameter);
     Linearised linearised(const Vector& state, double parameter);
 
     /// The totals that no rate changes, one in each column: weights of the unknowns. They are
-    /// totals of species and of sums of species. Looks at another state near the given one, at
-    /// which no rate has an accidental slope of 0.
+    /// totals of species and of sums of species, in which cells count by their areas. Looks at
+    /// another state near the given one, at which no rate has an accidental slope of 0.
     Matrix conserved_near(const Vector& state, double parameter);
-    /// The derivatives of a state along the axes along which a steady state can be moved: those
-    /// that are periodic, if no rate depends on the position.
-    std::vector<Vector> translations(const Vector& state) const;
+    /// The derivatives of a state along the motions that give other steady states. On a model these
+    /// are the rotations of a sphere or torus. On a grid they are translations along the axes ///
+    /// that are periodic and along which no rate depends on the position.
+    std::vector<Vector> motions(const Vector& state) const;
+    /// The least part of a motion that must differ from the motions before it to count. The motions
+    /// of a model are not exact.
+    double least_part() const { return turns_.empty() ? 0.02 : 0.2; }
     /// Changes of the species that `like` changes most, symmetric about the first cell. For each
     /// axis one changes all cells at position 0. The last one changes only the first cell.
     std::vector<Vector> even_shapes(const Vector& like) const;
@@ -70,6 +77,7 @@ private:
     void extend(Species& species, Index number, const lowering::SideKinds& kinds,
                 const std::map<int, std::size_t>& values);
     void find_free_axes();
+    void find_areas(const DomainCells& cells);
     Vector assembled(const std::vector<Part>& roots) const;
     ItemParts parts_at(const Vector& state, double parameter, bool with_slopes);
 
@@ -77,7 +85,12 @@ private:
     ItemId varied_;
     std::vector<Species> species_;
     std::array<bool, 3> is_periodic_{true, true, true};
-    std::vector<int> free_axes_;  ///< The axes along which states can be moved.
+    Vector areas_;
+    std::vector<int> free_axes_;     ///< The axes along which states can be moved.
+    std::vector<SparseRows> turns_;  ///< For each rotation: the derivative of a state along it.
+    Vector turned(const SparseRows& turn, const Vector& state) const;
+    Vector shifted(int axis, const Vector& state) const;
+    void find_turns(const DomainCells& cells);
     std::shared_ptr<FieldExpressions> rates_, sides_;
 };
 

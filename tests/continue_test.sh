@@ -32,6 +32,38 @@ cmp fold_branches.csv again.csv || fail "the same command gives another table"
 [ ! -s err ] || fail "quiet is not quiet: $(cat err)"
 head -c 8 up.png | grep -q PNG || fail "no PNG"
 
+# Pictures of patterns stand below the diagram. Domains may have a mask, and be models.
+cat >waves.cascade <<'END'
+system waves { u: 0.36 * cos(4 * pi * (x + 1/64)); p: 0.1; u' = p * u - (u + 2 * lap(u) + lap(lap(u))) - u^3 }
+domain { grid: 32, 1; spacing: pi / 8 }
+stage a: waves { solver: etdrk4; speed: 0.02; duration: 5 }
+END
+run 0 continue waves.cascade --vary p=-0.2..0.2 -o waves.svg -o waves.csv
+says out 'where the pattern vanishes'
+says out ': the pattern vanishes'
+grep -q ',fold,' waves.csv && fail "the point at which a pattern vanishes is called a fold"
+grep -q '>f</text>' waves.svg || fail "the diagram has fewer than six pictures"
+run 0 continue waves.cascade --vary p=-0.2..0.2 -q -o none.svg --pictures 0
+grep -q '>f</text>' none.svg && fail "--pictures 0 draws pictures"
+cat >disc.cascade <<'END'
+system s { u: 0; p: 0.05; u' = p * u - u^3 + lap(u); u.border: fixed(0) }
+domain { grid: 24, 24; mask: disc(0.5, 0.5, 0.45) }
+stage a: s { iterations: 1; speed: 0.1 }
+END
+run 0 continue disc.cascade --vary p=0..0.1 --branches 2 -q -o disc.csv -o disc.svg --save disc
+# The first wave of a disc of radius R between walls at 0 grows at (2.4048 / R)^2. The border of the cells is rough.
+awk -F, '$3 == "branch point" { found = $4; exit } END { exit !(found > 0.9 * (2.4048 / 10.8) ^ 2 && found < 1.1 * (2.4048 / 10.8) ^ 2) }' \
+    disc.csv || fail "the first wave of a disc: $(grep branch disc.csv)"
+cat >ball.cascade <<'END'
+system s { u: 0; p: -0.01; u' = p * u - u^3 + lap(u) }
+domain { surface: sphere; cells: 200; unit: 0.2 }
+stage a: s { iterations: 1; speed: 0.1 }
+END
+run 0 continue ball.cascade --vary p=-0.02..0.1 --step 0.02 -q -o ball.csv
+# Waves of degree 1 on a sphere: p = 2 unit^2, three at once or nearly so, after the uniform wave at 0.
+awk -F, '$3 == "branch point" { ++n; if ((n == 1 && $4 ^ 2 > 1e-9) || (n > 1 && ($4 - 0.08) ^ 2 > 1e-5)) exit 1 } END { exit !(n > 1) }' \
+    ball.csv || fail "the waves of a sphere: $(grep branch ball.csv)"
+
 # A saved state is steady, stays where it is, and can be continued as a run.
 run 0 continue fold.cascade --vary p=0.5..1 -q -o t.csv --save states
 run 0 run --resume states/branch1_point1 -q --log 'mean(u over domain)' -o state.png

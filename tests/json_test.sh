@@ -47,6 +47,17 @@ answers 3 '"no folder" in a["messages"][0]["message"]' run -q spots.cascade -o n
 answers 64 '"--bogus" in a["messages"][0]["message"]' run spots.cascade --bogus
 answers 0 'a["runs"] == 2 and a["failed"] == 0 and len(a["written"]) == 2' sweep -q spots.cascade --vary feed=0.03,0.04
 answers 64 '"nothing is varied" in a["messages"][0]["message"]' sweep -q spots.cascade
+cat >fold.cascade <<'END'
+system fold { u: 0.8; p: 0.64; u' = p - u^2 + lap(u) }
+domain { grid: 8, 1; boundary: noflux }
+stage s: fold { iterations: 50; speed: 0.1 }
+END
+answers 0 'a["varied"] == "p" and a["outcome"] == "finished" and len(a["branches"]) == 1 and len(a["written"]) == 2
+    and all(abs(q["max_u"] ** 2 - q["parameter"]) < 1e-9 for q in a["branches"][0]["points"])
+    and [abs(q["parameter"]) < 1e-9 for q in a["branches"][0]["points"] if q["kind"] == "fold"] == [True]
+    and a["branches"][0]["from"] is None and "growing" in a["branches"][0]["points"][0]
+    and "fold at p" in a["text"]' continue -q fold.cascade --vary p=-0.5..1
+answers 3 '"outside of the range" in a["messages"][0]["message"]' continue -q fold.cascade --vary p=0.7..1
 answers 0 'a["systems"][0]["name"] == "gray_scott" and a["systems"][0]["about"]' systems gray_scott
 answers 64 '"no system" in a["messages"][0]["message"]' systems zzz
 answers 0 'a["models"][0]["points"] == 4 and a["models"][0]["triangles"] == 4' mesh four.off

@@ -5,8 +5,10 @@
 #include "continuation/branch.h"
 #include "core/file.h"
 #include "core/file_format.h"
+#include "run/commands/branch_plot.h"
 #include "run/commands/find_parameter.h"
 #include "run/commands/follow_table.h"
+#include "run/commands/followed_cells.h"
 #include "run/commands/run.h"
 
 #include <fmt/format.h>
@@ -18,9 +20,9 @@ namespace cascade::continuation {
 
 namespace {
 
-/// If translations must balance more than this fraction of the rates, the grid keeps the pattern
-/// from moving.
-constexpr double most_drift = 1e-7;
+/// If motions must balance more than this fraction of the rates, the cells keep the pattern from
+/// moving. The cells of a model are spread unevenly, so they hold each pattern weakly.
+constexpr double most_drift = 1e-7, most_drift_on_model = 0.01;
 
 class BranchRun {
 public:
@@ -31,10 +33,11 @@ public:
 
 private:
     Result<void> find_what_varies();
+    /// The program as it runs.
+    const Program& program() const { return *simulation_->domain().program; }
     Result<void> run_stages();
     Result<SteadyProblem> problem_with(const ConstantValues& constants) const;
-    std::vector<double> constant(const Formula& formula) const;
-    Result<Vector> first_state() const;
+    Result<Vector> first_state(Index size) const;
     Scales scales_of(const Vector& state) const;
     Result<std::vector<Branch>> follow();
     Result<void> save(const Point& point, const std::string& name);
@@ -53,6 +56,7 @@ private:
     ItemId varied_;
     std::unique_ptr<Simulation> simulation_;
     SimulationOptions options_;
+    Vector areas_;  ///< Of the cells.
 };
 
 Result<void> BranchRun::find_what_varies() {
@@ -72,15 +76,14 @@ Result<void> BranchRun::find_what_varies() {
         return failure("--save keeps states of a first stage only",
                        "the table has the numbers of all states");
     }
-    // Finds parts that are not supported before the run. The values of constants do not matter
-    // here.
-    const auto trial = problem_with([](const Formula&) { return std::vector{1.0}; });
-    if (!trial) return tl::unexpected(trial.error());
+    if (auto good = check_steady(program_, stage_); !good)
+        return tl::unexpected(cannot(good.error()));
     return {};
 }
 
 Result<SteadyProblem> BranchRun::problem_with(const ConstantValues& constants) const {
-    auto problem = SteadyProblem::create(program_, stage_, varied_, constants);
+    auto problem =
+        SteadyProblem::create(program(), stage_, followed_cells(*simulation_), varied_, constants);
     if (!problem) return tl::unexpected(cannot(problem.error()));
     return problem;
 }
@@ -90,6 +93,9 @@ Result<void> BranchRun::run_stages() {
     auto simulation = Simulation::create(script_, options_);
     if (!simulation) return tl::unexpected(simulation.error());
     simulation_ = *std::move(simulation);
+    // With any numbers for constants, this finds what is not supported before the run.
+    const auto trial = problem_with([](const Formula&) { return std::vector{1.0}; });
+    if (!trial) return tl::unexpected(trial.error());
     for (std::uint32_t k = 0; k <= stage_; ++k) {
         auto started = simulation_->start_stage(k, control_.cancel);
         if (!started) return started;
@@ -102,48 +108,14 @@ Result<void> BranchRun::run_stages() {
     return {};
 }
 
-/// The values of a formula that does not change, in all cells.
-std::vector<double> BranchRun::constant(const Formula& formula) const {
-    const std::vector<Field> fields = simulation_->evaluate(formula, stage_);
-    const Field& field = fields.front();
-    const Grid& grid = program_.domain.grid;
-    std::vector<double> values;
-    for (std::int64_t k = 0; k < grid.depth; ++k) {
-        for (std::int64_t j = 0; j < grid.height; ++j) {
-            for (std::int64_t i = 0; i < grid.width; ++i) {
-                values.push_back(field.number_at(i, j, k));
-            }
-        }
-    }
-    return values;
-}
-
-Result<Vector> BranchRun::first_state() const {
-    const auto species = program_.system_of(stage_).species();
-    const auto count = static_cast<Index>(species.size());
-    const Index cells = program_.domain.grid.cell_count();
-    Vector state(cells * count);
-    if (request_.from_flat) {
-        auto analysis = analysis::analyze_stage(program_, stage_);
-        if (!analysis) return tl::unexpected(cannot(analysis.error()));
-        if (analysis->states.empty()) return failure("no flat state was found");
-        const auto& flat = analysis->states.front().state.species;
-        for (Index k = 0; k < state.size(); ++k) state[k] = flat[k % count];
-        return state;
-    }
-    for (Index s = 0; s < count; ++s) {
-        const Field& field =
-            simulation_->field(stage_, species[SpeciesId(static_cast<std::size_t>(s))]);
-        const Grid& grid = program_.domain.grid;
-        Index to = s;
-        for (std::int64_t k = 0; k < grid.depth; ++k) {
-            for (std::int64_t j = 0; j < grid.height; ++j) {
-                for (std::int64_t i = 0; i < grid.width; ++i, to += count) {
-                    state[to] = field.number_at(i, j, k);
-                }
-            }
-        }
-    }
+Result<Vector> BranchRun::first_state(Index size) const {
+    if (!request_.from_flat) return followed_state(*simulation_, stage_);
+    auto analysis = analysis::analyze_stage(program_, stage_);
+    if (!analysis) return tl::unexpected(cannot(analysis.error()));
+    if (analysis->states.empty()) return failure("no flat state was found");
+    const auto& flat = analysis->states.front().state.species;
+    Vector state(size);
+    for (Index k = 0; k < size; ++k) state[k] = flat[k % flat.size()];
     return state;
 }
 
@@ -166,9 +138,11 @@ Scales BranchRun::scales_of(const Vector& state) const {
 }
 
 Result<std::vector<Branch>> BranchRun::follow() {
-    auto problem = problem_with([&](const Formula& formula) { return constant(formula); });
+    auto problem = problem_with(
+        [&](const Formula& formula) { return followed_values(*simulation_, stage_, formula); });
     if (!problem) return tl::unexpected(problem.error());
-    const auto state = first_state();
+    areas_ = problem->areas();
+    const auto state = first_state(problem->size());
     if (!state) return tl::unexpected(state.error());
     const double parameter = simulation_->state(stage_).numbers[varied_];
     const VariedRange& range = *request_.varied;
@@ -183,8 +157,8 @@ Result<std::vector<Branch>> BranchRun::follow() {
     corrector.keep_totals(problem->conserved_near(*state, parameter));
     const Direction fixed{Vector::Zero(state->size()), 1};
     auto start = corrector.solve({*state, parameter}, fixed);
-    if (!start || start->drift > most_drift) {
-        corrector.hold_translations(false);
+    if (!start || start->drift > (program_.domain.model ? most_drift_on_model : most_drift)) {
+        corrector.hold_motions(false);
         start = corrector.solve({*state, parameter}, fixed);
     }
     if (!start) {
@@ -222,33 +196,22 @@ Result<void> BranchRun::save(const Point& point, const std::string& name) {
     Script script = load_script(script_.name, script_.text, script_.folder, overrides);
     script.file = script_.file;
     if (!script.program) return failure("the script does not accept the parameter's value");
-    auto simulation = Simulation::create(script, options_);
+    SimulationOptions options = options_;
+    options.known_model = simulation_->domain().shared_model();
+    auto simulation = Simulation::create(script, options);
     if (!simulation) return tl::unexpected(simulation.error());
     if (auto started = (*simulation)->start_stage(0); !started) return started;
-    (*simulation)->change_stage(0, [&](StageState& state) {
-        const Grid& grid = script.program->domain.grid;
-        const std::size_t count = state.species().size();
-        for (std::size_t s = 0; s < count; ++s) {
-            auto from = static_cast<Index>(s);
-            for (std::int64_t k = 0; k < grid.depth; ++k) {
-                for (std::int64_t j = 0; j < grid.height; ++j) {
-                    for (std::int64_t i = 0; i < grid.width;
-                         ++i, from += static_cast<Index>(count)) {
-                        state.species()[s].at<double>(i, j, k) = point.place.state[from];
-                    }
-                }
-            }
-        }
-    });
+    set_followed_state(**simulation, 0, point.place.state);
     const auto saved = save_run(request_.save / name, script, **simulation);
     if (!saved) return tl::unexpected(saved.error());
     return {};
 }
 
 Result<FollowReport> BranchRun::write(const std::vector<Branch>& branches) {
-    const FollowTable table(program_, stage_, varied_);
+    const FollowTable table(program_, stage_, varied_, areas_);
     FollowReport report;
     report.text = table.words(branches);
+    report.json = table.json(branches);
     std::vector<std::filesystem::path> outputs = request_.outputs;
     if (outputs.empty()) {
         outputs = {output_stem(script_) + "_branches.csv", output_stem(script_) + "_branches.svg"};
@@ -256,12 +219,14 @@ Result<FollowReport> BranchRun::write(const std::vector<Branch>& branches) {
     const auto number =
         request_.up.empty() ? Result<std::size_t>(0) : table.find_number(request_.up);
     if (!number) return tl::unexpected(number.error());
+    const StatePictures pictures{followed_cells(*simulation_), request_.pictures};
     for (const auto& path : outputs) {
         const std::string title = fmt::format("{}, stage '{}'", program_.system_of(stage_).name,
                                               program_.stages[stage_].name);
-        const auto done = can_hold(path, FormatTrait::drawing)
-                              ? write_drawing(path, table.diagram(branches, *number, title))
-                              : write_file(path, table.csv(branches));
+        const auto done =
+            can_hold(path, FormatTrait::drawing)
+                ? write_drawing(path, table.diagram(branches, *number, title, pictures))
+                : write_file(path, table.csv(branches));
         if (!done) return tl::unexpected(done.error());
         report.written.push_back(path);
     }
@@ -281,7 +246,7 @@ Result<FollowReport> BranchRun::write(const std::vector<Branch>& branches) {
 Result<FollowReport> BranchRun::run() {
     if (auto found = find_what_varies(); !found) return tl::unexpected(found.error());
     if (!request_.up.empty()) {
-        const auto number = FollowTable(program_, stage_, varied_).find_number(request_.up);
+        const auto number = FollowTable(program_, stage_, varied_, {}).find_number(request_.up);
         if (!number) return tl::unexpected(number.error());
     }
     for (const auto& path : request_.outputs) {

@@ -22,6 +22,7 @@ struct FollowRequest {
     double step = 0.05;        ///< The longest step, in parts of the range and of usual values.
     std::size_t points = 400;  ///< The most points on each side of a branch's first point.
     std::size_t branches = 1;  ///< The most branches.
+    std::size_t pictures = 6;  ///< The most pictures of states below the diagram.
     std::string up;            ///< The number on the vertical axis. Empty: the norm of a species.
     /// Tables (.csv) and diagrams. If empty, SCRIPT_branches.csv and SCRIPT_branches.svg.
     std::vector<std::filesystem::path> outputs;
@@ -34,6 +35,7 @@ bool is_branches_output(const std::filesystem::path& path);
 
 struct FollowReport {
     std::string text;  ///< A line for each branch and each special point.
+    std::string json;  ///< The branches with all points, a JSON array.
     std::vector<std::filesystem::path> written;
 };
 

@@ -13,10 +13,20 @@
 
 namespace cascade {
 
+struct StatePictures;
+
+/// The name of a kind of special point. Empty for other points.
+std::string_view word_of(continuation::PointKind kind);
+
 /// Describes states of a stage by numbers.
 class FollowTable {
 public:
-    FollowTable(const Program& program, std::uint32_t stage, ItemId varied);
+    /// The names of the species, in the order of the unknowns.
+    const std::vector<std::string>& species() const { return species_; }
+
+    /// `areas` has the area of each cell, by which means are weighted.
+    FollowTable(const Program& program, std::uint32_t stage, ItemId varied,
+                continuation::Vector areas);
 
     /// The names of the numbers of a state: for each species its norm, least, largest and mean
     /// value.
@@ -27,11 +37,14 @@ public:
 
     /// The table as CSV, with a row for each point.
     std::string csv(const std::vector<continuation::Branch>& branches) const;
+    /// The branches as a JSON array, for the answer of --json.
+    std::string json(const std::vector<continuation::Branch>& branches) const;
     /// A line for each branch, its special points and its ends.
     std::string words(const std::vector<continuation::Branch>& branches) const;
     /// Curves of a number over the parameter: solid where states are stable, dashed where not.
+    /// Pictures of some states stand below.
     Drawing diagram(const std::vector<continuation::Branch>& branches, std::size_t number,
-                    const std::string& title) const;
+                    const std::string& title, const StatePictures& pictures) const;
 
     /// The numbers of a state, in the order of numbers().
     std::vector<double> measured(const continuation::Vector& state) const;
@@ -39,6 +52,7 @@ public:
 private:
     std::string name_of_varied_;
     std::vector<std::string> species_, numbers_;
+    continuation::Vector areas_;
 };
 
 }  // namespace cascade

@@ -1,8 +1,10 @@
 // Branches compared with closed forms: folds, branch points and Hopf points of known systems.
 #include "tests/unit/continuation/steady_script.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -106,6 +108,54 @@ TEST(Branches, MeetAtPitchforks) {
     EXPECT_EQ(branches[0].points.back().growing, 1);
 }
 
+TEST(Branches, OfSymmetricStatesEndAtBranchPointsNotFolds) {
+    // The branch u² = (1 + √(1 + 4p)) / 2 turns back at the fold p = −1/4, and then, where it meets
+    // u = 0, at the branch point p = 0.
+    SteadyScript script(
+        "system s { u: 1.05; p: 0.1; u' = p * u + u^3 - u^5 + 9 * lap(u) }\n"
+        "domain { grid: 8, 1; boundary: noflux; precision: double }\nstage a: s { }");
+    const auto branches = followed(script, -0.6, 0.3);
+    ASSERT_EQ(branches.size(), 1U);
+    const auto meetings = special(branches[0], PointKind::branch);
+    ASSERT_EQ(meetings.size(), 1U);
+    EXPECT_NEAR(meetings[0].place.parameter, 0, 1e-8);
+    EXPECT_FALSE(meetings[0].vanishes) << "these states are uniform, too";
+    const auto folds = special(branches[0], PointKind::fold);
+    ASSERT_EQ(folds.size(), 2U) << "of u and of -u";
+    for (const Point& fold : folds) EXPECT_NEAR(fold.place.parameter, -0.25, 1e-9);
+}
+
+TEST(Branches, OfPatternsEndWhereThePatternVanishes) {
+    // The waves of Swift and Hohenberg's equation meet u = 0 at p = (1 + lap)², on rings and
+    // between sides. The uniform states then are followed in both directions.
+    const double meeting = std::pow(1 + laplacian(1, 2 * std::numbers::pi / 16), 2);
+    for (const std::string sides : {"periodic", "noflux"}) {
+        SteadyScript script(
+            "system s { u: 0.36 * cos(4 * pi * (x + 1/64)); p: 0.1\n"
+            "u' = p * u - (u + 2 * lap(u) + lap(lap(u))) - u^3 }\n"
+            "domain { grid: 32, 1; spacing: pi / 8; precision: double; boundary: " +
+            sides +
+            " }\n"
+            "stage a: s { }");
+        const auto branches = followed(script, -0.2, 0.2, 3);
+        ASSERT_EQ(branches.size(), 3U) << sides;
+        EXPECT_TRUE(special(branches[0], PointKind::fold).empty());
+        const auto meetings = special(branches[0], PointKind::branch);
+        ASSERT_GE(meetings.size(), 1U);
+        const auto vanishes = [](const Point& point) { return point.vanishes; };
+        ASSERT_EQ(std::ranges::count_if(meetings, vanishes), 1) << sides;
+        const Point& end = *std::ranges::find_if(meetings, vanishes);
+        EXPECT_NEAR(end.place.parameter, meeting, 1e-7);
+        EXPECT_TRUE(branches[0].begins == "the pattern vanishes" ||
+                    branches[0].ends == "the pattern vanishes");
+        for (std::size_t k = 1; k < 3; ++k) {
+            for (const Point& point : branches[k].points) {
+                EXPECT_LT(point.place.state.cwiseAbs().maxCoeff(), 1e-9);
+            }
+        }
+    }
+}
+
 TEST(Branches, BeginToOscillateAtHopfPoints) {
     // The Brusselator oscillates from b = 1 + a² on, and with equal diffusion no wave grows before.
     SteadyScript script(
@@ -143,6 +193,52 @@ TEST(Branches, OfPatternsDoNotCountTheirTranslations) {
     EXPECT_LT(last.leading[0].real(), -1e-3);
     const double above = last.place.parameter - meetings[0].place.parameter;
     EXPECT_NEAR(last.place.state.maxCoeff(), std::sqrt(4 * above / 3), 0.01);
+}
+
+TEST(Branches, OfLightInRingsHaveTheThresholdsOfCombs) {
+    // L. A. Lugiato and R. Lefever's equation, E' = −(1 + iθ) E + i E_xx + i |E|² E + F, with E = u
+    // + iv and p = F². The flat states have F² = I (1 + (I − θ)²), where I = |E|². For θ > √3 they
+    // turn back at I = (2θ ± √(θ² − 3)) / 3, and the wave k begins to grow where 3I² − 4aI + a² + 1
+    // = 0 with a = θ + k². The first combs grow at I = 1.
+    for (const auto& [theta, length] : {std::pair(1.2, 10.0), std::pair(2.0, 6.0)}) {
+        SteadyScript script(fmt::format(
+            "system s {{ u: 0.4; v: 0.1; p: 0.4; theta: {}\n"
+            "u' = -u + theta * v - lap(v) - v * (u^2 + v^2) + sqrt(p)\n"
+            "v' = -theta * u - v + lap(u) + u * (u^2 + v^2) }}\n"
+            "domain {{ grid: 24, 1; extent: {}; boundary: noflux; precision: double }}\nstage a: s {{ }}",
+            theta, length));
+        const auto branches = followed(script, 0.2, 6, 1, 0.01);
+        ASSERT_EQ(branches.size(), 1U);
+        const auto folds = special(branches[0], PointKind::fold);
+        ASSERT_EQ(folds.size(), theta > std::sqrt(3) ? 2U : 0U);
+        const auto pump = [&](double power) { return power * (1 + std::pow(power - theta, 2)); };
+        for (std::size_t k = 0; k < folds.size(); ++k) {
+            const double root = std::sqrt(theta * theta - 3) * (k == 0 ? -1 : 1);
+            EXPECT_NEAR(folds[k].place.parameter, pump((2 * theta + root) / 3), 1e-7);
+        }
+        int thresholds = 0;
+        double first = 10;
+        for (int wave = 1; wave < 24; ++wave) {
+            const double a = theta - laplacian(std::numbers::pi * wave / length, length / 24);
+            if (a * a < 3) continue;
+            for (const double sign : {-1.0, 1.0}) {
+                const double power = (2 * a + sign * std::sqrt(a * a - 3)) / 3, at = pump(power);
+                if (at > 6 || at < 0.2) continue;
+                ++thresholds;
+                first = std::min(first, power);
+                double nearest = 1;
+                for (const Point& point : special(branches[0], PointKind::branch)) {
+                    const double own = point.place.state.squaredNorm() / 24;
+                    const double distance = std::abs(point.place.parameter - at);
+                    nearest = std::min(nearest, distance + std::abs(own - power));
+                }
+                EXPECT_LT(nearest, 1e-6) << wave << ", " << power;
+            }
+        }
+        EXPECT_GE(thresholds, 3);
+        EXPECT_GE(first, 1);
+        EXPECT_LT(first, 1.1) << "a wave of this ring is near the best";
+    }
 }
 
 TEST(Branches, CountEigenvaluesThatOccurSeveralTimes) {

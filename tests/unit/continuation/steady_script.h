@@ -2,6 +2,7 @@
 #pragma once
 
 #include "continuation/branch.h"
+#include "run/commands/followed_cells.h"
 #include "run/simulation/simulation.h"
 
 #include <gtest/gtest.h>
@@ -28,13 +29,13 @@ public:
         simulation_ = Simulation::create(script_, options).value();
         EXPECT_TRUE(simulation_->start_stage(0)) << text;
         auto problem = continuation::SteadyProblem::create(
-            program(), 0, item("p"),
-            [&](const Formula& formula) { return values(simulation_->evaluate(formula, 0)[0]); });
+            program(), 0, followed_cells(*simulation_), item("p"),
+            [&](const Formula& formula) { return followed_values(*simulation_, 0, formula); });
         EXPECT_TRUE(problem) << problem.error().message << text;
         if (problem) problem_.emplace(*std::move(problem));
     }
 
-    const Program& program() const { return *script_.program; }
+    const Program& program() const { return *simulation_->domain().program; }
     continuation::SteadyProblem& problem() { return *problem_; }
     double parameter() const { return simulation_->state(0).numbers[item("p")]; }
 
@@ -48,17 +49,7 @@ public:
     }
 
     /// The present state, in the order of the problem's unknowns.
-    Vector state() const {
-        const auto species = program().system_of(0).species();
-        Vector state(program().domain.grid.cell_count() * static_cast<Index>(species.size()));
-        for (std::size_t s = 0; s < species.size(); ++s) {
-            const auto plane = values(simulation_->field(0, species[SpeciesId(s)]));
-            for (std::size_t k = 0; k < plane.size(); ++k) {
-                state[static_cast<Index>(k * species.size() + s)] = plane[k];
-            }
-        }
-        return state;
-    }
+    Vector state() const { return followed_state(*simulation_, 0); }
 
     /// Takes the stage's steps.
     void advance() {
@@ -67,19 +58,6 @@ public:
     }
 
 private:
-    static std::vector<double> values(const Field& field) {
-        std::vector<double> values;
-        const PlaneLayout& layout = field.layout();
-        for (std::int64_t k = 0; k < layout.depth; ++k) {
-            for (std::int64_t j = 0; j < layout.height; ++j) {
-                for (std::int64_t i = 0; i < layout.width; ++i) {
-                    values.push_back(field.number_at(i, j, k));
-                }
-            }
-        }
-        return values;
-    }
-
     Script script_;
     std::unique_ptr<Simulation> simulation_;
     std::optional<continuation::SteadyProblem> problem_;

@@ -1,0 +1,27 @@
+// The cells of a domain, as the equations of steady states need them.
+#pragma once
+
+#include "core/grid.h"
+#include "core/links.h"
+
+#include <array>
+#include <vector>
+
+namespace cascade::continuation {
+
+struct DomainCells {
+    /// On a model, the rows and columns in which its cells are stored.
+    Grid grid;
+    /// Whether each position of the grid is a cell of the domain, x fastest. Empty: all are.
+    std::vector<bool> inside;
+    /// The links of a model's cells in double precision, with the weights of gradients. Null on
+    /// grids. Must outlive the problem.
+    const Links* links = nullptr;
+    /// The area of each position, if cells differ in it. Empty otherwise.
+    std::vector<double> areas;
+    /// The rotations that map the surface to itself: for each, the components of the velocity of
+    /// each position.
+    std::vector<std::array<std::vector<double>, 3>> turns;
+};
+
+}  // namespace cascade::continuation
