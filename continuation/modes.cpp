@@ -280,7 +280,7 @@ std::vector<Mode> leading_modes(const SparseColumns& matrix, std::span<const Neu
     // The discs in which all eigenvalues are known.
     std::vector<std::pair<Complex, double>> known{{shift, radius}};
     for (const Complex place : places) {
-        const Complex at = shift + place;
+        const Complex at = place + (1e-6 * std::abs(place) + 1e-3 * shift);
         const auto distance = [&](Complex to) {
             return std::min(std::abs(to - at), std::abs(std::conj(to) - at));
         };
