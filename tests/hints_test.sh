@@ -116,8 +116,8 @@ hint "write --set duration=2" run s.cascade --time 2 -- run s.cascade -q --set d
 hint "write --set extent=4" run s.cascade --extent 4 -- run s.cascade -q --set extent=4
 hint "write -o a.webp" run s.cascade --movie a.webp -- run s.cascade -q -o a.webp
 hint "write --threads 2" run s.cascade -j 2 -- run s.cascade -q --threads 2
-hint "by --set k=0.3" run s.cascade --k 0.3 -- run s.cascade -q --set k=0.3
-hint "by --set k=0.3" run s.cascade --k=0.3 -- run s.cascade -q --set k=0.3
+hint "write --set k=0.3" run s.cascade --k 0.3 -- run s.cascade -q --set k=0.3
+hint "write --set k=0.3" run s.cascade --k=0.3 -- run s.cascade -q --set k=0.3
 hint "write 2" run s.cascade -q --steps 2e0 -- run s.cascade -q --steps 2
 hint "write 'double'" run s.cascade -q --precision float64 -- run s.cascade -q --precision double
 hint "did you mean 'cascade run s.cascade …'?" s.cascade -o a.png -- run s.cascade -q -o a.png
