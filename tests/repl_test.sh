@@ -144,7 +144,7 @@ feed 'domain { grid: 16, 8 }' 'stage s: gray_scott { u: 1; v: 0; iterations: 50 
     ':set s.feed=0.05'
 says err "stage 's' ended uniform (u = 1, v = 0), with all cells the same"
 says out '0 in all cells'
-[ "$(grep -c "':init' begins again" err)" = 2 ] || fail "not told that all is over"
+[ "$(grep -c "type ':init' to begin again" err)" = 2 ] || fail "not told that all is over"
 
 # Commands of the program for the script so far, and help for each.
 feed 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 100 }' ':run' ':features' ':check' ':check --dump equations' \
