@@ -243,7 +243,7 @@ refuses_with() {
 refuses_with "$models/presets.js" "did you mean 'Painted'?" --preset Paintd
 refuses_with "$models/presets.js" "is based on too many other presets" --preset Round
 printf '{"parent": "Turing"}' >child.json
-refuses child.json "that is not here"
+refuses child.json "which is missing"
 echo "let nothing = {};" >nothing.js
 refuses_with child.json "this file has no presets of VisualPDE" --presets nothing.js
 refuses "https://visualpde.com/sim/?preset=Kept" "does not contain its options"
