@@ -314,6 +314,22 @@ Links Links::with_gradients(std::span<const Vector3d> gradients, std::span<const
     return links;
 }
 
+Field Links::numbers_of(std::span<const double> numbers, std::span<const std::size_t> ends,
+                        const PlaneLayout& layout, std::span<const std::uint32_t> order) const {
+    Grid row;
+    row.width = static_cast<std::int64_t>(slices_.bases.size() * slice_cells);
+    row.height = 1;
+    row.linked = true;
+    Field plane(PlaneLayout(row), precision());
+    plane.visit([&]<typename Number>(Plane<Number>& of_links) {
+        Number* const to = of_links.origin();
+        for_each_link(Placing(ends, layout, order), [&](std::size_t at, std::size_t link) {
+            to[at] = static_cast<Number>(numbers[link]);
+        });
+    });
+    return plane;
+}
+
 template <typename Number>
 LinkTable<Number> Links::table() const {
     const auto& weights = *std::get_if<Weights<Number>>(&weights_);

@@ -56,7 +56,7 @@ bool DevicePasses::are_of(const StepProblem& problem, const std::string& text) c
 std::uint64_t DevicePasses::constant_bytes(const StepProblem& problem) {
     const ConstantPlanes constants(problem);
     const PlaneLayout layout(problem.grid);
-    return constants.fields.size() * Field::bytes(layout, problem.precision) +
+    return static_cast<std::uint64_t>(constants.size) * bytes_of(problem.precision) +
            constants.masks.size() * Mask::bytes(layout) +
            (problem.links != nullptr ? problem.links->bytes() : 0);
 }
@@ -67,10 +67,12 @@ std::int64_t DevicePasses::origin(std::size_t plane) const {
 
 void DevicePasses::write_constants() {
     OpenDevice& device = device_.open();
-    const std::size_t bytes = Field::bytes(layout_, problem_.precision);
-    fields_ = device.buffer(constants_.fields.size() * bytes);
+    const std::size_t bytes = bytes_of(problem_.precision);
+    fields_ = device.buffer(static_cast<std::size_t>(constants_.size) * bytes);
     for (std::size_t k = 0; k < constants_.fields.size(); ++k) {
-        device.write(fields_, k * bytes, memory_of(*constants_.fields[k]), bytes);
+        const Field& field = *constants_.fields[k];
+        device.write(fields_, static_cast<std::size_t>(constants_.places[k]) * bytes,
+                     memory_of(field), Field::bytes(field.layout(), problem_.precision));
     }
     masks_ = device.buffer(constants_.masks.size() * Mask::bytes(layout_));
     for (std::size_t k = 0; k < constants_.masks.size(); ++k) {
@@ -185,23 +187,20 @@ void DevicePasses::fill_halos(std::size_t pass, CopyRoles roles, const StepMomen
 
 void DevicePasses::reduce(std::size_t pass, CopyRoles roles, const DevicePlanes& planes) {
     for (const StepProblem::Reduction& reduction : problem_.passes[pass].reductions) {
-        const DevicePlane plane =
-            std::visit(Overloaded{
-                           [&](const StepProblem::SpeciesPlane& own) {
-                               return DevicePlane{planes.of(own.in_register, roles),
-                                                  origin(own.species.index())};
-                           },
-                           [&](TemporaryId id) {
-                               return DevicePlane{planes.temporaries(), origin(id.index())};
-                           },
-                           [&](const Field* field) {
-                               const auto& all = constants_.fields;
-                               const auto place =
-                                   std::find(all.begin(), all.end(), field) - all.begin();
-                               return DevicePlane{fields_, origin(static_cast<std::size_t>(place))};
-                           },
-                       },
-                       reduction.operand);
+        const DevicePlane plane = std::visit(
+            Overloaded{
+                [&](const StepProblem::SpeciesPlane& own) {
+                    return DevicePlane{planes.of(own.in_register, roles),
+                                       origin(own.species.index())};
+                },
+                [&](TemporaryId id) {
+                    return DevicePlane{planes.temporaries(), origin(id.index())};
+                },
+                [&](const Field* field) {
+                    return DevicePlane{fields_, constants_.origin(constants_.number_of(field))};
+                },
+            },
+            reduction.operand);
         CHECK(sums_ != nullptr, "a problem with aggregates has sums");
         sums_->reduce(reduction.kind, plane, problem_.counted_cells(), aggregates_,
                       reduction.aggregate.index());

@@ -87,25 +87,27 @@ private:
         return text + ") {\n";
     }
 
+    std::string element(std::string_view buffer, std::int64_t index) const {
+        return fmt::format("{} + {}{}", buffer, index, is_wgsl() ? "" : "l");
+    }
     /// Cell (0, 0, 0) of plane number `plane` of a buffer.
     std::string plane(std::string_view buffer, std::int64_t plane) const {
-        return fmt::format("{} + {}{}", buffer, plane * layout_.size() + layout_.offset(0, 0),
-                           is_wgsl() ? "" : "l");
+        return element(buffer, plane * layout_.size() + layout_.offset(0, 0));
     }
 
     std::string plane(const StepProblem::PlaneRef& ref) const {
-        return std::visit(Overloaded{
-                              [&](const StepProblem::SpeciesPlane& own) {
-                                  return plane(fmt::format("c_register_{}",
-                                                           own.in_register.index()),
-                                               own.species.index());
-                              },
-                              [&](TemporaryId id) { return plane("c_temporaries", id.index()); },
-                              [&](const Field* field) {
-                                  return plane("c_fields", place_of(planes_.fields, field));
-                              },
-                          },
-                          ref);
+        return std::visit(
+            Overloaded{
+                [&](const StepProblem::SpeciesPlane& own) {
+                    return plane(fmt::format("c_register_{}", own.in_register.index()),
+                                 own.species.index());
+                },
+                [&](TemporaryId id) { return plane("c_temporaries", id.index()); },
+                [&](const Field* field) {
+                    return element("c_fields", planes_.origin(planes_.number_of(field)));
+                },
+            },
+            ref);
     }
 
     KernelNames names_of(std::size_t number) const {
@@ -152,6 +154,15 @@ ConstantPlanes::ConstantPlanes(const StepProblem& problem) {
         for (const auto& reduction : pass.reductions) add(reduction.operand);
         for (const Mask* mask : pass.masks) add_once(masks, mask);
     }
+    for (const Field* field : fields) {
+        places.push_back(size);
+        size += field->layout().size();
+    }
+}
+
+std::size_t ConstantPlanes::number_of(const Field* field) const {
+    return static_cast<std::size_t>(std::find(fields.begin(), fields.end(), field) -
+                                    fields.begin());
 }
 
 std::vector<StepProblem::ChangingUniform> passed_uniforms(const StepProblem::Pass& pass) {

@@ -15,8 +15,19 @@ namespace cascade {
 struct ConstantPlanes {
     std::vector<const Field*> fields;
     std::vector<const Mask*> masks;
+    /// By field: the number of elements stored before it. Fields differ in size, because some have
+    /// a number for each link.
+    std::vector<std::int64_t> places;
+    std::int64_t size = 0;  ///< The number of elements of all fields.
 
     explicit ConstantPlanes(const StepProblem& problem);
+
+    /// The number of a field in `fields`.
+    std::size_t number_of(const Field* field) const;
+    /// The index of cell (0, 0, 0), or of link 0, of field number `number`.
+    std::int64_t origin(std::size_t number) const {
+        return places[number] + fields[number]->layout().offset(0, 0);
+    }
 };
 
 /// The uniforms that are passed at each call: all that change, except aggregates.

@@ -37,8 +37,10 @@ fn c_end_of_link(c_entry: u32) -> i32 {
 }
 )";
 
-/// A function that sums `term` over the links of a cell, each with its weight.
-std::string over_links(std::string_view head, std::string_view table, std::string_view term) {
+/// A function that sums `term` over the links of a cell, each with its weight, which is at an index
+/// of c_links or of c_planes.
+std::string over_links(std::string_view head, std::string_view table, std::string_view term,
+                       std::string_view array = "c_links") {
     return fmt::format(
         "fn {0} -> u32 {{\n"
         "    var c_total = 0u;\n"
@@ -46,12 +48,12 @@ std::string over_links(std::string_view head, std::string_view table, std::strin
         "    for (var c_entry = c_links[c_slice]; c_entry < c_links[c_slice + 1u]; c_entry++) {{\n"
         "        let c_there = c_end_of_link(c_entry);\n"
         "        let c_apart = c_subtract(c_field_word(c_planes[c_f + c_there]), c_own);\n"
-        "        let c_weight = c_field_word(c_links[{1} + c_entry * 16u + c_lane]);\n"
+        "        let c_weight = c_field_word({3}[{1} + c_entry * 16u + c_lane]);\n"
         "        c_total = c_add(c_total, c_multiply(c_weight, {2}));\n"
         "    }}\n"
         "    return c_total;\n"
         "}}\n",
-        head, table, term);
+        head, table, term, array);
 }
 
 /// The functions of operations on operands.
@@ -95,6 +97,8 @@ std::string wgsl_stencil(Stencil stencil, const PlaneLayout& layout) {
                over_links("c_link_flow(c_f: i32, c_s: i32, c_at: i32)", weights,
                           "c_multiply(c_add(c_field_word(c_planes[c_s + c_there]), "
                           "c_field_word(c_planes[c_s + c_at])), c_apart)") +
+               over_links("c_link_weighted(c_f: i32, c_s: i32, c_at: i32)", "u32(c_s)", "c_apart",
+                          "c_planes") +
                over_links("c_gradient(c_f: i32, c_at: i32, c_components: u32)", "c_components",
                           "c_apart");
     }

@@ -58,8 +58,7 @@ std::size_t WgslSteps::constants() const {
 }
 
 std::size_t WgslSteps::plane_words() const {
-    return constants() +
-           ConstantPlanes(problem_).fields.size() * static_cast<std::size_t>(layout_.size());
+    return constants() + static_cast<std::size_t>(ConstantPlanes(problem_).size);
 }
 
 std::size_t WgslSteps::place_of(int copy, std::size_t species) const {
@@ -76,10 +75,12 @@ std::size_t WgslSteps::place_of(RegisterId id, CopyRoles roles) const {
 
 std::vector<WgslSteps::ConstantPlane> WgslSteps::constant_planes() const {
     std::vector<ConstantPlane> planes;
-    const auto size = static_cast<std::size_t>(layout_.size());
-    for (const Field* const field : ConstantPlanes(problem_).fields) {
-        const float* const memory = field->origin<float>() - layout_.offset(0, 0);
-        planes.push_back({constants() + planes.size() * size, packed_words(memory, size)});
+    const ConstantPlanes all(problem_);
+    for (std::size_t k = 0; k < all.fields.size(); ++k) {
+        const PlaneLayout& layout = all.fields[k]->layout();
+        const float* const memory = all.fields[k]->origin<float>() - layout.offset(0, 0);
+        planes.push_back({constants() + static_cast<std::size_t>(all.places[k]),
+                          packed_words(memory, static_cast<std::size_t>(layout.size()))});
     }
     return planes;
 }

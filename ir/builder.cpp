@@ -77,12 +77,14 @@ ValueId KernelBuilder::neighbour(FieldSlot slot, int dx, int dy, int dz) {
 }
 
 ValueId KernelBuilder::over_links(Op op, FieldSlot slot) {
-    CHECK(is_link_sum(op) && op != Op::link_flow,
-          "builder: it is a sum of differences of one field");
+    CHECK(is_link_sum(op) && !has_flow(op), "builder: it is a sum of differences of one field");
     return emit({op, {}, slot.index()});
 }
 
 ValueId KernelBuilder::link_flow(Flow flow) { return emit({Op::link_flow, {}, flow.payload()}); }
+ValueId KernelBuilder::link_weighted(Flow flow) {
+    return emit({Op::link_weighted, {}, flow.payload()});
+}
 ValueId KernelBuilder::theirs(FieldSlot slot) { return emit({Op::theirs, {}, slot.index()}); }
 ValueId KernelBuilder::mask(MaskSlot slot) { return emit({Op::mask, {}, slot.index()}); }
 ValueId KernelBuilder::uniform(UniformSlot slot) { return emit({Op::uniform, {}, slot.index()}); }

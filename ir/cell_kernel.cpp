@@ -132,7 +132,7 @@ bool CellKernel::reads_neighbours(FieldSlot slot) const {
             if (Neighbour::of(instruction.slot()).slot == slot) return true;
         } else if (is_link_sum(instruction.op) || instruction.op == Op::theirs) {
             if (instruction.field() == slot) return true;
-            const bool is_flow = instruction.op == Op::link_flow;
+            const bool is_flow = has_flow(instruction.op);
             if (is_flow && Flow::with(instruction.payload).factor == slot) return true;
         }
     }
@@ -177,7 +177,7 @@ IdVector<FieldSlot, std::optional<std::size_t>> sole_results(const CellKernel& k
             readers[Neighbour::of(instruction.slot()).slot] = several;
         } else if (is_link_sum(instruction.op) || instruction.op == Op::theirs) {
             readers[instruction.field()] = several;
-            if (instruction.op == Op::link_flow) {
+            if (has_flow(instruction.op)) {
                 readers[Flow::with(instruction.payload).factor] = several;
             }
         }

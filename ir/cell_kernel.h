@@ -97,9 +97,10 @@ struct Neighbour {
     }
 };
 
-/// The payload of the operation `link_flow`: the field `of`, whose differences are summed, and the
-/// field `factor`. The difference is multiplied by the sum of `factor` in the two cells of the
-/// link.
+/// The payload of the operations `link_flow` and `link_weighted`: the field `of`, whose differences
+/// are summed, and the field `factor`. In link_flow the difference is multiplied by the sum of
+/// `factor` in the two cells of the link. In link_weighted it is multiplied by the number of
+/// `factor` for the link: the slot's plane has a number for each link (Links::numbers_of).
 struct Flow {
     FieldSlot factor, of;
 
@@ -115,8 +116,12 @@ struct Flow {
 /// linked cells.
 constexpr bool is_link_sum(Op op) {
     return op == Op::laplacian || op == Op::link_flow || op == Op::link_squares ||
-           op == Op::gradient_x || op == Op::gradient_y || op == Op::gradient_z;
+           op == Op::link_weighted || op == Op::gradient_x || op == Op::gradient_y ||
+           op == Op::gradient_z;
 }
+
+/// Whether the payload of an operation is a Flow.
+constexpr bool has_flow(Op op) { return op == Op::link_flow || op == Op::link_weighted; }
 
 /// Whether an operation reduces the values of a cell's links to one value of the cell.
 constexpr bool is_link_reduction(Op op) {

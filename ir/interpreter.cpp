@@ -175,6 +175,7 @@ private:
                 break;
             case Op::link_flow:
             case Op::link_squares:
+            case Op::link_weighted:
             case Op::gradient_x:
             case Op::gradient_y:
             case Op::gradient_z: over_links(out, step); break;
@@ -259,6 +260,12 @@ private:
                 const Number* s = arguments_.fields[flow.factor.index()];
                 return sum_over_links(out, f, [&](auto link, Number difference, auto i, auto j) {
                     return links.weights[link] * ((s[j] + s[i]) * difference);
+                });
+            }
+            case Op::link_weighted: {
+                const Number* s = arguments_.fields[flow.factor.index()];
+                return sum_over_links(out, f, [&](auto link, Number difference, auto, auto) {
+                    return s[link] * difference;
                 });
             }
             case Op::gradient_x: return sum_over_links(out, f, gradient(0));

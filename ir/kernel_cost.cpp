@@ -74,13 +74,18 @@ private:
             case Op::laplacian: add_laplacian(instruction.field()); break;
             case Op::link_flow: {
                 const Flow flow = Flow::with(instruction.payload);
-                add_link_sum({flow.factor, flow.of}, Op::laplacian, 5);
+                add_link_sum({flow.factor, flow.of}, {}, 5);
                 break;
             }
-            case Op::link_squares: add_link_sum({instruction.field()}, Op::laplacian, 4); break;
+            case Op::link_weighted: {
+                const Flow flow = Flow::with(instruction.payload);
+                add_link_sum({flow.of}, {instruction.op, flow.factor}, 3);
+                break;
+            }
+            case Op::link_squares: add_link_sum({instruction.field()}, {}, 4); break;
             case Op::gradient_x:
             case Op::gradient_y:
-            case Op::gradient_z: add_link_sum({instruction.field()}, instruction.op, 3); break;
+            case Op::gradient_z: add_link_sum({instruction.field()}, {instruction.op}, 3); break;
             case Op::theirs: gather(instruction.field()); break;
             case Op::link_sum:
             case Op::link_least:
@@ -114,7 +119,7 @@ private:
     }
 
     void add_laplacian(FieldSlot slot) {
-        if (stencil_.links) return add_link_sum({slot}, Op::laplacian, 3);
+        if (stencil_.links) return add_link_sum({slot}, {}, 3);
         load({slot, 0, 0, 0});
         for (const int side : {-1, 1}) {
             if (stencil_.x) load({slot, side, 0, 0});
@@ -125,9 +130,15 @@ private:
         cost_.operations += 2 * stencil_.axes() + 1;
     }
 
-    /// Adds a sum over links. `weights` identifies the table of weights that the sum reads: the
-    /// table of Laplacians, or of one component of gradients.
-    void add_link_sum(std::initializer_list<FieldSlot> slots, Op weights, double operations) {
+    /// Identifies the weights that a sum over links reads: those of Laplacians, those of one
+    /// component of gradients, or a slot's own.
+    struct Weights {
+        Op op = Op::laplacian;
+        FieldSlot slot{};
+        friend auto operator<=>(const Weights&, const Weights&) = default;
+    };
+
+    void add_link_sum(std::initializer_list<FieldSlot> slots, Weights weights, double operations) {
         cost_.operations += operations * links_;
         for (const FieldSlot slot : slots) {
             load({slot, 0, 0, 0});
@@ -165,7 +176,7 @@ private:
     std::set<Read> loaded_;
     std::set<MaskSlot> masks_;
     std::set<FieldSlot> gathered_;
-    std::set<Op> weights_;
+    std::set<Weights> weights_;
     bool has_places_ = false;
     KernelCost cost_;
 };

@@ -14,6 +14,7 @@ LoopLevel level_of_source(Op op) {
         case Op::neighbour:
         case Op::link_flow:
         case Op::link_squares:
+        case Op::link_weighted:
         case Op::gradient_x:
         case Op::gradient_y:
         case Op::gradient_z:

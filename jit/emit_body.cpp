@@ -130,6 +130,7 @@ Forms BodyEmitter::emit(const Instruction& instruction) {
         case Op::neighbour:
         case Op::link_flow:
         case Op::link_squares:
+        case Op::link_weighted:
         case Op::gradient_x:
         case Op::gradient_y:
         case Op::gradient_z:
@@ -190,6 +191,7 @@ Forms BodyEmitter::emit_source(const Instruction& instruction) {
             break;
         case Op::link_flow:
         case Op::link_squares:
+        case Op::link_weighted:
         case Op::gradient_x:
         case Op::gradient_y:
         case Op::gradient_z: value.number = sources.link_sum(instruction); break;

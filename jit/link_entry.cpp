@@ -80,7 +80,8 @@ Value* LinkEntry::term(SumKey sum) {
         Value* factors = builder_.CreateFAdd(at_targets(flow.factor), cells_.field(flow.factor));
         change = builder_.CreateFMul(factors, change);
     }
-    return builder_.CreateFMul(numbers(weights_of(op)), change);
+    Value* weights = op == Op::link_weighted ? numbers_of(flow.factor) : numbers(weights_of(op));
+    return builder_.CreateFMul(weights, change);
 }
 
 Value* LinkEntry::difference(FieldSlot slot) {
@@ -232,13 +233,26 @@ Value* LinkEntry::loaded(llvm::Type* element, Value* from, llvm::ArrayRef<int> l
 // addresses may be beyond the ends of the arrays, because a prefetch never faults.
 void LinkEntry::prefetch_ahead() {
     constexpr int entries = 32;
-    const auto prefetch = [&](unsigned array, llvm::Type* element) {
+    const auto prefetch = [&](Value* array, llvm::Type* element) {
         Value* link = builder_.CreateAdd(
             link_, builder_.getInt64(entries * static_cast<std::int64_t>(links_of_entry)));
-        frame_.prefetch(builder_, builder_.CreateGEP(element, frame_.extra_argument(array), link));
+        frame_.prefetch(builder_, builder_.CreateGEP(element, array, link));
     };
-    prefetch(LinkArgument::offsets, builder_.getInt16Ty());
-    for (const auto& [array, value] : numbers_) prefetch(array, frame_.number());
+    prefetch(frame_.extra_argument(LinkArgument::offsets), builder_.getInt16Ty());
+    for (const auto& [array, value] : numbers_) {
+        prefetch(frame_.extra_argument(array), frame_.number());
+    }
+    for (const auto& [slot, value] : of_links_) prefetch(frame_.field_plane(slot), frame_.number());
+}
+
+Value* LinkEntry::numbers_of(FieldSlot slot) {
+    Value*& value = of_links_[slot];
+    if (!value) {
+        Value* from = builder_.CreateInBoundsGEP(frame_.number(), frame_.field_plane(slot), link_);
+        value = mark(builder_.CreateAlignedLoad(frame_.vector_of(frame_.number()), from,
+                                                alignment(frame_.vector_bytes())));
+    }
+    return value;
 }
 
 Value* LinkEntry::numbers(unsigned array) {

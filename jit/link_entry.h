@@ -105,6 +105,8 @@ private:
     /// The address of this entry's element of an array that has one element for each entry.
     llvm::Value* address_of_entry(unsigned array, llvm::Type* element);
     llvm::Value* numbers(unsigned array);
+    /// The numbers of the links of a field that has one for each link.
+    llvm::Value* numbers_of(FieldSlot slot);
     template <typename Load>
     Load* mark(Load* load) {
         return frame_.aliases().mark(load, 0);
@@ -123,6 +125,7 @@ private:
     bool gathers_;  ///< Whether targets are read by gather instructions, one or two per vector.
     std::map<unsigned, llvm::Value*> numbers_;  ///< The vector loaded from each array.
     std::map<FieldSlot, llvm::Value*> fields_, differences_;  ///< By slot.
+    std::map<FieldSlot, llvm::Value*> of_links_;              ///< By slot: numbers of the links.
     llvm::Value *base_ = nullptr, *is_link_ = nullptr;
     std::vector<llvm::Value*> offsets_;  ///< One for each lane, or if targets are gathered, one
                                          ///< vector for all lanes.

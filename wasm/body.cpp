@@ -248,6 +248,7 @@ std::optional<Local> Body::source(const Instruction& instruction) {
         case Op::neighbour: return cells_.neighbour(Neighbour::of(instruction.slot()));
         case Op::link_flow:
         case Op::link_squares:
+        case Op::link_weighted:
         case Op::gradient_x:
         case Op::gradient_y:
         case Op::gradient_z: return cells_.link_sum(instruction);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <optional>
 #include <utility>
+#include <variant>
 
 namespace cascade::wasm {
 namespace {
@@ -20,11 +21,15 @@ static_assert(1 << slice_shift == slice_cells);
 using SumKey = std::pair<Op, std::uint64_t>;
 SumKey key_of(const Instruction& instruction) { return {instruction.op, instruction.payload}; }
 
-Parameter weights_of(Op op) {
-    switch (op) {
+/// The array of numbers by which a sum multiplies its differences: a parameter, or the plane of a
+/// field that has a number for each link.
+using Weights = std::variant<Parameter, FieldSlot>;
+Weights weights_of(const SumKey& key) {
+    switch (key.first) {
         case Op::gradient_x: return Parameter::gradient_x;
         case Op::gradient_y: return Parameter::gradient_y;
         case Op::gradient_z: return Parameter::gradient_z;
+        case Op::link_weighted: return Flow::with(key.second).factor;
         default: return Parameter::weights;
     }
 }
@@ -53,7 +58,7 @@ private:
     Local sum(const SumKey& key) const { return vectors_.at(vector_).sums.at(key); }
     void begin_sums(Vector& vector);
     void find_links();
-    Local address(Parameter array, Local element, int shift);
+    Local address(Weights array, Local element, int shift);
     void begin_entry();
     void end_vector_of_entry();
     void add_entry();
@@ -64,7 +69,7 @@ private:
     Local own(FieldSlot slot) const { return vectors_.at(vector_).own.at(slot); }
     Local at_targets(FieldSlot slot);
     Local difference(FieldSlot slot);
-    Local factors(Parameter array);
+    Local factors(Weights array);
 
     Code& links() { return function_.at(LoopLevel::link); }
     Arithmetic arithmetic_of_links() { return {function_, LoopLevel::link, is_exact_}; }
@@ -87,7 +92,7 @@ private:
     Local base_at_{}, bases_end_{}, offsets_at_{}, filled_at_{};
     Local lane_{};  ///< The lane, in its slice, of the group's first cell.
     Local link_{};  ///< The index of the first link of that cell.
-    std::map<Parameter, Local> factors_at_;
+    std::map<Weights, Local> factors_at_;
     // Locals of the entry.
     std::vector<Local> of_entry_;
     Local base_{};  ///< The position from which offsets are counted, in bytes from cell (0, 0).
@@ -96,7 +101,7 @@ private:
     std::vector<Local> targets_;  ///< For each lane, the distance in bytes from `base_`.
     std::optional<Local> is_link_;
     LocalBySlot fields_, operands_, differences_;
-    std::map<Parameter, Local> factors_;
+    std::map<Weights, Local> factors_;
 };
 
 void LinkedCells::begin_group(int vectors) {
@@ -110,7 +115,7 @@ void LinkedCells::begin_group(int vectors) {
     }
     find_links();
     for (const auto& [key, sum] : vectors_.at(0).sums) {
-        const Parameter array = weights_of(key.first);
+        const Weights array = weights_of(key);
         if (factors_at_.contains(array)) continue;
         factors_at_[array] = address(array, link_, function_.number_shift());
     }
@@ -180,8 +185,10 @@ void LinkedCells::find_links() {
 }
 
 /// The address of an element of an array whose elements have 2^shift bytes.
-Local LinkedCells::address(Parameter array, Local element, int shift) {
-    code().get(local_of(array));
+Local LinkedCells::address(Weights array, Local element, int shift) {
+    const auto* const slot = std::get_if<FieldSlot>(&array);
+    code().get(slot != nullptr ? plane(Parameter::fields, slot->index())
+                               : local_of(std::get<Parameter>(array)));
     code().get(element);
     code().integer(shift);
     code().write(Plain::shift_left);
@@ -296,7 +303,7 @@ Local LinkedCells::is_link() {
 void LinkedCells::push_term(const SumKey& key) {
     const auto [op, payload] = key;
     const Flow flow = Flow::with(payload);
-    links().get(factors(weights_of(op)));
+    links().get(factors(weights_of(key)));
     if (op == Op::link_flow) {
         links().get(at_targets(flow.factor));
         links().get(own(flow.factor));
@@ -366,11 +373,14 @@ Local LinkedCells::difference(FieldSlot slot) {
     return known->second;
 }
 
-Local LinkedCells::factors(Parameter array) {
+Local LinkedCells::factors(Weights array) {
     const auto [known, is_new] = factors_.try_emplace(array);
     if (is_new) {
+        // Addresses of planes are reduced by pad_bytes().
+        const bool is_plane = std::holds_alternative<FieldSlot>(array);
+        const auto offset = static_cast<std::uint32_t>(vector_ * Code::vector_bytes);
         links().get(factors_at_.at(array));
-        links().access(Whole::load, static_cast<std::uint32_t>(vector_ * Code::vector_bytes));
+        links().access(Whole::load, offset + (is_plane ? pad_bytes() : 0));
         arithmetic_of_links().flush();
         known->second = keep_in_entry();
     }

@@ -179,7 +179,14 @@ PassContext context_of_start(const Program& program, std::uint32_t stage) {
 }
 
 PassContext context_of_steps(const Program& program, std::uint32_t stage) {
-    return {program, stage, Extent::domain, program.domain.fast};
+    return {program, stage, Extent::domain, program.domain.fast, false, true};
+}
+
+bool changes_by_itself(const Node& node, const PassContext& context) {
+    if (const auto* item = node.as<ItemId>()) {
+        return context.program.system_of(context.stage).is_species(*item);
+    }
+    return node.is(Builtin::t) || node.is(Builtin::step) || is_draw(node);
 }
 
 Expressions GraphPass::run() {

@@ -40,6 +40,7 @@ struct PassContext {
     bool has_fewer_roundings = false;  ///< True for steps with --fast.
     bool is_start = false;  ///< Whether these are starting values. They are computed before there
                             ///< are values at borders.
+    bool is_step = false;   ///< Whether these are rates. They can read step-invariants.
 
     /// Whether the cells crawl.
     bool is_tissue() const {
@@ -114,6 +115,10 @@ Expressions fuse_products(const Expressions& from, const PassContext& context);
 
 /// Finds the nodes that are the same in all cells.
 IdVector<NodeId, bool> uniform_nodes(const ExpressionGraph& graph, const PassContext& context);
+
+/// Whether a node may differ from step to step even if its operands do not. Parameters keep their
+/// starting values, and earlier stages have ended.
+bool changes_by_itself(const Node& node, const PassContext& context);
 
 /// Turns `value`, a derivative along the outward unit normal of a side, into the difference between
 /// the cells on both sides of the face. On grids without a surface the difference equals the

@@ -33,6 +33,9 @@ StepGraph::StepGraph(const Program& program, std::uint32_t stage, const PlanOpti
         for (std::size_t k = 0; k < derivatives.size(); ++k) row.push_back(*next++);
     }
     if (options.keeps_step_invariants) step_invariants = step_invariant_nodes(graph, roots);
+    const std::vector<NodeId> weights = tensor_weight_nodes(graph, roots);
+    step_invariants.insert(step_invariants.end(), weights.begin(), weights.end());
+    tensor_weights = static_cast<std::uint32_t>(weights.size());
 }
 
 namespace {
@@ -106,17 +109,24 @@ StepPlan plan_rates(const Program& program, std::uint32_t stage, const PlanOptio
 StepPlan plan_step_invariants(const Program& program, std::uint32_t stage,
                               const PlanOptions& options) {
     const StepGraph step(program, stage, options);
-    PlanBuilder builder({step.graph, step.step_invariants, options, true});
-    for (std::size_t k = 0; k < step.step_invariants.size(); ++k) {
-        const std::string& name = step.graph.name(step.step_invariants[k]);
+    std::vector<NodeId> wanted(step.step_invariants.begin(),
+                               step.step_invariants.end() - step.tensor_weights);
+    for (std::size_t k = wanted.size(); k < step.step_invariants.size(); ++k) {
+        const auto operands = step.graph[step.step_invariants[k]].reads();
+        wanted.insert(wanted.end(), operands.begin(), operands.end());
+    }
+    PlanBuilder builder({step.graph, wanted, options, true});
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+        const std::string& name = step.graph.name(wanted[k]);
         builder.result(name.empty() ? fmt::format("(step-invariant {})", k) : name,
-                       builder.value(step.step_invariants[k])[0]);
+                       builder.value(wanted[k])[0]);
     }
     StepPlan plan = std::move(builder).finish();
+    plan.tensor_weights = step.tensor_weights;
     for (PassTarget& target : plan.passes.back().targets) {
         const auto* const result = std::get_if<ResultId>(&target.id);
         if (result == nullptr) continue;
-        const NodeId node = step.step_invariants[result->index()];
+        const NodeId node = wanted[result->index()];
         target.is_uniform = step.graph.is_uniform(node);
         target.boundary = step.graph.boundary(node);
     }

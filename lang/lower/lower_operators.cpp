@@ -89,6 +89,9 @@ ValueId Stencils::over_links(const Node& node) {
     }
     CHECK(node.function == Function::lap, "lowering: other operators are refused on a model");
     if (node.operand_count == 1) return builder_.laplacian(slot);
+    if (graph_[node.operands[0]].calls(Function::tensor_weights)) {
+        return builder_.link_weighted({slot_of_plane(node.operands[0]), slot});
+    }
     return scaled(builder_.link_flow({slot_of_plane(node.operands[0]), slot}), 0.5);
 }
 

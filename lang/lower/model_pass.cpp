@@ -7,11 +7,13 @@
 // e_i). A vector given by components is such a sum, too: vx grad(x) + vy grad(y) + vz grad(z). The
 // flow of this sum through a link is the mean of the vectors in the two cells, in the direction of
 // the straight line between the cells. A tensor times a vector is the sum of a part that is a
-// multiple of the vector and a part that is computed by components. spec/models.md has the
-// formulas.
+// multiple of the vector and a part that is computed by components. But if the tensor does not
+// change and is multiplied by the gradient of a number that does, rates are sums with weights of
+// links that are computed once: lap(tensor_weights(…), e). spec/models.md has the formulas.
 #include "lang/lower/graph_passes.h"
 
 #include "core/check.h"
+#include "lang/program/calls.h"
 #include "lang/program/field_vectors.h"
 #include "lang/program/models.h"
 #include "lang/program/vector_functions.h"
@@ -20,6 +22,7 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <unordered_map>
 #include <utility>
 
 namespace cascade::lowering {
@@ -27,11 +30,32 @@ namespace cascade::lowering {
 namespace {
 
 class ModelOperators : public GraphPass {
-    using GraphPass::GraphPass;
+public:
+    ModelOperators(const Expressions& from, const PassContext& context)
+        : GraphPass(from, context), is_uniform_(uniform_nodes(from.graph, context)) {
+        can_weigh_ = context.is_step &&
+                     context.program.domain.model->laplacian == ModelLaplacian::finite_volumes;
+        for (const Node& node : from.graph.nodes()) {
+            bool changes = changes_by_itself(node, context);
+            for (const NodeId operand : node.reads()) changes = changes || changes_[operand];
+            changes_.push_back(changes);
+            // The plans of a constraint read no step-invariants of the rates.
+            if (solved_constraint(node)) can_weigh_ = false;
+        }
+    }
 
-    /// A vector as a sum of gradients of numbers, each multiplied by a number.
-    using Gradients = std::vector<std::pair<Term, Term>>;  ///< The number whose gradient it is,
-                                                           ///< then the factor.
+private:
+    /// A gradient multiplied by a number, and before that by a tensor if there is one.
+    struct Gradient {
+        Term of;  ///< The number whose gradient it is.
+        Term factor;
+        bool changes = true;  ///< Whether `of` may differ from step to step.
+        /// A tensor that does not change, of the new graph. The factor is then the same in all
+        /// cells.
+        std::optional<NodeId> tensor = {};
+    };
+    /// A vector as a sum of gradients.
+    using Gradients = std::vector<Gradient>;
 
     static constexpr std::array places{ModelPlane::place_x, ModelPlane::place_y,
                                        ModelPlane::place_z};
@@ -42,9 +66,15 @@ class ModelOperators : public GraphPass {
         ModelOperators& pass;
 
         const Gradients& of(NodeId vector) const { return pass.gradients_.at(vector); }
+        /// The vector in a form in which it can be multiplied by a number.
+        Gradients before(NodeId by, NodeId vector) const {
+            return pass.is_uniform_[by] ? of(vector) : pass.without_tensors(of(vector));
+        }
         Term number(NodeId old) const { return pass.term(pass.image(old)); }
 
-        Gradients gradient(NodeId of) const { return {{number(of), pass.leaf(1.0)}}; }
+        Gradients gradient(NodeId of) const {
+            return {{number(of), pass.leaf(1.0), pass.changes_[of]}};
+        }
         Gradients components(std::span<const NodeId> each) const {
             std::vector<Term> parts;
             for (const NodeId part : each) parts.push_back(number(part));
@@ -61,38 +91,72 @@ class ModelOperators : public GraphPass {
             return sum;
         }
         Gradients quotient(NodeId vector, NodeId by) const {
-            return with_factors(of(vector), [&](Term factor) { return factor / number(by); });
+            return with_factors(before(by, vector),
+                                [&](Term factor) { return factor / number(by); });
         }
         Gradients product(NodeId a, NodeId b, bool is_vector_first) const {
-            const Term by = number(is_vector_first ? b : a);
-            return with_factors(of(is_vector_first ? a : b),
+            const NodeId factor_of = is_vector_first ? b : a;
+            const Term by = number(factor_of);
+            return with_factors(before(factor_of, is_vector_first ? a : b),
                                 [&](Term factor) { return factor.is(1) ? by : by * factor; });
         }
         Gradients turned(NodeId tensor, NodeId vector) const {
-            return pass.turned(pass.image(tensor), of(vector));
+            if (pass.can_weigh(tensor, of(vector))) {
+                Gradients weighed = of(vector);
+                for (Gradient& each : weighed) each.tensor = pass.image(tensor);
+                return weighed;
+            }
+            return pass.turned(pass.image(tensor), pass.without_tensors(of(vector)));
         }
     };
 
     template <typename Change>
     static Gradients with_factors(Gradients gradients, const Change& change) {
-        for (auto& [of, factor] : gradients) factor = change(factor);
+        for (Gradient& each : gradients) each.factor = change(each.factor);
         return gradients;
+    }
+
+    /// Whether the rates of a tensor times a vector can have weights of links that are computed
+    /// once.
+    bool can_weigh(NodeId tensor, const Gradients& vector) const {
+        const auto operands = old()[tensor].reads();
+        return can_weigh_ &&
+               std::ranges::none_of(operands, [&](NodeId id) { return changes_[id]; }) &&
+               std::ranges::all_of(vector, [&](const Gradient& each) {
+                   return each.changes && each.factor.is(1) && !each.tensor;
+               });
+    }
+
+    /// Multiplies by tensors in the cells.
+    Gradients without_tensors(const Gradients& vector) {
+        Gradients sum;
+        for (const Gradient& each : vector) {
+            if (!each.tensor) {
+                add_to(sum, each, Function::add);
+                continue;
+            }
+            for (Gradient part : turned(*each.tensor, {{each.of, leaf(1.0), each.changes}})) {
+                if (!each.factor.is(1)) part.factor = each.factor * part.factor;
+                add_to(sum, part, Function::add);
+            }
+        }
+        return sum;
     }
 
     Gradients of_components(std::span<const Term> components) {
         Gradients sum;
         for (std::size_t k = 0; k < components.size(); ++k) {
-            if (!components[k].is(0)) sum.emplace_back(leaf(places[k]), components[k]);
+            if (!components[k].is(0)) sum.push_back({leaf(places[k]), components[k], false});
         }
         return sum;
     }
 
     static void add_to(std::optional<Term>& sum, Term term) { sum = sum ? *sum + term : term; }
 
-    /// The components of a vector in the cell itself.
+    /// The components of a vector without tensors in the cell itself.
     TermVector in_cell(const Gradients& gradients) {
         std::array<std::optional<Term>, 3> sums;
-        for (const auto& [of, factor] : gradients) {
+        for (const auto& [of, factor, changes, no_tensor] : gradients) {
             const auto* const plane = graph()[of].as<ModelPlane>();
             const auto place = plane ? std::ranges::find(places, *plane) : places.end();
             if (place != places.end()) {
@@ -108,7 +172,7 @@ class ModelOperators : public GraphPass {
         return {sums[0].value_or(zero), sums[1].value_or(zero), sums[2].value_or(zero)};
     }
 
-    /// A tensor multiplied by a vector.
+    /// A tensor multiplied by a vector without tensors.
     Gradients turned(NodeId tensor, Gradients vector) {
         const TermVector v = in_cell(vector);
         const ModelTensor by = model_tensor(graph(), tensor);
@@ -120,25 +184,46 @@ class ModelOperators : public GraphPass {
             const Term rest = by.rest * v[k];
             parts[k] = rest + size * by.t[k];
         }
-        for (auto& [of, factor] : vector) {
-            factor = factor.is(1) ? by.low : by.low * factor;
-        }
-        for (const auto& term : of_components(parts)) add_to(vector, term, Function::add);
+        vector = with_factors(std::move(vector),
+                              [&](Term factor) { return factor.is(1) ? by.low : by.low * factor; });
+        for (const Gradient& each : of_components(parts)) add_to(vector, each, Function::add);
         return vector;
     }
 
-    /// Adds a term to a sum, or subtracts it. Gradients of the same number are merged.
-    void add_to(Gradients& sum, const std::pair<Term, Term>& term, Function function) {
-        const auto known =
-            std::ranges::find(sum, term.first.id, [](const auto& each) { return each.first.id; });
-        const bool is_known = known != sum.end();
-        if (is_known) known->second = Term::call(function, known->second, term.second);
-        else sum.emplace_back(term.first, function == Function::add ? term.second : -term.second);
+    /// Adds a gradient to a sum, or subtracts it. Gradients of the same number are merged.
+    void add_to(Gradients& sum, const Gradient& add, Function function) {
+        const auto known = std::ranges::find_if(sum, [&](const Gradient& each) {
+            return each.of == add.of && each.tensor == add.tensor;
+        });
+        if (known != sum.end()) {
+            known->factor = Term::call(function, known->factor, add.factor);
+            return;
+        }
+        sum.push_back(add);
+        if (function == Function::subtract) sum.back().factor = -add.factor;
+    }
+
+    /// The weights of links by tensor(a1, a2, theta). Its matrix is γ + v vᵀ, where γ is the
+    /// smaller of a1² and a2², and v points in the direction of the larger.
+    Term weights_of(NodeId tensor) {
+        const auto operand = [&](std::size_t n) { return term(graph()[tensor].operands[n]); };
+        const Term first = square(operand(0)), second = square(operand(1)), theta = operand(2);
+        const Term low = min(first, second), size = sqrt(abs(first - second));
+        const Term is_along = second < first, cosine = cos(theta), sine = sin(theta);
+        const Term right = if_(is_along, cosine, -sine), down = if_(is_along, sine, cosine);
+        return tensor_weights(low, size * right, size * down);
     }
 
     NodeId divergence(const Gradients& gradients) {
         std::optional<Term> sum;
-        for (const auto& [of, factor] : gradients) add_to(sum, lap(factor, of));
+        for (const Gradient& each : gradients) {
+            if (!each.tensor) {
+                add_to(sum, lap(each.factor, each.of));
+                continue;
+            }
+            const Term spread = lap(weights_of(*each.tensor), each.of);
+            add_to(sum, each.factor.is(1) ? spread : each.factor * spread);
+        }
         return sum ? *sum : leaf(0.0);
     }
 
@@ -155,7 +240,10 @@ class ModelOperators : public GraphPass {
         return keep(node);
     }
 
-    std::unordered_map<NodeId, Gradients> gradients_;  ///< For each vector of the old graph.
+    // Facts about nodes of the old graph.
+    IdVector<NodeId, bool> is_uniform_, changes_;      ///< `changes_`: from step to step.
+    std::unordered_map<NodeId, Gradients> gradients_;  ///< For each vector.
+    bool can_weigh_ = false;  ///< Whether tensors that do not change are weights of links.
 };
 
 }  // namespace

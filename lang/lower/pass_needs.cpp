@@ -67,7 +67,7 @@ private:
     void need_of_stencil(const Node& node) {
         const NodeId last = node.reads().back();
         for (const NodeId operand : node.reads().first(node.operand_count - 1u)) {
-            need(operand, own_cell);
+            if (!graph_[operand].calls(Function::tensor_weights)) need(operand, own_cell);
         }
         if (node.calls(Function::theirs)) {
             if (graph_.is_uniform(last)) need(last, own_cell);

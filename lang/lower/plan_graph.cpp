@@ -73,16 +73,12 @@ PlanGraph::PlanGraph(Expressions expressions, const PassContext& context, Draws 
     names_.insert(expressions_.names.begin(), expressions_.names.end());
 }
 
-/// Whether the node has the same value in all steps. Parameters keep their starting values, and
-/// earlier stages have ended. But cells that crawl change their positions in each step, and their
-/// number changes.
+/// Whether the node has the same value in all steps. Cells that crawl change their positions in
+/// each step, and their number changes.
 bool PlanGraph::is_step_invariant(const Node& node, bool is_uniform, Draws draws) const {
     if (context_.is_tissue() && !is_uniform) return false;
-    if (const auto* item = node.as<ItemId>()) {
-        return !program().system_of(stage()).is_species(*item);
-    }
-    if (node.is(Builtin::t) || node.is(Builtin::step)) return false;
-    if (is_draw(node) && draws == Draws::every_step) return false;
+    const bool is_drawn_once = is_draw(node) && draws == Draws::once;
+    if (changes_by_itself(node, context_) && !is_drawn_once) return false;
     return std::ranges::all_of(node.reads(),
                                [&](NodeId operand) { return facts_[operand].is_step_invariant; });
 }

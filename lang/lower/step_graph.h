@@ -17,6 +17,7 @@ struct StepGraph {
     /// species j in the same cell. Empty unless the solver needs derivatives.
     IdVector<SpeciesId, std::vector<NodeId>> derivatives;
     std::vector<NodeId> step_invariants;  ///< Nodes that are computed once per stage.
+    std::uint32_t tensor_weights = 0;  ///< How many of them, the last ones, are tensor_weights(…).
 
     StepGraph(const Program& program, std::uint32_t stage, const PlanOptions& options);
 };

@@ -15,9 +15,14 @@ namespace cascade::lowering {
 
 namespace {
 
+bool has_tensor_weights(const PlanGraph& graph, NodeId id) {
+    return graph[id].calls(Function::tensor_weights);
+}
+
 /// Whether computing the node takes operations in each cell that a plane could save.
 bool is_costly(const PlanGraph& graph, NodeId id) {
-    return graph.is_step_invariant(id) && !graph.is_uniform(id) && !graph.is_plane(id);
+    return graph.is_step_invariant(id) && !graph.is_uniform(id) && !graph.is_plane(id) &&
+           !has_tensor_weights(graph, id);
 }
 
 /// On every path from a root to its operands, the first node for which is_chosen(node) holds.
@@ -31,7 +36,7 @@ std::vector<NodeId> first_reached(const PlanGraph& graph, std::span<const NodeId
         if (!needed[id]) continue;
         if (is_chosen(id)) {
             nodes.push_back(id);
-        } else {
+        } else if (!has_tensor_weights(graph, id)) {
             for (const NodeId operand : operands_of(graph[id])) needed[operand] = true;
         }
     }
@@ -77,6 +82,7 @@ private:
     /// Marks the operands of a node that is computed in every step. The operands are needed in the
     /// cell itself or at its neighbours.
     void need_operands(NodeId id) {
+        if (has_tensor_weights(graph_, id)) return;
         const Node& node = graph_[id];
         const bool is_operator = node.is<Call>() && !graph_.is_uniform(id);
         const bool at_faces = is_operator && node.type == ValueType::vector;
@@ -125,6 +131,10 @@ private:
 
 std::vector<NodeId> step_invariant_nodes(const PlanGraph& graph, std::span<const NodeId> roots) {
     return Chooser(graph, roots).choose();
+}
+
+std::vector<NodeId> tensor_weight_nodes(const PlanGraph& graph, std::span<const NodeId> roots) {
+    return first_reached(graph, roots, [&](NodeId id) { return has_tensor_weights(graph, id); });
 }
 
 std::vector<NodeId> largest_step_invariants(const PlanGraph& graph, std::span<const NodeId> roots) {

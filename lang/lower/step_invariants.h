@@ -17,6 +17,10 @@ namespace cascade::lowering {
 /// reading of these planes. `roots` are the nodes needed in every step.
 std::vector<NodeId> step_invariant_nodes(const PlanGraph& graph, std::span<const NodeId> roots);
 
+/// The nodes tensor_weights(…) that `roots` need. A stage always computes them before its first
+/// step, because no kernel can.
+std::vector<NodeId> tensor_weight_nodes(const PlanGraph& graph, std::span<const NodeId> roots);
+
 /// The step-invariant nodes that are read by nodes that change during the stage. Leaves out planes,
 /// and nodes that are the same in all cells unless they are aggregates. If the values of all these
 /// nodes are known, no other node depends on position.

@@ -95,8 +95,12 @@ struct StepPlan {
     std::uint32_t temporaries = 0;  ///< The number of planes that passes write for later passes.
     std::uint32_t aggregates = 0;
     std::uint32_t step_invariants = 0;  ///< The number of step-invariants that the plan may read.
-    bool is_uniform = false;            ///< Whether every result is the same in all cells.
-    std::string words;                  ///< The passes and the reasons for them, if requested.
+    /// In a plan of step-invariants: how many of them are weights of links by tensors. These come
+    /// last. Instead of each, the plan has three results, from which its plane is computed
+    /// (TensorLinks::weights): γ and the two components of v.
+    std::uint32_t tensor_weights = 0;
+    bool is_uniform = false;  ///< Whether every result is the same in all cells.
+    std::string words;        ///< The passes and the reasons for them, if requested.
 };
 
 /// The choice of operands of operators that are written to a plane (materialised). All others are

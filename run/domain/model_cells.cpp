@@ -12,6 +12,7 @@
 #include "run/domain/carried_model.h"
 #include "run/domain/cell_planes.h"
 #include "run/domain/spread_cells.h"
+#include "run/domain/tensor_links.h"
 #include "run/domain/volume_surface.h"
 #include "surface/cell_gradient.h"
 
@@ -89,6 +90,8 @@ ModelCells::ModelCells(SurfaceMesh upright, std::size_t count, Make make)
       grid_(rows_of_cells(static_cast<std::int64_t>(count))),
       make_(std::move(make)) {}
 
+ModelCells::~ModelCells() = default;
+
 const SpreadCells& ModelCells::spread() const {
     std::call_once(is_spread_, [&] { spread_ = make_(*this); });
     return spread_;
@@ -96,14 +99,24 @@ const SpreadCells& ModelCells::spread() const {
 
 const Links& ModelCells::links_with_gradients() const {
     std::call_once(has_gradients_, [&] {
-        Team team(hardware_threads());
-        const SurfaceCells& cells = spread().cells;
-        std::vector<Vector3d> gradients = cell_gradient_weights(mesh, cells, team, never_cancelled);
-        for (Vector3d& gradient : gradients) gradient = gradient * spread().unit;
-        links_with_gradients_ = spread().links.with_gradients(gradients, cells.ends,
-                                                              PlaneLayout(grid()), spread().order);
+        links_with_gradients_ =
+            spread().links.with_gradients(gradient_weights(), spread().cells.ends,
+                                          PlaneLayout(grid()), spread().order);
     });
     return links_with_gradients_;
+}
+
+std::vector<Vector3d> ModelCells::gradient_weights() const {
+    Team team(hardware_threads());
+    std::vector<Vector3d> gradients =
+        cell_gradient_weights(mesh, spread().cells, team, never_cancelled);
+    for (Vector3d& gradient : gradients) gradient = gradient * spread().unit;
+    return gradients;
+}
+
+const TensorLinks& ModelCells::tensor_links() const {
+    std::call_once(has_tensors_, [&] { tensor_links_ = std::make_unique<TensorLinks>(*this); });
+    return *tensor_links_;
 }
 
 SurfaceMesh ModelCells::mesh_of_file() const {

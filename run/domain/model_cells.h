@@ -31,9 +31,12 @@ struct SpreadCells : ModelFacts {
     std::vector<std::uint32_t> order;
     Mask inside;                ///< 0 in the padding of the last row, else 1.
     double unit = 1;            ///< The script's unit of length, in lengths of the model.
+    bool are_spread = true;     ///< False for faces and vertices of the mesh.
     std::vector<Field> planes;  ///< Indexed by ModelPlane.
     Links links;  ///< Without the weights of gradients, because few scripts need them.
 };
+
+class TensorLinks;
 
 class ModelCells {
 public:
@@ -47,6 +50,7 @@ public:
 
     /// `make` makes the cells. It is called once, by the first call of spread().
     ModelCells(SurfaceMesh upright, std::size_t count, Make make);
+    ~ModelCells();
 
     /// The number of cells, which is known before they are made.
     std::size_t count() const { return count_; }
@@ -57,6 +61,10 @@ public:
     const SpreadCells& spread() const;
     /// The links with weights of gradients, computed by the first call. Throws std::bad_alloc.
     const Links& links_with_gradients() const;
+    /// The weights of gradients, one for each edge of the cells, in the script's unit of length.
+    std::vector<Vector3d> gradient_weights() const;
+    /// The links over which tensors diffuse, computed by the first call. Throws std::bad_alloc.
+    const TensorLinks& tensor_links() const;
 
     /// The cell at position k, counted row by row. k must be less than the number of cells.
     std::uint32_t cell_at(std::int64_t k) const {
@@ -70,9 +78,10 @@ private:
     std::size_t count_;
     Grid grid_;
     Make make_;
-    mutable std::once_flag is_spread_, has_gradients_;
+    mutable std::once_flag is_spread_, has_gradients_, has_tensors_;
     mutable SpreadCells spread_;
     mutable Links links_with_gradients_;
+    mutable std::unique_ptr<TensorLinks> tensor_links_;
 };
 
 /// The files from which a model may be read.

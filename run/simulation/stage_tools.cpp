@@ -252,23 +252,7 @@ StageTools stage_tools(const StageView& view, Compile steps) {
 StepInvariants find_step_invariants(const StageView& view) {
     const Environment& here = view.environment();
     const TimeAccount::Scope spent(here.account, Spent::starting);
-    const StepPlan& once = here.plans.step_invariants(view.number());
-    StepInvariants found(once.result_count);
-    if (found.empty()) return found;
-    std::vector<Field> planes = view.evaluate(once);
-    for (const PassTarget& target : once.passes.back().targets) {
-        const auto* const result = std::get_if<ResultId>(&target.id);
-        if (result == nullptr) continue;
-        Field& plane = planes[result->index()];
-        StepInvariant& part = found[StepInvariantId(result->index())];
-        part.boundary = target.boundary;
-        if (target.is_uniform) {
-            part.number = plane.number_at(0, 0);
-        } else {
-            part.plane = std::move(plane);
-        }
-    }
-    return found;
+    return view.step_invariants(here.plans.step_invariants(view.number()));
 }
 
 StepWork step_work(Simulation& simulation, std::uint32_t k) {

@@ -3,6 +3,7 @@
 
 #include "lang/calculus/derivative.h"
 #include "run/domain/domain_mask.h"
+#include "run/domain/tensor_links.h"
 #include "run/simulation/tissue_stage.h"
 #include "run/stage/plan_runner.h"
 
@@ -57,7 +58,49 @@ std::vector<Field> StageView::evaluate(const Formula& formula) const {
     return evaluate(formulas);
 }
 
-std::vector<Field> StageView::rates() const { return evaluate(plan_rates(program(), number_)); }
+StepInvariants StageView::step_invariants(const StepPlan& once) const {
+    // Weights by tensors have three results each, after all others.
+    const std::uint32_t others = once.result_count - 3 * once.tensor_weights;
+    StepInvariants found(others + once.tensor_weights);
+    if (found.empty()) return found;
+    std::vector<Field> planes = evaluate(once);
+    for (std::uint32_t k = 0; k < once.tensor_weights; ++k) {
+        const Field* const operands = &planes[others + 3 * k];
+        const TensorLinks& links = environment_->model->cells->tensor_links();
+        found[StepInvariantId(others + k)].plane =
+            links.weights(operands[0], operands[1], operands[2]);
+    }
+    for (const PassTarget& target : once.passes.back().targets) {
+        const auto* const result = std::get_if<ResultId>(&target.id);
+        if (result == nullptr || result->index() >= others) continue;
+        Field& plane = planes[result->index()];
+        StepInvariant& part = found[StepInvariantId(result->index())];
+        part.boundary = target.boundary;
+        if (target.is_uniform) {
+            part.number = plane.number_at(0, 0);
+        } else {
+            part.plane = std::move(plane);
+        }
+    }
+    return found;
+}
+
+/// Calls use(view, plan) with a plan of the rates and a view that has the step-invariants that the
+/// plan reads. They are computed anew, because rates are also needed before a stage has its own.
+template <typename Use>
+auto StageView::with_rates(const Use& use) const {
+    const StepPlan plan = plan_rates(program(), number_);
+    if (plan.step_invariants == 0) return use(*this, plan);
+    const StepInvariants own = step_invariants(plan_step_invariants(program(), number_, {}));
+    StageView view = *this;
+    view.use(own);
+    return use(view, plan);
+}
+
+std::vector<Field> StageView::rates() const {
+    return with_rates(
+        [](const StageView& view, const StepPlan& plan) { return view.evaluate(plan); });
+}
 
 std::vector<Field> StageView::starting_species() const {
     const StepPlan& plan = environment_->plans.start(number_);
@@ -77,9 +120,10 @@ StabilityEstimate StageView::stability(std::span<const Field> species, const Com
     const DomainMask* inside = environment_->inside();
     const Mask still = inside != nullptr ? still_cells(*inside, frozen) : Mask();
     if (inside != nullptr) frozen = &still;
-    const StepProblem rates =
-        bind_plan(plan_rates(program(), number_), compile, context(), system(), number_);
-    return estimate_stability(rates, species, frozen, cancel);
+    return with_rates([&](const StageView& view, const StepPlan& plan) {
+        const StepProblem rates = bind_plan(plan, compile, view.context(), system(), number_);
+        return estimate_stability(rates, species, frozen, cancel);
+    });
 }
 
 bool StageView::is_frozen() const {

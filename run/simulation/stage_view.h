@@ -40,6 +40,8 @@ public:
     std::vector<Field> evaluate(const StepPlan& plan) const { return run(plan, {}); }
     std::vector<Field> evaluate(std::span<const Formula* const> formulas) const;
     std::vector<Field> evaluate(const Formula& formula) const;
+    /// Computes step-invariants by a plan of plan_step_invariants().
+    StepInvariants step_invariants(const StepPlan& once) const;
     /// The present rates of all species.
     std::vector<Field> rates() const;
     /// The starting values of all species, computed anew.
@@ -61,6 +63,8 @@ public:
 private:
     std::vector<Field> run(const StepPlan& plan, std::span<const Formula* const> formulas) const;
     const Field* species_alone(const Formula& formula) const;
+    template <typename Use>
+    auto with_rates(const Use& use) const;
 
     const Environment* environment_;
     std::span<const StageState> states_;

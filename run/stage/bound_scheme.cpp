@@ -64,11 +64,13 @@ StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
     whole.curve = scheme.curve;
     take_sides(whole, context, system, stage);
     std::vector<const Sweep*> sweeps;
+    std::vector<const StepPlan*> all;
     const auto add = [&](const StepPlan& plan, const SweepForm* form, const Sweep* sweep,
                          std::vector<double> read_at) {
         PlanBinder& binder =
             binders.emplace_back(plan, context, &system, stage, form, sweep, std::move(read_at));
         sweeps.push_back(sweep);
+        all.push_back(&plan);
         for (std::size_t k = 0; k < whole.species_needs_halo.size(); ++k) {
             if (binder.species_needs_halo()[k]) whole.species_needs_halo[k] = true;
         }
@@ -87,17 +89,13 @@ StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
         binders[n].set_halo_registers(with_halo);
         StepProblem part = binders[n].bind(compile);
         if (n == 0) first_passes = part.passes.size();
-        // Links that carry weights of gradients also serve plans that do not read gradients.
-        const bool is_on_model = context.model && !context.tissue;
-        if (whole.links == nullptr || !is_on_model ||
-            part.links != &context.model->spread().links) {
-            whole.links = part.links;
-        }
         whole.temporaries = std::max(whole.temporaries, part.temporaries);
         whole.aggregates = std::max(whole.aggregates, part.aggregates);
         if (sweeps[n] != nullptr) part.passes.front().filter = sweeps[n]->filter;
         for (StepProblem::Pass& pass : part.passes) whole.passes.push_back(std::move(pass));
     }
+    // Links with further weights also serve plans that do not read these.
+    whole.links = links_of(context, all);
     if (scheme.rate_registers) {
         const StepPlan& first = plans[scheme.sweeps[0].form];
         if (rates_go_on(first)) {

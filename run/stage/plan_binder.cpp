@@ -3,9 +3,11 @@
 
 #include "core/check.h"
 #include "core/overloaded.h"
+#include "run/domain/tensor_links.h"
 #include "run/stage/bind_convolution.h"
 
 #include <algorithm>
+#include <array>
 
 namespace cascade {
 
@@ -33,24 +35,26 @@ std::shared_ptr<const Field> areas_of_cells(const BindingContext& context) {
     return areas;
 }
 
-/// Whether a pass reads a component of a gradient on a model.
-bool reads_gradients(const Pass& pass) {
-    const auto& code = pass.bound.kernel->code;
-    return std::any_of(code.begin(), code.end(), [](const Instruction& instruction) {
-        const Op op = instruction.op;
-        return op == Op::gradient_x || op == Op::gradient_y || op == Op::gradient_z;
-    });
-}
+}  // namespace
 
-/// The links of cells that a plan reads; null on grids.
-const Links* links_of(const BindingContext& context, const StepPlan& plan) {
+const Links* links_of(const BindingContext& context, std::span<const StepPlan* const> plans) {
     if (context.tissue) return context.tissue->links;
     if (!context.grid.linked) return nullptr;
-    const bool reads = std::any_of(plan.passes.begin(), plan.passes.end(), reads_gradients);
-    return reads ? &context.model->links_with_gradients() : &context.model->spread().links;
+    bool has_gradients = false, has_tensors = false;
+    for (const StepPlan* const plan : plans) {
+        for (const Pass& pass : plan->passes) {
+            for (const Instruction& each : pass.bound.kernel->code) {
+                has_tensors = has_tensors || each.op == Op::link_weighted;
+                has_gradients = has_gradients || each.op == Op::gradient_x ||
+                                each.op == Op::gradient_y || each.op == Op::gradient_z;
+            }
+        }
+    }
+    const ModelCells& model = *context.model;
+    if (!has_tensors) return has_gradients ? &model.links_with_gradients() : &model.spread().links;
+    const TensorLinks& tensors = model.tensor_links();
+    return has_gradients ? &tensors.links_with_gradients() : &tensors.links();
 }
-
-}  // namespace
 
 std::int64_t cells_inside(const BindingContext& context) {
     if (context.tissue) return context.tissue->count;
@@ -95,7 +99,7 @@ StepProblem PlanBinder::bind(const Compile& compile) {
     problem_.grid = context_.grid;
     problem_.cells_inside = cells_inside(context_);
     problem_.precision = context_.precision;
-    problem_.links = links_of(context_, plan_);
+    problem_.links = links_of(context_, std::array{&plan_});
     problem_.temporaries = plan_.temporaries;
     problem_.aggregates = plan_.aggregates;
     if (keeps_results_) problem_.temporaries += plan_.result_count;

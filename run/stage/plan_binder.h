@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,9 @@ namespace cascade {
 
 /// The number of cells over which means are taken; 0: all cells.
 std::int64_t cells_inside(const BindingContext& context);
+
+/// The links of cells, with all weights that kernels of these plans read; null on grids.
+const Links* links_of(const BindingContext& context, std::span<const StepPlan* const> plans);
 
 /// Sets the rules at the sides for the steps of a stage. Marks no species as needing a halo.
 void take_sides(StepProblem& problem, const BindingContext& context, const System& system,

@@ -85,7 +85,21 @@ HostileInputs::HostileInputs(const CellKernel& kernel, const Grid& grid, std::ui
     const auto in_last_row =
         static_cast<std::int64_t>(stream.below(static_cast<std::uint64_t>(grid.width)));
     const auto cells = static_cast<std::size_t>(grid.cell_count() - in_last_row);
-    links_ = Links(random_links(cells, seed, 2), PlaneLayout(grid), precision_);
+    const LinkList list = random_links(cells, seed, 2);
+    links_ = Links(list, PlaneLayout(grid), precision_);
+    for (const Instruction& instruction : kernel.code) {
+        if (instruction.op != Op::link_weighted) continue;
+        std::vector<double> weights(list.neighbours.size());
+        with_number(precision_, [&](auto zero) {
+            using Number = decltype(zero);
+            for (double& weight : weights) {
+                weight = stream.chance(5) ? hostile_number<Number>(stream)
+                                          : ordinary_number<Number>(stream);
+            }
+        });
+        fields_[Flow::with(instruction.payload).factor.index()] =
+            links_.numbers_of(weights, list.ends, PlaneLayout(grid));
+    }
 }
 
 template <typename Number>

@@ -119,6 +119,12 @@ private:
                 const FieldSlot of = builder_.field_slot(fmt::format("f{}", which));
                 return keep(builder_.link_flow({factor, of}), false);
             }
+            case Op::link_weighted: {
+                if (!options_.links || !options_.link_planes) return keep(trouble(), true);
+                const FieldSlot weights = builder_.field_slot(fmt::format("w{}", which));
+                const FieldSlot of = builder_.field_slot(fmt::format("f{}", stream_.below(3)));
+                return keep(builder_.link_weighted({weights, of}), false);
+            }
             case Op::theirs: {
                 if (!options_.links) return keep(trouble(), true);
                 constexpr Op reductions[] = {Op::link_sum, Op::link_least, Op::link_greatest};
@@ -288,11 +294,12 @@ void OperationCounts::add(const CellKernel& kernel) {
     }
 }
 
-std::string OperationCounts::missing(bool links) const {
+std::string OperationCounts::missing(bool links, bool link_planes) const {
     std::string names;
     for (std::size_t k = 0; k < counts.size(); ++k) {
         const Op op = static_cast<Op>(k);
         const bool is_foreign = (op == Op::multiply_add && !has_multiply_add()) ||
+                                (op == Op::link_weighted && !link_planes) ||
                                 (links ? op == Op::neighbour
                                        : (is_link_sum(op) && op != Op::laplacian) ||
                                              is_link_reduction(op) || op == Op::theirs);

@@ -14,8 +14,9 @@ struct RandomKernelOptions {
     int operations = 40;  ///< The approximate number of instructions.
     int results = 4;
     Precision precision = Precision::single;
-    bool laplacians = true;  ///< Laplacians and values of neighbours.
-    bool links = false;      ///< For linked cells: sums over links instead of neighbours.
+    bool laplacians = true;   ///< Laplacians and values of neighbours.
+    bool links = false;       ///< For linked cells: sums over links instead of neighbours.
+    bool link_planes = true;  ///< Whether sums over links may read planes with a number for each.
     bool multiply_adds = has_multiply_add();
     int composed_percent = 5;  ///< Percentage of elementary functions, clamps and random numbers.
 };
@@ -31,8 +32,8 @@ struct OperationCounts {
 
     void add(const CellKernel& kernel);
     /// Names of the operations that never occurred in kernels for a grid, or for linked cells,
-    /// separated by spaces.
-    std::string missing(bool links = false) const;
+    /// separated by spaces. `link_planes` is that of RandomKernelOptions.
+    std::string missing(bool links = false, bool link_planes = true) const;
     /// A line for each operation with its count and name.
     std::string report() const;
 };

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstring>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace cascade::test {
@@ -50,6 +51,10 @@ public:
         const auto module = wasm_module(kernel, stencil, {recording_.is_exact});
         CHECK(module, "test: a kernel becomes a module");
         module_ = *module;
+        for (const Instruction& instruction : kernel.code) {
+            if (instruction.op == Op::link_weighted)
+                of_links_.insert(Flow::with(instruction.payload).factor.index());
+        }
         if (!recording_.is_in_place) return;
         const auto sole = sole_results(kernel);
         for (const FieldSlot slot : sole.ids()) {
@@ -78,8 +83,16 @@ private:
         const ColumnRange columns = cells.columns.within(layout.width);
         Image image;
         std::vector<std::uint32_t> fields, masks, places;
-        for (const Number* field : given.fields) {
-            fields.push_back(image.add(copy_of(field, layout)));
+        for (std::size_t k = 0; k < given.fields.size(); ++k) {
+            std::vector<Number> copy;
+            if (of_links_.contains(k)) {
+                const auto numbers = static_cast<std::ptrdiff_t>(first);
+                const auto links = static_cast<std::ptrdiff_t>(link_count(given.links, layout));
+                copy.assign(given.fields[k] - numbers, given.fields[k] + links);
+            } else {
+                copy = copy_of(given.fields[k], layout);
+            }
+            fields.push_back(image.add(copy));
         }
         for (const std::uint8_t* mask : given.masks) {
             masks.push_back(image.add(copy_of(mask, layout)));
@@ -186,6 +199,13 @@ private:
     }
 
     template <typename Number>
+    static std::size_t link_count(const LinkTable<Number>& links, const PlaneLayout& layout) {
+        constexpr std::int64_t cells = LinkTable<Number>::slice_cells;
+        const std::int64_t slices = (layout.width + cells - 1) / cells * layout.height;
+        return links.starts[slices] * static_cast<std::size_t>(cells);
+    }
+
+    template <typename Number>
     static std::vector<std::uint32_t> add_links(const LinkTable<Number>& links,
                                                 const PlaneLayout& layout, Image& image) {
         constexpr std::int64_t cells = LinkTable<Number>::slice_cells;
@@ -207,6 +227,7 @@ private:
     CaseFile& file_;
     KernelPointer interpreted_;
     std::vector<std::uint8_t> module_;
+    std::set<std::size_t> of_links_;  ///< The fields with a number for each link.
     std::map<std::size_t, FieldSlot> field_of_result_;
 };
 

@@ -37,7 +37,7 @@ std::string never_tried(const OperationCounts& on_grids, const OperationCounts& 
     const auto of = [](const std::string& missing) {
         return missing == "multiply_add" && !has_multiply_add() ? "" : missing;
     };
-    return of(on_grids.missing()) + of(on_links.missing(true));
+    return of(on_grids.missing()) + of(on_links.missing(true, false));
 }
 
 std::string add_kernels(CaseFile& file, const Amount& amount) {
@@ -50,6 +50,7 @@ std::string add_kernels(CaseFile& file, const Amount& amount) {
     const auto kernel = [&](const Grid& grid, int operations) {
         RandomKernelOptions options;
         options.links = grid.linked;
+        options.link_planes = false;  // All planes of a case have one size.
         options.operations = operations;
         options.results = 1 + operations / 5;  // So that few operations are left out.
         options.composed_percent = seed % 4 == 0 ? 4 : 0;

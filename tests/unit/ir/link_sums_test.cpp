@@ -12,15 +12,18 @@
 namespace cascade {
 namespace {
 
-constexpr std::array sums{Op::laplacian,  Op::link_squares, Op::link_flow,
-                          Op::gradient_x, Op::gradient_y,   Op::gradient_z};
+constexpr std::array sums{Op::laplacian,  Op::link_squares, Op::link_flow,    Op::gradient_x,
+                          Op::gradient_y, Op::gradient_z,   Op::link_weighted};
 
 CellKernel kernel_of_sums() {
     KernelBuilder builder;
-    const FieldSlot f = builder.field_slot("f"), s = builder.field_slot("s");
+    const FieldSlot f = builder.field_slot("f"), s = builder.field_slot("s"),
+                    w = builder.field_slot("w");
     for (const Op op : sums) {
-        builder.result(std::string(info(op).name),
-                       op == Op::link_flow ? builder.link_flow({s, f}) : builder.over_links(op, f));
+        builder.result(std::string(info(op).name), op == Op::link_flow ? builder.link_flow({s, f})
+                                                   : op == Op::link_weighted
+                                                       ? builder.link_weighted({w, f})
+                                                       : builder.over_links(op, f));
     }
     return std::move(builder).finish();
 }
@@ -52,7 +55,11 @@ TEST_P(LinkSums, AreThoseOfTheList) {
     for (std::size_t k = 0; k < sums.size(); ++k) {
         addresses.push_back(results.emplace_back(layout).origin());
     }
-    const std::array<const float*, 2> fields{f.origin(), s.origin()};
+    std::vector<double> numbers;
+    for (std::size_t k = 0; k < list.neighbours.size(); ++k)
+        numbers.push_back(static_cast<double>(random.below(1000)) / 100 - 5);
+    const Field weights = links.numbers_of(numbers, list.ends, layout);
+    const std::array<const float*, 3> fields{f.origin(), s.origin(), weights.origin()};
     const KernelPointer kernel = *make_interpreter()->compile(kernel_of_sums(), Stencil::linked);
     kernel->run({fields, {}, {}, addresses, layout, links.table<float>()}, {0, grid.height});
 
@@ -69,6 +76,7 @@ TEST_P(LinkSums, AreThoseOfTheList) {
             expected[3] += static_cast<float>(list.gradients[k].x) * difference;
             expected[4] += static_cast<float>(list.gradients[k].y) * difference;
             expected[5] += static_cast<float>(list.gradients[k].z) * difference;
+            expected[6] += static_cast<float>(numbers[k]) * difference;
         }
         for (std::size_t k = 0; k < sums.size(); ++k) {
             EXPECT_EQ(addresses[k][place(cell)], expected[k]) << info(sums[k]).name << cell;

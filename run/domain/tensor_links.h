@@ -1,0 +1,37 @@
+// The links over which tensors that do not change diffuse on a model.
+#pragma once
+
+#include "core/links.h"
+#include "core/plane.h"
+#include "run/domain/model_cells.h"
+#include "surface/tensor_conduction.h"
+
+#include <mutex>
+
+namespace cascade {
+
+class TensorLinks {
+public:
+    /// The model must outlive the links. Throws std::bad_alloc.
+    explicit TensorLinks(const ModelCells& model);
+
+    /// The links of the model's cells in the same order, then links of weight 0 to cells with which
+    /// a cell shares a triangle, but no edge.
+    const Links& links() const { return links_; }
+    /// The same with weights of gradients, computed by the first call. Throws std::bad_alloc.
+    const Links& links_with_gradients() const;
+    /// The plane of tensor_weights(low, right, down), which has a number for each link. The
+    /// operands have the cells in memory order. Throws std::bad_alloc.
+    Field weights(const Field& low, const Field& right, const Field& down) const;
+
+private:
+    std::vector<double> by_cell(const Field& plane) const;
+
+    const ModelCells& model_;
+    TensorConduction conduction_;
+    Links links_;
+    mutable std::once_flag has_gradients_;
+    mutable Links links_with_gradients_;
+};
+
+}  // namespace cascade
