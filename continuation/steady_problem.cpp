@@ -93,7 +93,8 @@ Result<SteadyProblem> SteadyProblem::create(const Program& program, std::uint32_
         problem.species_.push_back({item, {}, {}});
         changing.push_back(item);
     }
-    const lowering::PassContext context = lowering::context_of_steps(program, stage);
+    lowering::PassContext context = lowering::context_of_steps(program, stage);
+    context.is_step = false;  // No weights of links by tensors are computed for these expressions.
     const auto expressions_of = [&](const auto& add_roots) -> Result<FieldExpressions> {
         lowering::Expressions flat;
         Flattening flattening(flat.graph, FieldSpace::of(program, system));
