@@ -14,7 +14,8 @@ namespace cascade {
 
 class DevicePlanes {
 public:
-    /// There are three copies if `keeps` is true, else two.
+    /// If `keeps` is true, there are three copies of the species, because one may be kept
+    /// (CopyRoles::keep()). Otherwise there are two.
     DevicePlanes(OpenDevice& device, const PlaneLayout& layout, Precision precision,
                  std::size_t species, bool keeps);
 

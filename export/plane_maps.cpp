@@ -358,10 +358,10 @@ private:
     const PaintedCells& painted_;
     CellValues values_;
     std::int64_t samples_ = 2;  ///< Samples per texel along each axis.
-    /// The positions of a row's samples: the index, plus one, of the cell before each sample (which
-    /// may be −1), and the fraction of the way to the next cell.
+    /// For each sample of a row: 1 + the index of the cell before it. That index may be −1, so that
+    /// 0 is stored.
     std::vector<std::int32_t> before_;
-    std::vector<float> parts_;
+    std::vector<float> parts_;  ///< The fraction of the way from that cell to the next.
     MaterialMaps maps_;
 };
 

@@ -33,7 +33,7 @@ public:
 
     /// Adds a plane through `at`, with a unit normal.
     void add_plane(double weight, Vector3d at, Vector3d normal);
-    /// Adds a triangle with an area. `values` are the attributes of its corners.
+    /// Adds a triangle, whose area must not be 0. `values` are the attributes of its corners.
     void add_triangle(const std::array<Vector3d, 3>& corners,
                       const std::array<Attributes, 3>& values, std::size_t attributes);
     PointQuadric& operator+=(const PointQuadric& other);

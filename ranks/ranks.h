@@ -56,8 +56,8 @@ public:
     /// call this.
     void compare_loads();
 
-    /// Waits for all ranks, ends the communication, and returns the exit status of rank 0 on rank
-    /// 0, and 0 on all others.
+    /// Waits for all ranks and ends the communication. Returns `status` of rank 0 on rank 0, and 0
+    /// on every other rank.
     int finish(int status);
     /// Ends all ranks with this status, which must be from 1 to 255.
     void abort(int status) { messenger_.abort(status); }

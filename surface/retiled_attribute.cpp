@@ -1,5 +1,6 @@
-// Old points get the mean of the values around them, layer by layer, starting next to the new
-// points.
+// Only the new points have values at first. Each old point that remains gets the mean of its
+// neighbours that already have a value. This goes layer by layer, beginning with the old points
+// next to new points.
 #include "surface/retile.h"
 
 #include <algorithm>

@@ -40,8 +40,8 @@ std::vector<CellEvent> events_at(const TissueRules::Conditions& conditions,
                                  const StepMoment& moment, ValueRunner& runner,
                                  std::span<const std::uint32_t> among = {});
 
-/// Brings the lists of neighbours up to date for `state`. Called before values that read links are
-/// evaluated in this state.
+/// Brings the lists of neighbours up to date for `state`. Must be called before any formula that
+/// reads links is evaluated in this state.
 using Reach = std::function<Result<void>(const std::vector<Field>& state)>;
 
 /// The events within a step, sorted by moment, then by the cells' numbers. There is an event for

@@ -31,8 +31,8 @@ void add_stages(Workspace& work, const ast::Script& script,
                 const std::function<bool(std::string_view)>& has_cells);
 /// The stage blocks of a script, at most as many as a script may have.
 std::vector<const ast::Block*> stage_blocks(const ast::Script& script);
-/// Gives each stage its system if the system has been added. If `all_are_known`, all systems have
-/// been added, so names of other systems are reported.
+/// Gives each stage its system, if that system has been added already. `all_are_known` means that
+/// all systems have been added: a name that is not found is then reported as an error.
 void find_systems_of_stages(Workspace& work, const ast::Script& script, bool all_are_known);
 /// Checks all stages of a script, including overrides and the options that apply to all stages.
 void check_stages(Workspace& work, const ast::Script& script);

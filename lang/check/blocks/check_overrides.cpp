@@ -1,4 +1,5 @@
-// Overrides from outside the script: options, and the stages to which each --set applies.
+// Checks overrides from outside the script, that is, options, and finds the stages to which each
+// --set applies.
 #include "lang/check/blocks/check_blocks.h"
 #include "lang/check/expressions/setting_words.h"
 #include "lang/check/expressions/user_functions.h"

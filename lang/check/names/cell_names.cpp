@@ -1,5 +1,5 @@
-// Resolves names in systems of cells that crawl: values of cells, and names of other stages that
-// cells can read.
+// Resolves names in systems of crawling cells: the built-in values of a cell, and the quantities of
+// other stages that cells may read.
 #include "lang/check/names/check_names.h"
 #include "lang/program/stage_kinds.h"
 
