@@ -323,9 +323,9 @@ Result<std::string> parse_output_path(std::string_view text) {
                        "the endings of films are " + endings_of(FormatKind::film, "and"));
     }
     if (is_of_kind(text, FormatKind::volume)) {
-        return failure(fmt::format("'{}' is a volume, but -o writes only pictures of volumes",
-                                   text),
-                       fmt::format("use --volume {}", text));
+        return failure(
+            fmt::format("'{}' is a volume file, but -o can write a volume only as a picture", text),
+            fmt::format("use --volume {}", text));
     }
     const std::string ending = lower_ending(std::filesystem::path(text));
     if (ending == ".npy" || ending == ".csv" || ending == ".h5" || ending == ".txt") {

@@ -138,7 +138,8 @@ private:
         const auto last = plain_number(pair.name.substr(dots + 2, close - dots - 2));
         if (!first || !last || *first < 0 || *last > 1e6 || *last < *first + 3) {
             return fail(pair.place,
-                        "an array has whole numbers from 0 to 1,000,000, at least four");
+                        "the indices of an array must be whole numbers from 0 to 1,000,000, "
+                        "and there must be at least four of them");
         }
         const auto from = static_cast<long>(*first), to = static_cast<long>(*last);
         if (file_.has_arrays && (from != file_.first || to != file_.last)) {

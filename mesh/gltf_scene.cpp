@@ -95,8 +95,8 @@ Result<std::optional<MorphedAttribute>> MorphedAttribute::of(const tinygltf::Mod
         const auto shift = GltfNumbers::of(model, target->second);
         if (!shift || shift->count() < base->count()) {
             return failure(
-                "a morph target of the glTF file has too few points, or lies beyond "
-                "its data");
+                "a morph target of the glTF file has too few points, or its data lie beyond the "
+                "end of the file's data");
         }
         attribute.targets_.push_back({weights[k], *shift});
     }

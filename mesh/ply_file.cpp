@@ -132,9 +132,9 @@ public:
                 if (k == 0) begin(element);
                 if (!read_row(element)) {
                     return failure(
-                        fmt::format("the PLY file breaks off or has no number in its "
-                                    "element '{}' {}",
-                                    element.name, k));
+                        fmt::format("the PLY file ends too early, or a value is not a number, in "
+                                    "row {} (counted from 0) of its element '{}'",
+                                    k, element.name));
                 }
                 if (Result<void> used = use_row(element, k); !used) {
                     return tl::unexpected(used.error());

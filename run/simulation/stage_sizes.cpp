@@ -159,8 +159,8 @@ Result<void> find_sizes(Environment& here, Script& script, const SimulationOptio
         }
         if (control.note) {
             control.note(
-                fmt::format("stage '{}': its lengths are multiplied by {} for waves of {:g}, "
-                            "because its own waves are {:.3g} long",
+                fmt::format("stage '{}': all its lengths are multiplied by {}, so that its waves "
+                            "become {:g} long instead of {:.3g}",
                             stage.name, *factor, stage.size->wanted, stage.size->wanted / *factor));
         }
         scaled = with_lengths(scaled ? *scaled : *here.program, k, *factor);

@@ -199,7 +199,7 @@ void ExpressionChecker::check_shift(const Node& node) {
             continue;
         }
         return error(formula_.nodes[node.operands[k]].span,
-                     fmt::format("shifted takes whole numbers of cells from -{0} to {0}",
+                     fmt::format("'shifted' takes whole numbers of cells, from -{0} to {0}",
                                  farthest_shift),
                      "write columns first, then rows; both must be known before the run");
     }

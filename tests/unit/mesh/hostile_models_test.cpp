@@ -144,7 +144,7 @@ TEST(HostileModels, CountsThatLie) {
                 HasSubstr("too short for 2000000000 elements 'face'"));
     EXPECT_THAT(outcome_of_bytes(replaced(bytes_called("PLY text"), "3 0 2 1", "4000000 0 2 1"),
                                  "ply"),
-                HasSubstr("breaks off"));
+                HasSubstr("ends too early"));
     EXPECT_THAT(outcome_of_bytes(replaced(bytes_called("OFF"), "4 4 6", "4 4000000 6"), "off"),
                 HasSubstr("too short for 4 points and 4000000 faces"));
     EXPECT_THAT(outcome_of_bytes(replaced(bytes_called("OFF"), "3 0 2 1", "4000000000 0 2 1"),

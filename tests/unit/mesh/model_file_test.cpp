@@ -111,8 +111,9 @@ TEST(ModelFile, BrokenPlyFiles) {
     EXPECT_EQ(fault_with("9 4 0 1 2 3", "9 4 0 1 2 7"),
               "a face names point 7, but there are only 5");
     EXPECT_THAT(fault_with("9 4 0 1 2 3", "9 4 0 1 2 -3"), HasSubstr("not the number of a point"));
-    EXPECT_THAT(fault_with("9 4 0", "9 4000000000 0"), HasSubstr("breaks off"));
-    EXPECT_THAT(fault_with("1 0 0 0 2", "1 0 zero 0 2"), HasSubstr("'vertex' 1"));
+    EXPECT_THAT(fault_with("9 4 0", "9 4000000000 0"), HasSubstr("ends too early"));
+    EXPECT_THAT(fault_with("1 0 0 0 2", "1 0 zero 0 2"),
+                HasSubstr("row 1 (counted from 0) of its element 'vertex'"));
     EXPECT_EQ(fault_with("float x", "float w"), "the points of the PLY file lack x, y or z");
 }
 
