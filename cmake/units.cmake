@@ -12,11 +12,10 @@
 # The number of bytes of source text in a unit.
 set(unit_size 130000)
 
-# Files whose templates alone take as much memory as one compiler process may use.
-set(units_of_one_file analysis/eigenvalues analysis/linear_algebra continuation/factors continuation/modes
-  view/local_server)
-list(TRANSFORM units_of_one_file PREPEND ${PROJECT_SOURCE_DIR}/)
-list(TRANSFORM units_of_one_file APPEND .cpp)
+# Files that are a unit by themselves, because their templates take as much memory as one compiler
+# process may use. "a|b" is a unit of two files with the same templates.
+set(separate_units analysis/eigenvalues analysis/linear_algebra continuation/factors continuation/modes
+  "view/connection|view/local_server")
 
 # Headers whose templates are compiled again in each unit that uses them. The files that include
 # them are put into the same units, and count as if they were a quarter larger.
@@ -113,8 +112,14 @@ function(cascade_units target headers)
   set(first)
   set(others)
   foreach(path IN LISTS ARGN)
-    if(path IN_LIST units_of_one_file)
-      set_source_files_properties(${path} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    set(separate)
+    foreach(unit IN LISTS separate_units)
+      if(path MATCHES "^${PROJECT_SOURCE_DIR}/(${unit})\\.cpp$")
+        string(MAKE_C_IDENTIFIER ${unit} separate)
+      endif()
+    endforeach()
+    if(separate)
+      set_source_files_properties(${path} PROPERTIES UNITY_GROUP ${separate})
       continue()
     endif()
     file(SIZE ${path} size)

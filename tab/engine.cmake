@@ -33,7 +33,7 @@ list(APPEND CASCADE_WITHOUT
   run/pictures/model_files run/pictures/plain_model run/pictures/model_maps run/pictures/growing_model run/pictures/nested_tiling run/pictures/map_size run/pictures/series
   run/session/session run/session/session_model
   run/commands/.* run/emit_c/.*
-  view/admission view/carried view/loaded_models view/local_server view/outbox view/page_requests view/page_server
+  view/admission view/carried view/connection view/loaded_models view/local_server view/outbox view/page_requests view/page_server
   view/standalone_page)
 
 include(cmake/rooms.cmake)

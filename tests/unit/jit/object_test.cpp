@@ -194,7 +194,7 @@ TEST(JitObject, MultiplyAddsAreForTargetsThatHaveThem) {
     for (const char* target : {"x86-64", "x86-64-v2"}) {
         const auto refused = object_of(kernel, Stencil::plane, "f", target);
         ASSERT_FALSE(refused) << target;
-        EXPECT_EQ(refused.error().message, the processor std::string(target) +
+        EXPECT_EQ(refused.error().message, "the processor " + std::string(target) +
                                                " cannot multiply and add with one "
                                                "rounding, as --fast requires");
     }

@@ -281,7 +281,7 @@ stage only: smear { speed: 0.05 }
     CompileRequest old;
     old.target = "x86-64";
     EXPECT_EQ(refused("stage only: turing_spots { }", old).message,
-              the processor "x86-64 cannot multiply and add with one rounding, as --fast requires");
+              "the processor x86-64 cannot multiply and add with one rounding, as --fast requires");
 }
 
 TEST_F(CompileTest, TheMetricOfASurface) { expect_bits_of_run(spots_on_torus, {"a", "b"}); }
