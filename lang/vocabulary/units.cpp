@@ -183,7 +183,7 @@ std::string advice_about_unknown_unit(std::string_view word) {
     const std::size_t digits = word.find_first_of("0123456789");
     if (digits != std::string_view::npos && unit_named(word.substr(0, digits)) &&
         word.find_first_not_of("0123456789", digits) == std::string_view::npos) {
-        return fmt::format("write the unit '{}^{}'", word.substr(0, digits), word.substr(digits));
+        return fmt::format("write '{}^{}'", word.substr(0, digits), word.substr(digits));
     }
     constexpr std::size_t shortest = 3, longest = 12;
     if (word.size() < shortest || word.size() > longest) return "";

@@ -114,7 +114,7 @@ TEST_F(CellPrograms, DieFarFromASurface) {
     int deaths = 0;
     for (std::size_t cell = 0; cell < cell_count; ++cell) {
         const bool is_far =
-            std::abs(tissue.sensed(ModelPlane::off)[cell]) > tissue.values("r")[cell] / 2;
+            std::abs(tissue.sensed(ModelPlane::off)[cell]) > tissue.values("r")[cell] / 5;
         EXPECT_EQ(dies[cell] != 0, is_far) << cell;
         deaths += is_far ? 1 : 0;
     }
