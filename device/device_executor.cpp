@@ -144,7 +144,7 @@ private:
     DeviceCheck check_;
     std::optional<DeviceSums> sums_;
     const StepProblem* problem_ = nullptr;
-    std::list<DevicePasses> all_passes_;  ///< By problem. Time loops go back to earlier problems.
+    std::list<DevicePasses> all_passes_;  ///< One per problem: steps may return to an old problem.
     DevicePasses* passes_ = nullptr;
     std::optional<HaloGroup> of_copies_;  ///< The halos of all species.
     std::vector<Field> fetched_, fetched_scratch_;

@@ -25,10 +25,10 @@ public:
     void run(std::size_t pass, CopyRoles roles, const StepMoment& moment,
              const DevicePlanes& planes);
 
-    /// The largest number of rows in a launch. Launches with fewer rows are shorter.
+    /// Limits the rows of a launch, and so its duration.
     void limit_rows(std::int64_t rows) { rows_of_launch_ = rows; }
 
-    /// Whether these are the passes of this problem, printed as this text.
+    /// Whether these passes were made for this problem, and their program is `text`.
     bool are_of(const StepProblem& problem, const std::string& text) const;
     /// The bytes of all constant planes and links.
     static std::uint64_t constant_bytes(const StepProblem& problem);
@@ -37,7 +37,7 @@ private:
     struct OfPass {
         DeviceKernel kernel;
         std::vector<StepProblem::ChangingUniform> passed;
-        /// Results with halos that are in the same buffer.
+        /// Results that have halos and are in the same buffer.
         struct Halos {
             std::optional<RegisterId> in_register;  ///< nullopt: temporaries.
             std::vector<std::size_t> results;

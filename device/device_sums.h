@@ -40,7 +40,7 @@ class DeviceCheck {
 public:
     DeviceCheck(Device& device, const TextTarget& target, const PlaneLayout& layout);
 
-    /// Whether all cells of `planes` planes, which follow each other in the buffer, are finite.
+    /// Whether all cells of the first `planes` planes of a buffer are finite.
     bool are_finite(const DeviceBuffer& buffer, std::size_t planes);
 
 private:

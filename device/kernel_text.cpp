@@ -129,7 +129,8 @@ private:
         return passes_words(instruction.op);
     }
 
-    /// A constant. A constant with which compilers simplify arithmetic passes through c_pad.
+    /// The text of a constant. If compilers could simplify arithmetic with it, it passes through
+    /// c_pad.
     std::string word(std::uint64_t bits) const {
         const std::string literal =
             fmt::format("{:#x}{}", bits, target_.precision == Precision::single ? "u" : "ul");

@@ -10,9 +10,9 @@
 
 namespace cascade {
 
-/// The names of planes and uniforms in a printed kernel, as expressions. Planes are pointers to
-/// cell (0, 0, 0), uniforms are words. In WGSL planes are places in c_planes, masks places of
-/// c_mask().
+/// The expressions for planes and uniforms in a printed kernel. In OpenCL a plane is a pointer to
+/// cell (0, 0, 0). In WGSL a plane is its place in c_planes, and a mask is a place that is passed
+/// to c_mask(). Uniforms are words.
 struct KernelNames {
     std::vector<std::string> fields, masks, uniforms, results;
 };

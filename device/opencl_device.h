@@ -24,7 +24,7 @@ struct DeviceFacts {
     bool is_gpu = false;
     bool has_double = false;
     bool has_fast_fma = false;
-    bool promises_division = false;  ///< Correctly rounded divisions and roots in binary32.
+    bool promises_division = false;  ///< Binary32 quotients and roots are rounded correctly.
     std::uint64_t memory = 0;        ///< Bytes.
     std::uint64_t largest_buffer = 0;
     std::size_t largest_group = 1;  ///< The most work-items in a work-group.

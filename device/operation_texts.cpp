@@ -27,7 +27,7 @@ constexpr std::string_view cell_column = "(cw)c_i";
 constexpr std::string_view cell_row = "(cw)c_j";
 constexpr std::string_view cell_slice = "(cw)c_k";
 
-// Reductions over links: the next value a of the reduction b. a is flushed.
+// Reductions over links. b is the result for earlier links, and a the next value, flushed.
 constexpr std::string_view link_sum = "c_flush_sum(c_word(c_number(b) + c_number(a)))";
 constexpr std::string_view link_least = "c_is_nan(b) || c_number(b) < c_number(a) ? b : a";
 constexpr std::string_view link_greatest = "c_is_nan(b) || c_number(b) > c_number(a) ? b : a";
@@ -92,7 +92,7 @@ constexpr std::string_view cell_column = "u32(c_i)";
 constexpr std::string_view cell_row = "u32(c_j)";
 constexpr std::string_view cell_slice = "u32(c_k)";
 
-// Reductions over links: the next value a of the reduction b. a is flushed.
+// Reductions over links. b is the result for earlier links, and a the next value, flushed.
 constexpr std::string_view link_sum = "c_flush_sum(c_number(b) + c_number(a))";
 constexpr std::string_view link_least = "select(a, b, c_is_nan(b) || c_is_less(b, a))";
 constexpr std::string_view link_greatest = "select(a, b, c_is_nan(b) || c_is_less(a, b))";
@@ -110,7 +110,7 @@ constexpr std::string_view round_to_even = "c_rounded(a)";
 constexpr std::string_view scale_by_power = "c_scale(a, b)";
 constexpr std::string_view multiply_add = "c_fused(a, b, c)";
 
-// Comparisons, of integers in the order of the numbers, and logic.
+// Comparisons and logic. Comparisons compare integers that are in the order of the numbers.
 constexpr std::string_view less = "c_truth(c_is_less(a, b))";
 constexpr std::string_view less_equal = "c_truth(c_is_less(a, b) || c_is_equal(a, b))";
 constexpr std::string_view equal = "c_truth(c_is_equal(a, b))";

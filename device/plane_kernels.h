@@ -16,7 +16,7 @@ namespace cascade {
 std::string plane_kernels_text(const TextTarget& target);
 
 /// Sums in binary64, in the order of ir/reduction.h and solvers/field_norms.h. For devices with
-/// binary64.
+/// binary64. After each kernel follow its work-items.
 /// c_row_parts(plane, place, parts, kind, width, height, stride, slice_stride): 8 × rows.
 /// c_row_values(parts, rows, kind, width): 1 × rows.
 /// c_fold_rows(rows, spare, count, kind, cells, aggregates, number): one work-group of 64.

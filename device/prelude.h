@@ -40,16 +40,16 @@ struct TextTarget {
 /// The types and functions of a program. Must come first.
 std::string prelude_text(const TextTarget& target);
 
-/// The sum of the neighbours of a cell. `cell` is the word at a distance, for example
-/// "c_f[c_at + ({})]".
+/// The sum of the neighbours of a cell. `cell` is the text of the word at a distance, with {} for
+/// the distance, for example "c_f[c_at + ({})]".
 std::string neighbour_sum(Stencil stencil, const PlaneLayout& layout, std::string_view cell);
 
 /// The functions that read neighbours on a grid, or links: c_laplacian() and others. Comes after
 /// prelude_text().
 std::string stencil_text(const TextTarget& target, Stencil stencil, const PlaneLayout& layout);
 
-/// The macro C_LINKS, which contains the arguments for the links of a cell, and the parameters of
-/// kernels. Both are empty on grids.
+/// The parameters by which kernels receive links. The macro C_LINKS passes the links of a cell on
+/// to functions. Both are empty on grids.
 std::string link_parameters(const TextTarget& target, bool linked);
 
 }  // namespace cascade

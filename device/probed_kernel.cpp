@@ -61,7 +61,7 @@ CellKernel probing_kernel(Precision precision) {
             default: builder.result(name, builder.apply(op, a, b, b));
         }
     }
-    // A compiler that does not consider flushing replaces these by a.
+    // A compiler that does not consider flushing replaces these results by a.
     builder.result("a * 1", builder.multiply(a, builder.number(1)));
     builder.result("a + -0", builder.add(a, builder.word(builder.format().sign())));
     builder.result("least", builder.select(builder.apply(Op::less, a, b), a, b));

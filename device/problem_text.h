@@ -50,8 +50,8 @@ std::string kernel_name(std::size_t pass);
 /// they can.
 std::string reason_against_text(const StepProblem& problem);
 
-/// The whole program. A work-item computes `rows_of_item` rows of a column, in WGSL 1. A program in
-/// WGSL cannot read aggregates.
+/// The whole program. A work-item computes `rows_of_item` rows of a column or, in WGSL, one cell. A
+/// program in WGSL cannot read aggregates.
 std::string problem_text(const StepProblem& problem, const TextTarget& target,
                          std::int64_t rows_of_item);
 

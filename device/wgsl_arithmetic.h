@@ -2,8 +2,8 @@
 // integers. WebGPU allows errors in all of these, and permits compilers to replace these functions.
 //
 // Numbers are words, whose denormal values count as zero. c_packed() rounds and packs a number of
-// 25 binary digits. A quotient or root begins with the device's inaccurate result, whose remainder
-// then fits into 32 bits, so that it corrects the last digits.
+// 25 binary digits. A quotient or root begins with the device's inaccurate result. The remainder of
+// this result fits into 32 bits, and corrects the last digits.
 #pragma once
 
 #include <string_view>

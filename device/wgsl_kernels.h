@@ -28,10 +28,10 @@ WgslKernels wgsl_kernels(std::span<const CellKernel* const> kernels, const Grid&
                          Flushing flushing);
 
 /// The kernel c_halo, which fills halo cells of planes on a grid. Work-items: halo cells of a slice
-/// × (planes · slices), where with halo slices `slices` is 2. Sides are described by words in the
-/// buffer c_sides, binding 5: for each plane its place in c_planes, then the lists of HaloRecords.
-/// The words of a call from first_call_word on: the position of the description, the number of
-/// planes, and 1 for halo slices, else 0.
+/// × (planes · slices), where `slices` is 2 for a call that fills halo slices. Words in the buffer
+/// c_sides, binding 5, describe the sides: for each plane its place in c_planes, then the lists of
+/// HaloRecords. The words of a call from first_call_word on are the position of this description,
+/// the number of planes, and 1 for halo slices, else 0.
 std::string wgsl_halo(Flushing flushing, const PlaneLayout& layout);
 inline constexpr std::size_t wgsl_halo_words = 15;
 inline constexpr std::int64_t wgsl_halo_group = 64;

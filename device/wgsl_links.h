@@ -11,7 +11,7 @@
 
 namespace cascade {
 
-/// The bytes of numbers as words. Null counts as zeros.
+/// The bytes of `count` numbers as words. If `values` is null, all words are 0.
 template <typename T>
 std::vector<std::uint32_t> packed_words(const T* values, std::size_t count) {
     std::vector<std::uint32_t> words((count * sizeof(T) + 3) / 4);
@@ -21,7 +21,8 @@ std::vector<std::uint32_t> packed_words(const T* values, std::size_t count) {
 
 struct WgslLinks {
     std::vector<std::uint32_t> words;
-    /// The places of all tables but the first, which belong to the words of a call.
+    /// The places of all arrays except the first in c_links. A call has these places among its
+    /// words.
     std::vector<std::uint32_t> places;
 
     WgslLinks(const LinkTable<float>& table, const PlaneLayout& layout);

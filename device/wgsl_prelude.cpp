@@ -37,8 +37,8 @@ fn c_end_of_link(c_entry: u32) -> i32 {
 }
 )";
 
-/// A function that sums `term` over the links of a cell, each with its weight, which is at an index
-/// of c_links or of c_planes.
+/// A function that sums `term` over the links of a cell, each time multiplied by the weight of the
+/// link. The weights are in `array`, from index `table` on.
 std::string over_links(std::string_view head, std::string_view table, std::string_view term,
                        std::string_view array = "c_links") {
     return fmt::format(

@@ -30,8 +30,8 @@ std::string reason_against_wgsl(const StepProblem& problem);
 
 class WgslSteps {
 public:
-    /// Prints the programs. There must be no reason against the problem, which must outlive this
-    /// object. `copies` is the number of copies of the species.
+    /// Prints the programs. reason_against_wgsl() must give no reason. The problem must outlive
+    /// this object. `copies` is the number of copies of the species.
     WgslSteps(const StepProblem& problem, Flushing flushing, std::size_t species,
               std::size_t copies);
 
@@ -40,7 +40,7 @@ public:
 
     /// The number of words of c_planes.
     std::size_t plane_words() const;
-    /// The place of a species in c_planes, which begins with all memory of its plane.
+    /// The place in c_planes at which the memory of a species' plane begins, halo included.
     std::size_t place_of(int copy, std::size_t species) const;
     /// The words of a constant plane, and its place.
     struct ConstantPlane {

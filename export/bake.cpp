@@ -24,8 +24,8 @@ namespace cascade {
 namespace {
 
 constexpr std::int64_t rows_of_band = 16;  ///< Rows of texels that a thread paints at a time.
-/// The largest area that coordinates may cover, in areas of the texture. If they cover more, the
-/// texture is meant to repeat all over the model.
+/// The largest area that texture coordinates may cover, as a multiple of the texture's area. If
+/// they cover more, the texture is meant to repeat all over the model.
 constexpr double most_covered_area = 64;
 
 tl::unexpected<Failure> no_area() {

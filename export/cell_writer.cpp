@@ -33,7 +33,7 @@ struct Link {
     double weight = 0;
 };
 
-/// The Voronoi edges. Each pair of cells appears once.
+/// The pairs of cells with a common Voronoi edge. Each pair appears once.
 std::vector<Link> links_of(const SurfaceCells& cells) {
     std::vector<Link> links;
     for (std::uint32_t cell = 0; cell < cells.places.size(); ++cell) {

@@ -18,7 +18,7 @@ namespace {
 
 using Json = GlbFile::Json;
 
-/// If the model covers a fraction of the screen that is smaller by this factor, the next level of
+/// When the part of the screen that the model covers shrinks by this factor, the next level of
 /// detail appears. The number of triangles falls by the same factor from level to level.
 constexpr double coverage_factor = 4;
 

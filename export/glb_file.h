@@ -28,14 +28,14 @@ public:
     static constexpr int vertex_buffer = 34962, index_buffer = 34963;
     static constexpr int wrap_repeat = 10497, wrap_clamp = 33071;
 
-    /// Begins without parts. All nodes will be in the file's only scene, moved by `origin`.
+    /// Begins without parts. The file has one scene. All nodes are moved by `origin`.
     explicit GlbFile(Vector3d origin = {});
 
     /// Appends a part to a list and returns its number. Lists are "nodes", "meshes", "materials",
     /// "images", "textures", "samplers" and "animations".
     std::size_t add(const char* list, Json part);
-    /// Adds a node. If it is in the scene, moves it by the origin. A node that is not in the scene
-    /// must belong to another node.
+    /// Adds a node, and moves it by the origin. If the node is not in the scene, another node must
+    /// refer to it.
     std::size_t add_node(Json node, bool is_in_scene = true);
     /// Declares the use of an extension that readers may ignore.
     void use(const char* extension);

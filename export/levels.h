@@ -12,7 +12,7 @@
 
 namespace cascade {
 
-/// Each level has about as many triangles as the previous one divided by this.
+/// From level to level, the number of triangles falls by about this factor.
 inline constexpr std::size_t triangles_to_level = 4;
 
 struct ModelLevel {

@@ -53,7 +53,7 @@ private:
         return encode_png(own, depth, texts, meaning);
     }
 
-    /// Stores colours as linear light, and heights in lengths.
+    /// Stores colours as linear light, and heights as lengths.
     Result<std::string> encode_as_exr() const {
         if (channel || range) {
             std::vector<float> numbers;

@@ -17,8 +17,8 @@ namespace cascade {
 /// Textures of one size. Missing maps are empty.
 struct MaterialMaps {
     Image colour;
-    /// The heights of the texels as greys from 0 to 1. `heights` is the range of heights to which 0
-    /// and 1 belong.
+    /// The heights of the texels as greys from 0 to 1, which stand for the lowest and the highest
+    /// value in the range `heights`.
     Image relief;
     ValueRange heights;
     /// Directions relative to the tangents, with y upwards. −1 … 1 is stored as 0 … 1.

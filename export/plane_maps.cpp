@@ -322,7 +322,7 @@ private:
         }
     }
 
-    /// Computes normals from the heights of the texels on both sides.
+    /// Computes normals from the heights of the two neighbouring texels along each axis.
     void find_normals(std::int64_t y) {
         const Image& relief = maps_.relief;
         const auto rise = [&](std::int64_t x0, std::int64_t y0, std::int64_t x1, std::int64_t y1) {

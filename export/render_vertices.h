@@ -31,10 +31,10 @@ struct RenderVertices {
 };
 
 /// Makes vertices from the corners of a mesh. Without texture coordinates, a point has one vertex
-/// for each normal. With them, it has one for each normal, pair of texture coordinates and side.
-/// The tangent of a vertex is the sum over its triangles, weighted by their angles there (as in M.
-/// Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008). Coordinates that are not finite
-/// become 0.
+/// for each normal. With them, it has one for each combination of normal, texture coordinates and
+/// side. The tangent of a vertex is the sum over its triangles, weighted by their angles there (as
+/// in M. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008). Coordinates that are not
+/// finite become 0.
 RenderVertices render_vertices(const SurfaceMesh& mesh, const CornerNormals& normals);
 
 }  // namespace cascade

@@ -1,6 +1,6 @@
 // Uses posix_spawn() with a pipe for the input. The process writes errors to an unnamed temporary
-// file. A second pipe could fill up and block the process. No call here waits without a limit,
-// because a process that hangs would otherwise prevent this program from ending.
+// file, because a second pipe could fill up and block the process. No call here waits without a
+// limit, because a process that hangs would otherwise prevent this program from ending.
 #include "film/child_process.h"
 
 #include <fmt/format.h>

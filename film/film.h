@@ -24,8 +24,8 @@ struct FilmSettings {
     /// From slowest_film to fastest_film. For GIF at most fastest_gif.
     double frames_per_second = 10;
     PngTexts texts;  ///< Written into APNG files.
-    /// Set when the program must end. From then on the program waits for ffmpeg only while it makes
-    /// progress.
+    /// Set when the program must end. From then on the program waits for ffmpeg only while ffmpeg
+    /// makes progress.
     const std::atomic<bool>* cancel = &never_cancelled;
 };
 

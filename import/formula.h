@@ -30,7 +30,7 @@ struct Expression {
     std::string text = "0";
     std::vector<Expression> of = {};
     Span span = {};         ///< The place in the source.
-    bool is_whole = false;  ///< Whether C computes it with integers: `1/2` is 0 in C.
+    bool is_whole = false;  ///< Whether C computes the formula with integers, as 1/2 = 0.
     std::uint32_t depth = 1;
 
     bool is_number(std::string_view value) const { return kind == Kind::number && text == value; }
@@ -43,7 +43,7 @@ inline constexpr std::uint32_t deepest_formula = 1000;
 
 /// The style in which a program writes formulas.
 struct Dialect {
-    bool is_c = false;              ///< Suffixes of numbers, casts, and divisions of whole numbers.
+    bool is_c = false;              ///< Has casts, suffixes of numbers, and quotients of integers.
     bool caret_is_power = false;    ///< `^` and `**` are powers.
     bool implies_products = false;  ///< `2u` and `k(1 - u)` are products.
     bool ignores_case = false;      ///< Names are converted to small letters.
@@ -73,14 +73,14 @@ std::string write_formula(const Expression& formula, int least = 0);
 using Replace = std::function<std::optional<Expression>(const Expression&)>;
 Expression replaced(const Expression& formula, const Replace& replace);
 
-/// A function of another program. In `meaning`, a formula of Cascade, A, B, C and D are the
+/// A function of another program. `meaning` is a formula of Cascade, in which A, B, C and D are the
 /// arguments.
 struct ForeignFunction {
     std::string_view name;
     std::size_t arguments;
     std::string_view meaning;
 };
-/// The meaning of a call by a table. Empty if the table has no such function.
+/// The meaning that a table gives to a call. Empty if the table has no such function.
 std::optional<Expression> meaning_of(const Expression& function,
                                      std::span<const ForeignFunction> table);
 

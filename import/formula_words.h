@@ -14,7 +14,7 @@ struct FormulaWord {
     Kind kind = Kind::end;
     std::string text;
     Span span;
-    bool is_whole = false;  ///< A number without a point and an exponent.
+    bool is_whole = false;  ///< A number without a point or an exponent.
 };
 
 /// The largest number of words in one formula or list of statements.

@@ -287,7 +287,7 @@ void ReadyFormula::count_uses(const Expression& value) {
     for (const Expression& operand : value.of) count_uses(operand);
 }
 
-/// The value. Each delta that is used only once is written in place of its name.
+/// `value`, in which each delta that is used only once is written in place of its name.
 Expression ReadyFormula::inlined(const Expression& value) const {
     return replaced(value, [&](const Expression& part) -> std::optional<Expression> {
         for (const Assigned& each : assigned_) {

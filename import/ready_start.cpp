@@ -76,7 +76,7 @@ private:
         return "";
     }
 
-    /// Changes a value inside a shape. `inside` is the number 1 everywhere.
+    /// Changes a value inside a shape. If the shape contains all cells, `inside` is the number 1.
     static void apply(Expression& value, const std::string& sign, const Expression& inside,
                       const Expression& fill) {
         const bool is_everywhere = inside.is_number("1");
@@ -100,7 +100,7 @@ private:
         return value.value_or(0);
     }
 
-    /// The points inside an element.
+    /// The points that the children of an element give. Reports an error unless there are `count`.
     std::vector<Point> points_of(const pugi::xml_node& node, std::size_t count) {
         std::vector<Point> points;
         for (const pugi::xml_node& point : node.children()) {

@@ -96,7 +96,7 @@ inline constexpr ForeignFunction ready_operators[] = {
 struct Neighbour {
     char letter;
     std::string_view function;
-    std::string_view cells;  ///< The numbers of `shifted`.
+    std::string_view cells;  ///< The offset in cells, as arguments of `shifted`.
 };
 inline constexpr Neighbour ready_neighbours[] = {
     {'e', "east", "1, 0"},  {'w', "west", "-1, 0"},    {'n', "north", "0, -1"},

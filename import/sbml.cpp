@@ -115,7 +115,7 @@ private:
         return std::nullopt;
     }
 
-    /// piecewise(a, if this, b, if that, else c)
+    /// piecewise(a, p, b, q, c): a if p is true, else b if q is true, else c.
     std::optional<Expression> choice(const Expression& part) {
         if (part.of.size() % 2 == 0) {
             fail(part.span, "a choice without a last value has no counterpart in Cascade");

@@ -9,8 +9,8 @@
 
 namespace cascade::importing {
 
-/// A formula in the infix notation of SBML Level 3, and its line in the file. Time is the name
-/// `sbml_time`. Empty if the file gives none.
+/// A formula in the infix notation of SBML Level 3, and its line in the file. Time has the name
+/// `sbml_time`. The text is empty if the file gives no formula.
 struct SbmlFormula {
     std::string text;
     unsigned line = 0;

@@ -62,12 +62,12 @@ public:
     }
 
 private:
-    /// The rate with which a species has the value after one step.
+    /// The rate that gives the species this value after one step.
     static Expression towards(const Expression& value, const std::string& species) {
         return operation(operation(value, "-", name(species)), "/", name("speed"));
     }
 
-    /// Declares the condition of a mask that changes as a definition.
+    /// Adds a definition that is 1 inside a mask that changes.
     bool add_moving_mask() {
         const auto inside = condition_of_mask(names_, Where::rate);
         if (!inside) return false;
@@ -77,7 +77,7 @@ private:
         Import quiet{import_.sources, ignored};
         Draft scratch;
         VisualPdeNames other(quiet, options_, scratch);
-        // If it reads a species, the cells outside get their values in the first step.
+        // If the mask reads a species, the cells outside get their values in the first step.
         if (other.declare() && condition_of_mask(other, Where::start)) {
             begins_ = names_.fresh_name("begins");
             draft_.starts.push_back(fmt::format(
@@ -192,7 +192,7 @@ private:
     Import& import_;
     const VisualPdeOptions& options_;
     Draft& draft_;
-    std::string begins_;  ///< The parameter that is 1 inside the first mask, if that is known.
+    std::string begins_;  ///< The parameter that is 1 inside the mask at the start, if known.
 };
 
 bool add_mask(VisualPdeNames& names, const VisualPdeOptions& options, Draft& draft) {

@@ -54,7 +54,8 @@ std::optional<Expression> VisualPdeNames::named(const Expression& part, Where wh
     return derivative(word);
 }
 
-/// The condition that the cell is one of the outermost or, if not `is_outer`, is none of them.
+/// If `is_outer`, the condition that the cell is one of the outermost; else that it is none of
+/// them.
 Expression VisualPdeNames::on_edge(bool is_outer) {
     Expression all;
     for (const char* const axis : {"domain.x", "domain.y"}) {
@@ -174,8 +175,8 @@ std::optional<std::string> VisualPdeNames::place_in_picture(const Expression& at
     return write_formula(place);
 }
 
-/// I_S, I_TR, I_SA(x, y): the mean of the colours, or a channel of a picture, here or at another
-/// place.
+/// I_S, I_TR, I_SA(x, y): the mean of a picture's colours or one of its channels, here or at
+/// another place.
 std::optional<Expression> VisualPdeNames::picture(const Expression& part, Where where) {
     const std::string& word = part.text;
     const bool is_second = word.starts_with("I_T");

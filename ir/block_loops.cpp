@@ -1,5 +1,5 @@
-// The interpreter's inner loops. Each operation has one loop for each set of operands that may be
-// scalars. This file also has the same operations on single words.
+// The interpreter's inner loops. Each operation has a separate loop for each combination of scalar
+// and other operands, except all scalars. This file also computes the operations on single words.
 //
 // The compiler can vectorise a loop only if it knows which operands are scalars, so a loop whose
 // strides of 0 or 1 are chosen at run time would be slower.

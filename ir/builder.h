@@ -49,7 +49,8 @@ public:
     /// A sum over a cell's links of differences of one field. Only in a kernel for linked cells.
     ValueId over_links(Op op, FieldSlot slot);
     ValueId link_flow(Flow flow);
-    /// The same with a weight for each link, which the field `flow.factor` has.
+    /// A sum of differences, each multiplied by the number that the field `flow.factor` has for the
+    /// link.
     ValueId link_weighted(Flow flow);
     /// The value of a field in the cell to which a link leads. Must be inside a reduction.
     ValueId theirs(FieldSlot slot);

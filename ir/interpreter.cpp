@@ -123,7 +123,7 @@ private:
         }
     }
 
-    /// Reduces `before`, the result for earlier links, and the value `a` of one more link. The
+    /// Combines `before`, the result for earlier links, with the value `a` of one more link. The
     /// result is NaN if either is NaN.
     static Number reduced(Op op, Number before, Number a) {
         const Number value = keeps_denormals() ? a : flushed(a);

@@ -1,9 +1,10 @@
 // Divides a kernel of many results into parts of a few results. Each part becomes a function.
 //
 // A single loop for 64 species needs 64 rates, values and addresses at once, far more than there
-// are registers, and reads hundreds of rows side by side. Loops for parts of 8 results together
-// take half to two thirds of that time. A value that several parts need is computed in each of
-// them. So a kernel is not divided if computing such values is most of its work.
+// are registers, and reads hundreds of rows side by side. Separate loops for parts of 8 results
+// together take half to two thirds of the single loop's time. A value that several parts need is
+// computed in each of them. So a kernel is not divided if computing such values is most of its
+// work.
 #pragma once
 
 #include "ir/cell_kernel.h"

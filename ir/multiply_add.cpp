@@ -1,5 +1,5 @@
-// One loop for each set of operands that may be scalars. A function attribute compiles the loops
-// for AVX2 and FMA.
+// A separate loop for each combination of scalar and other operands, except all scalars. A function
+// attribute compiles the loops for AVX2 and FMA.
 #include "ir/multiply_add.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace cascade {
 namespace {
 
-/// The number of sets of scalar operands, without the set of all three operands.
+/// The number of combinations of scalar and other operands, without that of three scalars.
 constexpr unsigned varying_choices = 7;
 
 template <unsigned scalars, typename Number>

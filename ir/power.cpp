@@ -19,7 +19,7 @@ namespace {
 constexpr double largest_multiplied = 64;
 
 // For exponents of a magnitude above this number, the result is infinite or 0 unless |x| = 1,
-// because |log2 x| is at least 2^−25 (2^−53).
+// because |log2 x| is otherwise at least 2^−25 (2^−53).
 constexpr ByPrecision<double> large_exponent = {0x1p40, 0x1p70};
 // 2 to the power of this number is infinite, and 2 to the power of its negative is 0.
 constexpr ByPrecision<double> large_logarithm = {200, 1200};

@@ -22,8 +22,7 @@ constexpr ByPrecision<double> cube_root_of_half = {0x1.965feap-1, 0x1.965fea53d6
 constexpr ByPrecision<double> third_of_one = {0x1.555556p-2, 0x1.5555555555555p-2};
 
 /// Squares of numbers above `large` may overflow, and squares of numbers below `small` may vanish.
-/// The factors `reduce` and `enlarge`, powers of two, bring such numbers into the range between
-/// them.
+/// Multiplied by `reduce` or `enlarge`, powers of two, such numbers have squares that do neither.
 struct Reach {
     double large, reduce;
     double small, enlarge;

@@ -10,8 +10,8 @@ namespace {
 /// One of two neighbouring seeds along an axis.
 struct Candidate {
     Expression part;  ///< The seed's contribution to the hash.
-    Expression away;  ///< The distance from the cell to the seed before its random displacement, as
-                      ///< a coordinate.
+    Expression away;  ///< From the cell to the seed's place before its random displacement, in the
+                      ///< unit of coordinates.
 };
 
 struct Candidates {

@@ -55,9 +55,9 @@ inline constexpr int most_octaves = 12;
 
 /// Gradient noise (ir/noise.cpp) in −1 … 1 with mean 0, on a lattice of cubes of side `scale`.
 /// Sources: K. Perlin, "An image synthesizer", SIGGRAPH 1985, with the fade of his "Improving
-/// noise", SIGGRAPH 2002. Each of `octaves` (1 … most_octaves) has half the scale and half the
-/// amplitude of the previous one. Their sum is scaled to −1 … 1. Along a periodic axis, `scale` is
-/// replaced by the nearest number that divides the length of the axis.
+/// noise", SIGGRAPH 2002. The noise is a sum of `octaves` (1 … most_octaves), each of which has
+/// half the scale and half the amplitude of the previous one. The sum is scaled to −1 … 1. Along a
+/// periodic axis, `scale` is replaced by the nearest number that divides the length of the axis.
 ValueId smooth_noise(KernelBuilder& builder, const Space& space, ValueId scale, int octaves,
                      const Draw& draw);
 

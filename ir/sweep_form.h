@@ -108,8 +108,8 @@ struct SweepForm {
     friend bool operator==(const SweepForm&, const SweepForm&) = default;
 };
 
-/// The effect of diffusion over a step of length h on a wave of a rate. By diffusion alone, a wave
-/// w would change at the rate M w with M ≤ 0.
+/// The effect of diffusion over a step of length h on a wave of a rate. By diffusion alone, the
+/// time derivative of a wave w would be M w with M ≤ 0.
 enum class WaveResponse : std::uint8_t {
     implicit,     ///< Factor 1 / (1 − h M): diffusion is taken at the end of the step.
     exponential,  ///< Factor (exp(h M) − 1) / (h M): diffusion is solved exactly.

@@ -41,7 +41,7 @@ public:
     KernelCounts counts() const override;
     std::string code_identity() const override;
 
-    /// The condition for compiling a kernel. Until it is compiled, it is interpreted.
+    /// The condition for compiling a kernel, which is interpreted until it is compiled.
     enum class When : std::uint8_t {
         now,        ///< At once: the kernel will run for long.
         when_used,  ///< Once it has interpreted `cells_worth_compiling` cells. A linked cell counts

@@ -128,8 +128,8 @@ llvm::Value* BodyScope::operand(ValueId id) {
     return forms(id).may_be_denormal && constant_word(id) ? flushed(id) : number(id);
 }
 
-// LLVM drops an operation whose only effect is to flush. It also does this if the operation has no
-// other effect in just one branch of a choice.
+// LLVM drops an operation whose only effect is to flush. For this, one branch of a choice in which
+// it has no other effect is enough.
 llvm::Value* BodyScope::operand(ValueId id, ValueId partner, double neutral) {
     if (!forms(id).may_be_denormal) return number(id);
     const bool may_be_neutral =

@@ -52,8 +52,8 @@ llvm::Value* rounded_to_even(BodyScope& scope, ValueId a) {
     return builder.CreateSelect(builder.CreateFCmpOLT(size, all_whole), with_sign, number);
 }
 
-// The added number is hidden, because LLVM would drop a factor of 1, which flushes, and would
-// evaluate a product of known factors without flushing.
+// `added` is hidden, so that LLVM does not know the factors. It would drop a factor of 1, which
+// flushes, and would evaluate a product of known factors without flushing.
 llvm::Value* scaled_by_power(BodyScope& scope, ValueId a, ValueId b) {
     const Body& body = scope.body();
     const WordFormat format = body.format;

@@ -105,7 +105,7 @@ private:
     /// The address of this entry's element of an array that has one element for each entry.
     llvm::Value* address_of_entry(unsigned array, llvm::Type* element);
     llvm::Value* numbers(unsigned array);
-    /// The numbers of the links of a field that has one for each link.
+    /// The numbers of a field that has one number for each link.
     llvm::Value* numbers_of(FieldSlot slot);
     template <typename Load>
     Load* mark(Load* load) {

@@ -104,8 +104,8 @@ constexpr std::size_t most_operations_a_load = 4;
 // The largest number of shifted fields. Each takes one register of the loop.
 constexpr std::size_t most_shifted_fields = 8;
 
-/// The fields whose eastern neighbours are not loaded. Each vector of eastern neighbours is
-/// combined by a shift from this vector and the next one, which stays in a register until the loop
+/// The fields whose eastern neighbours are not loaded. A shift makes the vector of eastern
+/// neighbours from the cells' own vector and the next one, which stays in a register until the loop
 /// reaches it. Western neighbours are loaded, because shifting them, too, would take two more
 /// operations of the arithmetic units.
 std::set<FieldSlot> shifted_fields(const KernelFrame& frame) {
@@ -322,9 +322,9 @@ bool takes_two_rows(const KernelFrame& frame) {
                        [](const Reading& each) { return std::get<1>(each) != 0; });
 }
 
-/// Writes the loops over all rows. While a row is computed, the loops may prefetch the cells that
-/// no row before the next row reads: the cells of the next row, or, in fields that are read at
-/// neighbours, the cells of the row below it.
+/// Writes the loops over all rows. While a row is computed, the loops may prefetch what the next
+/// row is the first to read: its own cells or, in fields that are read at neighbours, the cells of
+/// the row below it.
 void build_rows(KernelFrame& frame, KernelLoops& loops, RowOffsets& offsets,
                 const std::set<FieldSlot>& shifted, Fetching fetching, Builder& builder) {
     std::map<FieldSlot, int> rows_ahead;

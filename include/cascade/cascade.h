@@ -192,7 +192,7 @@ public:
 
     /// Sets a parameter or setting, as `--set NAME=EXPRESSION` does, for example "ka" to "1/80".
     bool set(const std::string& name, const std::string& expression);
-    /// Sets a parameter or setting to a number, without rounding it to a text.
+    /// Sets a parameter or setting to a number, without rounding it to the digits of a text.
     bool set(const std::string& name, double value);
     /// Continues with another script. Items with the same name in both scripts keep their values.
     /// If the new script has other cells (grid, mask, model, seed, precision), the run begins anew.
@@ -231,7 +231,7 @@ public:
     std::vector<double> numbers(const std::string& expression);
     /// The values of an expression. If the expression is a species or a varying parameter on a grid
     /// without a mask, no value is copied, and the view refers to the pattern's own memory. While a
-    /// copy of the view's `owner` exists, the next step copies that plane once.
+    /// copy of the view's `owner` exists, the next step copies the plane of the view once.
     PatternView view(const std::string& expression);
 
     /// The features of the values in the picture, or of `expression` if it is not empty:
