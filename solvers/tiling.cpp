@@ -11,9 +11,9 @@ namespace cascade {
 namespace {
 
 // A layer has at least this many cells, including halo. A kernel call for fewer cells costs more
-// than it saves by holding them in a near cache. In a grid 512 cells wide, a layer has three rows.
-// In a grid 1024 cells wide it has one row: layers of two rows are 7 % slower, because the levels
-// fill more of the cache.
+// time than a near cache saves. In a grid 512 cells wide, a layer has three rows. In a grid 1024
+// cells wide it has one row: layers of two rows are 7 % slower, because the levels fill more of the
+// cache.
 constexpr std::int64_t cells_of_a_layer = 1632;
 // cells_of_a_layer was measured with kernels of at most this many results. With more results, fewer
 // cells are as much work.
@@ -29,8 +29,9 @@ constexpr int enough_levels = 16;
 // Slices are cut into bands of rows only if whole slices would allow fewer levels than this.
 constexpr int few_levels = 6;
 constexpr int levels_in_bands = 8;
-// With fewer rows than this, threads and tiles share columns. The levels of a tile of rows, which
-// shrink by a layer at both ends, would soon be empty.
+// In a grid with fewer rows than this, threads and tiles divide the columns among themselves, not
+// the rows. In a tile of rows, each level is shorter than the one before by a layer at both ends,
+// so the later levels would be empty.
 constexpr std::int64_t few_rows = 2 * enough_levels;
 // The least width of layers of columns. In narrower layers, starting the loop over a row costs too
 // much time.
@@ -42,7 +43,7 @@ double bytes_for_layers(const CacheSizes& caches) {
                     part_of_third * static_cast<double>(caches.third));
 }
 
-/// The number of levels that fit, for layers of this size in bytes.
+/// The number of levels that fit into `bytes` if a layer takes `layer_bytes`.
 int levels_in(double bytes, std::int64_t layer_bytes) {
     const auto layers = static_cast<std::int64_t>(bytes) / std::max<std::int64_t>(layer_bytes, 1);
     return static_cast<int>(std::clamp<std::int64_t>(layers - layers_besides, 1, enough_levels));
@@ -100,7 +101,7 @@ Tiling tiling_of_slices(const StepProblem& problem, const Grid& grid, std::int64
     if (of_slices.levels >= few_levels) return of_slices;
     const double band_bytes = bytes_for_layers(caches) / (levels_in_bands + layers_besides);
     const double bands = std::ceil(static_cast<double>(bytes / grid.depth * slices) / band_bytes);
-    // Bands must be wider than two borders.
+    // A band must be wider than its two borders, each of which has a row per level.
     if (bands * 2 * levels_in_bands > static_cast<double>(grid.height)) return of_slices;
     Tiling in_bands = of_slices;
     in_bands.levels = levels_in_bands;
@@ -108,8 +109,8 @@ Tiling tiling_of_slices(const StepProblem& problem, const Grid& grid, std::int64
     return in_bands;
 }
 
-/// Whether values of a side vary along the rows, and with time. Such values are computed for whole
-/// rows.
+/// Whether the values at any side vary both along the rows and with time. Such values are computed
+/// for whole rows.
 bool has_changing_rows(const StepProblem& problem) {
     return std::any_of(problem.changing_sides.begin(), problem.changing_sides.end(),
                        [](const ChangingSide& side) {
@@ -127,7 +128,7 @@ Tiling plain_tiling(const StepProblem& problem, const Grid& grid) {
     return plain;
 }
 
-/// The bytes of bytes_of_step() in the rows or slices of `grid`.
+/// The share of bytes_of_step() that belongs to `grid`, some rows or slices of the problem's grid.
 std::int64_t bytes_of_rows(const StepProblem& problem, const Grid& grid) {
     const auto part =
         static_cast<double>(grid.cell_count()) / static_cast<double>(problem.grid.cell_count());
@@ -135,7 +136,7 @@ std::int64_t bytes_of_rows(const StepProblem& problem, const Grid& grid) {
 }
 
 /// The tiling of planes that are too large for the caches and mostly come from memory in every
-/// step. `grid` has the rows or slices that are computed here.
+/// step. `grid` has the rows or slices to be tiled.
 Tiling tiling_beyond_cache(const StepProblem& problem, const Grid& grid, std::int64_t reach,
                            const CacheSizes& caches) {
     const Tiling plain = plain_tiling(problem, grid);

@@ -1,5 +1,5 @@
-// The order in which the steps of a problem pass through memory: the number of levels run at once,
-// and the size of layers.
+// The order in which the steps of a problem visit memory: the number of levels run at once, and the
+// size of layers (docs/time_tiling.md explains both).
 #pragma once
 
 #include "core/cache_sizes.h"
@@ -45,8 +45,8 @@ bool has_few_rows(const Grid& grid);
 /// of all rows.
 Patch share_of(const Grid& grid, int index, int count);
 
-/// The number of threads that are worthwhile for steps of this many species, at most `most`. Small
-/// grids have fewer.
+/// The number of threads that are worthwhile for steps of this many species, at most `most`. A
+/// small grid is worth fewer threads.
 int worthwhile_threads(const Grid& grid, std::size_t species, int most);
 
 /// Whether all rows of the preceding passes must be complete before this pass begins, because it
@@ -69,15 +69,14 @@ bool stays_in_cache(const StepProblem& problem, const CacheSizes& caches);
 
 /// The tiling whose levels' data fit into the caches. `reach` is the result of rows_reached().
 Tiling choose_tiling(const StepProblem& problem, std::int64_t reach, const CacheSizes& caches);
-/// The same for a part of the problem's grid, of the size of `part`.
+/// Does the same for a part of the problem's grid that is as large as `part`.
 Tiling choose_tiling(const StepProblem& problem, const Grid& part, std::int64_t reach,
                      const CacheSizes& caches);
 
 /// The result of choose_tiling() first, then others that may be faster on this machine or for these
-/// kernels: one step per pass through memory, fewer levels, or tiles if planes stay in a
-/// third-level cache. The list has only one tiling if there is only one way to take the steps, or
-/// if each thread's share of all planes stays in its second-level cache. `threads` is the number of
-/// threads.
+/// kernels: one step at a time, fewer levels, or tiles if planes stay in a third-level cache. The
+/// list has only one tiling if there is only one way to take the steps, or if each thread's share
+/// of all planes stays in its second-level cache. `threads` is the number of threads.
 std::vector<Tiling> tilings_to_try(const StepProblem& problem, std::int64_t reach,
                                    const CacheSizes& caches, int threads);
 

@@ -1,5 +1,5 @@
-// Each call of FFTW transforms one row or sixteen neighbouring columns, for any number of threads,
-// so results are the same bit for bit. Plans are estimated, because measuring would choose
+// Whatever the number of threads, each call of FFTW transforms one row or sixteen neighbouring
+// columns, so results are the same bit for bit. Plans are estimated, because measuring would choose
 // differently from run to run. The last axis is transformed from the plane to a buffer in which its
 // lines are contiguous, for which even estimated plans are fast.
 //

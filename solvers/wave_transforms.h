@@ -29,9 +29,9 @@ struct WaveBlock {
     std::int64_t lines = 0, count = 0;
     bool is_complex = false;
     std::uint8_t axis = 0;  ///< The lines run along x (0), y (1) or z (2).
-    /// The factors by which the second differences along x, y and z multiply a wave. There is one
-    /// factor per line along x, one per wave along `axis`, and otherwise a single one for the
-    /// block.
+    /// The factors by which the second differences along x, y and z multiply a wave. Along `axis`
+    /// there is one factor per wave, along x (if it is not `axis`) one per line, and along any
+    /// other axis one for the block.
     const Number* differences[3] = {};
     /// The factors by which the central differences along periodic x and y multiply a wave, divided
     /// by i. The negated product of the two is the factor of dxy.

@@ -10,8 +10,8 @@ namespace cascade {
 
 namespace {
 
-/// The limit of a Voronoi edge's length divided by the distance. Without it, cells near each other
-/// would require many applications of the operator.
+/// The limit of a Voronoi edge's length divided by the distance between its cells. Without the
+/// limit, cells near each other would require many applications of the operator.
 constexpr double most_flow = 4;
 constexpr double least_blurred_area = 0.2;  ///< As a fraction of the average.
 constexpr double precision = 1e-4;          ///< Limits the sum of the omitted terms of the series.

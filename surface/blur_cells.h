@@ -15,13 +15,13 @@ double cell_spacing(const SurfaceCells& cells);
 /// Blurs `values` (`channels` numbers per cell, cell after cell) by a Gaussian with standard
 /// deviation `sigma`, 0 … 10⁴, in cell spacings. Preserves the sum of value times area up to
 /// rounding. Values exceed their original range by at most a thousandth of the range. A cell
-/// smaller than a fifth of the average cell counts as if it had this area. The result is the same
+/// smaller than a fifth of the average area counts as having a fifth of it. The result is the same
 /// with any number of threads.
 ///
 /// Computes the exponential of diffusion by Chebyshev polynomials of the flows between neighbours
 /// (H. Tal-Ezer and R. Kosloff, "An accurate and efficient scheme for propagating the time
 /// dependent Schrödinger equation", Journal of Chemical Physics 81, 1984, in imaginary time).
-/// Applies the flows about 15 sigma times.
+/// Applies the flows about 15 × `sigma` times.
 void blur_cells(const SurfaceCells& cells, double sigma, int channels, std::vector<float>& values,
                 Team& team);
 

@@ -18,7 +18,7 @@ namespace {
 constexpr std::string_view magic = "CASCELLS";
 constexpr std::uint32_t byte_order_mark = 0x01020304;
 
-/// The first 64 bytes, without padding.
+/// The first 64 bytes of a file. The structure has no padding.
 struct Header {
     std::array<char, 8> magic{};
     std::uint32_t version = 0;

@@ -14,12 +14,12 @@
 
 namespace cascade {
 
-/// Must be increased when the file format changes, or when other cells are made from the same
-/// surface and options.
+/// Must be increased when the file format changes, or when the same surface and options begin to
+/// give different cells.
 inline constexpr std::uint32_t cell_file_version = 4;
 
 /// A hash of the surface and of all options that affect its cells. Cells may be reused if and only
-/// if their key is equal. The probability of a collision is 2⁻¹²⁸.
+/// if they have the key asked for. The probability of a collision is 2⁻¹²⁸.
 struct CellKey {
     std::array<std::uint64_t, 2> words{};
     friend bool operator==(const CellKey&, const CellKey&) = default;
@@ -29,8 +29,8 @@ CellKey key_of(const SurfaceMesh& mesh, const CellOptions& options);
 
 /// The content of a file of cells.
 std::string print_cells(const SurfaceCells& cells, const CellKey& key);
-/// Parses the cells made with this key for this surface. Fails where read_cells() would fail for
-/// the content of a file. The message is a clause without a subject, such as "is no file of cells".
+/// Parses the cells made with this key for this surface. Fails as read_cells() fails for a file
+/// with this content. The message is a clause without a subject, such as "is no file of cells".
 Result<SurfaceCells> parse_cells(std::string_view bytes, const SurfaceMesh& mesh,
                                  const CellKey& key);
 
@@ -45,8 +45,8 @@ Result<void> write_cells(const std::filesystem::path& path, const SurfaceCells& 
 Result<SurfaceCells> read_cells(const std::filesystem::path& path, const SurfaceMesh& mesh,
                                 const CellKey& key);
 
-/// Cells that are stored in a file. If the file contains the right cells, they are read, otherwise
-/// they are made and written to it.
+/// Cells that are stored in a file. If the file contains cells with the right key, they are read.
+/// Otherwise cells are made and written to the file.
 struct KeptCells {
     SurfaceCells cells;
     bool were_kept = false;  ///< Whether the cells were read from the file. If not, they were made.

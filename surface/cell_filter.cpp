@@ -205,7 +205,8 @@ void CellFilter::fill_boxes(const SurfaceMesh& mesh, const SurfaceCells& cells,
     std::size_t sum = 0;
     for (std::size_t& end : box_ends_) {
         const std::size_t count = end;
-        end = sum;  // The start of the list for now. Filling the list moves it to the end.
+        end = sum;  // For now, this is the start of the list. Filling the list moves it to the
+                    // list's end.
         sum += count;
     }
     sightings_.resize(sum);
@@ -285,8 +286,8 @@ template <typename Visit>
 void CellFilter::visit_near(const Patch& patch, FlatPoint place, const Visit& visit) const {
     const Vector3 position = patch.origin + patch.x_axis * place.x + patch.y_axis * place.y;
     const auto [a, b, c] = place.edges;
-    // The sum of the weights of each set of edges, in a table, because branches would be
-    // unpredictable.
+    // A table with the sum of the weights of each subset of the edges. Branches instead of the
+    // table would be unpredictable.
     const std::array<float, 8> parts{0, a, b, a + b, c, a + c, b + c, 1};
     const auto sightings = sightings_of(box_of(patch, place), 1);
     for (std::size_t k = 0; k < sightings.size();) {

@@ -54,8 +54,8 @@ std::uint32_t CellFinder::at(const SurfacePlace& place) {
                 nearest.see(length(position_of(piece.flat, cells_[cell].weights)), cell);
             }
         }
-        // A cell farther away than the reach may not be the nearest, because the patch may lack a
-        // nearer one.
+        // A cell farther away than the reach is not certain to be the nearest, because the patch
+        // may lack a nearer one.
         if (nearest.distance <= reach) return nearest.cell;
         if (!(reach < whole_)) break;
     }

@@ -11,8 +11,8 @@ namespace cascade {
 
 namespace {
 
-// If the ratio of eigenvalues is larger, gradients have no component across the line of the
-// neighbours (surface/cell_gradient.h). Includes a margin.
+// The largest ratio of the eigenvalues of M at which gradients certainly have a component across
+// the line of the neighbours (surface/cell_gradient.h). Includes a margin.
 constexpr double most_ratio = 500;
 
 /// Sums over the links of a cell, in its plane.

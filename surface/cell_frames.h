@@ -10,17 +10,17 @@
 
 namespace cascade {
 
-/// Two perpendicular unit vectors in the plane of each cell's triangle. Seen from outside, with y
-/// upwards, they point like the axes of a picture. Where y points along the normal, as at the top
-/// of a sphere, the frame follows from the frames of surrounding cells.
+/// Two perpendicular unit vectors in the plane of each cell's triangle. Seen from outside, with the
+/// y axis of space upwards, they point like the axes of a picture. Where that axis is along the
+/// normal, as at the top of a sphere, the frame follows from the frames of surrounding cells.
 struct CellFrames {
     std::vector<Vector3d> right, down;
 };
 CellFrames cell_frames(const SurfaceMesh& mesh, const SurfaceCells& cells);
 
-/// For each cell, the largest difference of diffusion along and across a direction at which no wave
-/// grows, 0 … 1. With rates a and b the difference is |a − b| / (a + b). `frames` are the frames of
-/// the cells.
+/// For each cell, the largest difference, 0 … 1, between the rates of diffusion along and across a
+/// direction at which no wave grows. With rates a and b the difference is |a − b| / (a + b).
+/// `frames` are the frames of the cells.
 ///
 /// Links diffuse at the smaller of the two rates. The rest of the diffusion is a flow F, which in
 /// each cell is a matrix times the least-squares gradient G. Cell i loses Σ w_ij (F_i + F_j) / 2 ·

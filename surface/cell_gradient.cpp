@@ -111,7 +111,7 @@ void fit(const TangentFrame& frame, std::span<const VoronoiEdge> edges,
 }
 
 /// Calls `use(frame, edges, neighbours, first)` for each cell, in any order. `first` is the number
-/// of its first edge.
+/// of the cell's first edge.
 template <typename Use>
 void for_each_cell(const SurfaceMesh& mesh, const SurfaceCells& cells, Team& team,
                    const std::atomic<bool>& cancel, const Use& use) {

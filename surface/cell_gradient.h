@@ -1,4 +1,4 @@
-// The gradient on a surface of values in its cells.
+// The gradient, on a surface, of values given in its cells.
 #pragma once
 
 #include "surface/voronoi_cells.h"

@@ -1,4 +1,4 @@
-// Orders of cells in which neighbours are close in memory and the cells of a slice of links
+// Orders cells such that neighbours are close in memory and the cells of a slice of links
 // (core/links.h) have similar numbers of links. order[k] is the old cell that becomes cell k.
 #pragma once
 
@@ -14,8 +14,7 @@ namespace cascade {
 /// Orders cells by their distance from a peripheral cell, counted in links, so that neighbours are
 /// in adjacent levels (E. Cuthill and J. McKee, "Reducing the bandwidth of sparse symmetric
 /// matrices", ACM 1969). The peripheral cell is found by the method of A. George and J. Liu, ACM
-/// TOMS 5(3),
-/// 1979. Connected components follow each other. O(n).
+/// TOMS 5(3), 1979. Connected components follow each other. O(n).
 std::vector<std::uint32_t> order_by_levels(const LinkList& links);
 
 /// The order with which steps are fastest, according to measurements (docs/performance.md):

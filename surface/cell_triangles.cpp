@@ -40,7 +40,7 @@ public:
 
     CellTriangles find() {
         std::vector<bool> seen(flat_.size(), false);
-        std::vector<std::size_t> walk;  // The edges before the corners.
+        std::vector<std::size_t> walk;  // By corner: the edge to the previous corner.
         for (std::size_t first = 0; first < flat_.size(); ++first) {
             walk.clear();
             std::size_t edge = first;
@@ -97,8 +97,8 @@ private:
         return length(sum) < most_open * around;
     }
 
-    /// Whether the corners of a walk are a triangle or another convex polygon of different cells
-    /// that lies on the surface, and not around a hole.
+    /// Whether a walk goes around a convex polygon, such as a triangle, whose corners are different
+    /// cells. The polygon must be a part of the surface, not a hole.
     bool is_polygon(const std::vector<std::size_t>& walk) const {
         if (walk.size() < 3 || walk.size() > most_corners) return false;
         std::vector<std::uint32_t> corners;

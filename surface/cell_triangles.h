@@ -11,7 +11,8 @@
 namespace cascade {
 
 /// Three cells, in the order in which a walk around the triangle meets them. At each of them, the
-/// directions to the previous cell and to the next one turn like `right` and `down` of CellFrames.
+/// turn from the direction of the previous cell to the direction of the next has the sense of the
+/// turn from `right` to `down` in CellFrames.
 using CellTriangle = std::array<std::uint32_t, 3>;
 
 struct CellTriangles {

@@ -16,8 +16,8 @@ namespace cascade {
 
 namespace {
 
-/// A surface with at least this many triangles per cell is fine. Relaxation unfolds a patch of
-/// about twenty cells around each cell. On a fine surface this would take most of the time.
+/// A surface with at least this many triangles per cell counts as fine. Relaxation unfolds a patch
+/// of about twenty cells around each cell. On a fine surface this would take most of the time.
 constexpr std::size_t fine_triangles = 12;
 /// The copy's approximate number of triangles per cell.
 constexpr double coarse_triangles = 3;

@@ -18,7 +18,7 @@ public:
     CodedDirections(const TangentPlanes& planes, DirectionKind kind)
         : planes_(planes), kind_(kind) {}
 
-    /// The code of a vector, which has the vector's length.
+    /// The code of a vector. The code has the vector's length.
     Vector2d of(std::size_t plane, Vector3d v) const {
         const Vector2d flat = planes_.frames[plane].in_plane(v);
         if (kind_ == DirectionKind::arrows) return flat;

@@ -92,8 +92,8 @@ private:
         return *limit;
     }
 
-    /// Limits the flows of each cell so that their sum is at most `most` times its area, or at most
-    /// `most_weight` if that is larger.
+    /// Limits the flows of each cell so that their sum is at most the larger of `most_weight` and
+    /// `most` times the cell's area.
     void cap_flows(double most) {
         std::vector<double> caps(count(), std::numeric_limits<double>::infinity());
         for (std::size_t cell = 0; cell < count(); ++cell) {

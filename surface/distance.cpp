@@ -26,7 +26,7 @@ bool is_shorter(const Reach& a, const Reach& b) {
     return std::tie(a.distance, a.source) < std::tie(b.distance, b.source);
 }
 
-/// The longest edge with which refinement gives triangles of about the requested area.
+/// The longest edge to allow when a surface of this area is refined to about this many triangles.
 double edge_for(double area, std::size_t triangles) {
     // The edge of the equilateral triangle of area 1 is √(4/√3) = 1.5197. The factor 1.4 allows for
     // edges that are halved once more than necessary.

@@ -64,8 +64,8 @@ private:
     }
 
     /// Queues the vertex `tip` if it is an ear. The whole ring is visible from the origin. So a
-    /// triangle contains no other point of the ring if the origin is on the outer side of its third
-    /// side or on this side.
+    /// triangle contains no other point of the ring if its third side passes through the origin or
+    /// separates the triangle from it.
     void consider(std::uint32_t tip) {
         if (!is_closed_ && (tip == 0 || tip + 1 == ring_.size())) return;
         const Vector2d a = ring_[previous_[tip]], b = ring_[tip], c = ring_[next_[tip]];

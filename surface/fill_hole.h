@@ -11,9 +11,10 @@ namespace cascade {
 
 /// Maps the one-ring of a point to a plane, with the point at the origin. Preserves distances.
 /// Scales the angles between consecutive neighbours so that they sum to a full turn. At a boundary,
-/// where there is one angle less than distances, they sum to half a turn. This is the geodesic
-/// polar map of W. Welch and A. Witkin, "Free-Form Shape Design Using Triangulated Surfaces",
-/// SIGGRAPH 1994. Unlike in a projection to the tangent plane, the triangles never overlap.
+/// where there is one angle fewer than distances, the angles sum to half a turn. This is the
+/// geodesic polar map of W. Welch and A. Witkin, "Free-Form Shape Design Using Triangulated
+/// Surfaces", SIGGRAPH 1994. Unlike in a projection to the tangent plane, the triangles never
+/// overlap.
 std::vector<Vector2d> unroll(std::span<const double> distances, std::span<const double> angles);
 
 /// Corners as indices of points of a ring, counterclockwise.
@@ -27,8 +28,8 @@ using MayMake = std::function<bool(const RingTriangle& corners)>;
 /// circumcircle reaches least far beyond the origin. For a convex ring this gives the Delaunay
 /// triangulation (O. Devillers, "On deletion in Delaunay triangulations", SoCG 1999). An ear that
 /// is not allowed is tried again when a neighbouring ear changes it. The first and the last point
-/// of an open ring are no ears. Returns the triangles in order, with the remaining one last, or
-/// none if no allowed ear is left. O(n log n), not counting ears that are not allowed.
+/// of an open ring are no ears. Returns the triangles in the order of cutting, with the remaining
+/// one last, or none if no allowed ear is left. O(n log n), not counting ears that are not allowed.
 std::vector<RingTriangle> cut_ears(std::span<const Vector2d> ring, bool is_closed,
                                    const MayMake& may_make);
 

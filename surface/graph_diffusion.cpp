@@ -84,7 +84,8 @@ private:
     double mass(std::size_t k) const { return graph_.masses[k] / unit_; }
     double inverse(std::size_t k) const { return diagonal_[k] > 0 ? 1 / diagonal_[k] : 0; }
 
-    /// −time · L v at a node.
+    /// −time · L v at a node, where L is the graph's Laplacian: (L v)_i = Σ weight v_i − coupling
+    /// v_j.
     Number rest_at(const std::vector<Number>& v, std::size_t k) const {
         Number flow{};
         for (std::size_t l = first(k); l < graph_.ends[k]; ++l) {

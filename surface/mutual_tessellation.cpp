@@ -151,9 +151,9 @@ private:
         HalfedgeHandle edge;
     };
 
-    /// Walks from face `f` to a point, across edges that have the face on one side and the point on
-    /// the other. If there are several such edges, chooses one at random, so that the walk cannot
-    /// cycle: O. Devillers, S. Pion and M. Teillaud, "Walking in a triangulation", 2002.
+    /// Walks from face `f` to a point, across edges that have the current face on one side and the
+    /// point on the other. If there are several such edges, chooses one at random, so that the walk
+    /// cannot cycle: O. Devillers, S. Pion and M. Teillaud, "Walking in a triangulation", 2002.
     Found locate(const Steps& point, FaceHandle f) const {
         for (std::uint32_t step = 0;; ++step) {
             HalfedgeHandle h = mesh_.halfedge_handle(f), on, leave;

@@ -12,8 +12,8 @@ namespace {
 constexpr std::uint32_t most_in_leaf = 4;
 
 /// A point farther away than this multiple of the model's size is moved nearer along a straight
-/// line. This does not change the nearest position. Without it, rounding would make all distances
-/// equal.
+/// line. This does not change the nearest position. Without the move, rounding would make all
+/// distances equal.
 constexpr double farthest_kept = 1e5;
 
 double square_distance(Vector3d a, Vector3d b) { return dot(a - b, a - b); }

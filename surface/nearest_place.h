@@ -38,7 +38,7 @@ private:
     std::vector<Box> boxes_;            ///< The first is the root.
 };
 
-/// The point of a triangle nearest to a point, as weights of its corners.
+/// The point of a triangle that is nearest to `point`, as weights of the triangle's corners.
 std::array<double, 3> nearest_weights(const std::array<Vector3d, 3>& corners, Vector3d point);
 
 }  // namespace cascade

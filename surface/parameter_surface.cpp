@@ -16,7 +16,7 @@ namespace {
 /// Half the width of a central difference. With this width, the truncation error and the rounding
 /// error are both about 1e-10.
 constexpr double difference = 1e-5;
-/// A cell with a smaller fraction of the mean area counts as degenerate.
+/// A cell counts as degenerate if its area is less than this fraction of the mean area.
 constexpr double degenerate_area = 1e-6;
 
 /// The metric tensor JᵀJ of a cell. J holds the derivatives of the position by column and by row.

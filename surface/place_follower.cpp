@@ -82,11 +82,11 @@ PlaceFollower::Inside PlaceFollower::inside_of(const SurfaceMesh& mesh, std::uin
 
 /// The steepness of the surrounding triangles on each side of this triangle. A point of a
 /// surrounding triangle has a height over this triangle's plane, and a distance from this triangle
-/// in the plane. The result is the largest ratio of height to distance. Almost all surrounding
-/// triangles are beyond the line of an edge or beyond a corner. Both quantities are linear there,
-/// so it is enough to test corners. The result is at most 1. Then no triangle bent by less than 90°
-/// comes nearer to a point whose height is less than its distance from the edges. Infinite if a
-/// triangle is bent by 90° or more.
+/// in the plane. The result is the largest ratio of height to distance, but at most 1: even with a
+/// larger ratio, no triangle bent by less than 90° comes nearer to a point whose height is less
+/// than its distance from the edges. Infinite if a triangle is bent by 90° or more. Almost all
+/// surrounding triangles are beyond the line of an edge or beyond a corner. Height and distance are
+/// linear there, so it is enough to test corners.
 std::array<float, 2> PlaceFollower::steepness_around(const SurfaceMesh& mesh,
                                                      std::uint32_t triangle,
                                                      std::span<const std::uint32_t> around) const {

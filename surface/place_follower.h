@@ -15,12 +15,12 @@
 
 namespace cascade {
 
-/// Goes from triangle to triangle, starting at the previous one, as long as a triangle that shares
-/// a corner is nearer to the point. This takes a few dozen nanoseconds, where NearestPlace takes a
-/// microsecond. The position found is nearer than all positions around it. It is the nearest on the
-/// whole surface unless the point has come nearer to another sheet of the surface. If several
-/// positions are equally near, it is the one on the triangle with the lowest index. The mesh must
-/// have triangles and outlive the object unchanged. Thread-safe.
+/// Goes from triangle to triangle, starting at the one found last, as long as a triangle that
+/// shares a corner is nearer to the point. This takes a few dozen nanoseconds, where NearestPlace
+/// takes a microsecond. The position found is nearer than all positions around it. It is the
+/// nearest on the whole surface unless the point has come nearer to another sheet of the surface.
+/// If several positions are equally near, it is the one on the triangle with the lowest index. The
+/// mesh must have triangles and outlive the object unchanged. Thread-safe.
 class PlaceFollower {
 public:
     explicit PlaceFollower(const SurfaceMesh& mesh);

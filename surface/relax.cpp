@@ -36,7 +36,7 @@ struct Vector2f {
 class NeighbourList {
 public:
     /// Forces are computed for this many neighbours at a time, so a list has memory for this many
-    /// more beyond its end.
+    /// more neighbours beyond its end.
     static constexpr std::size_t together = 16;
 
     std::vector<std::uint32_t> numbers;
@@ -71,7 +71,7 @@ private:
 };
 
 constexpr float core_strength = 4;
-/// Positions whose squared distance in radii is smaller than this coincide.
+/// Positions whose squared distance in radii is smaller than this count as coinciding.
 constexpr float least_square = 1e-14F;
 
 /// The direction in which a position is pushed away from a coinciding one.

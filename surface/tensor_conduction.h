@@ -12,7 +12,8 @@
 
 namespace cascade {
 
-/// The links over which values diffuse by tensors, and what a tensor adds to the weights of links.
+/// The links over which values diffuse by tensors, and the terms that tensors add to the weights of
+/// links.
 ///
 /// The tensor of a cell is γ + v vᵀ: diffusion at the rate γ in all directions, and at the rate
 /// |v|² along v. Values change as
@@ -25,9 +26,10 @@ namespace cascade {
 /// ∇e is measured in that cell's plane. V_ij = V_ji, so Σ A e is conserved. The energy is never
 /// negative although some V are, so no wave grows.
 ///
-/// Narrow triangles would make steps short. Around a cell in which the sizes of what v adds for
-/// |v| = 1 exceed the largest sum of flows per area of all cells, |v|² is made smaller until they
-/// do not. So the bound of a step for the rate γ + |v|² in all directions holds for the tensor.
+/// Narrow triangles would make steps short. Let s be the largest sum of flows per area in any cell.
+/// Around a cell to whose links a v of length 1 would add terms with sizes that sum to more than s
+/// per area, |v|² is reduced until they sum to s. So the bound of a step for the rate γ + |v|² in
+/// all directions holds for the tensor.
 class TensorConduction {
 public:
     /// `frames` are the frames of the cells, and `conduction` their flows and areas. The result is
@@ -50,7 +52,7 @@ private:
     /// the differences over the links to the other corners.
     struct Corner {
         std::uint32_t cell = 0;
-        std::uint32_t first = 0, second = 0, across = 0;  ///< Pairs of linked cells.
+        std::uint32_t first = 0, second = 0, across = 0;  ///< Numbers of pairs of linked cells.
         Vector2d a, b;
     };
 

@@ -14,8 +14,8 @@ void make_modules_exact();
 
 std::unique_ptr<Backend> make_module_backend();
 
-/// A backend for kernels that run once. It is the interpreter. After make_modules_exact() it makes
-/// modules, because in a tab the interpreter flushes only results.
+/// A backend for kernels that run once. This is the interpreter or, after make_modules_exact(), a
+/// backend that makes modules, because in a tab the interpreter flushes only results.
 std::unique_ptr<Backend> make_starting_backend();
 
 }  // namespace cascade

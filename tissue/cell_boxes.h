@@ -21,7 +21,7 @@ struct BoxedCell {
     std::uint32_t cell = 0, rank = 0;
 };
 
-/// The data for a search of a cell whose list has the skin `skin`.
+/// The search data of a cell whose list has the skin `skin`.
 inline BoxedCell boxed(const CellPlaces& cells, std::uint32_t cell, const NeighbourRule& rule,
                        double skin) {
     const double radius = cells.radii[cell];
@@ -36,7 +36,7 @@ inline double width_of(const BoxedCell& cell, const NeighbourRule& rule) {
 inline double nearest_image(double difference, double period) {
     return period > 0 ? difference - period * std::nearbyint(difference / period) : difference;
 }
-/// Whether two cells are neighbours. The result has the same bits for both orders of the cells.
+/// Whether two cells are neighbours. The result does not depend on the order of the two.
 template <bool is_periodic>
 bool are_near(const BoxedCell& own, const BoxedCell& other, const NeighbourRule& rule) {
     Vector3d apart = other.place - own.place;

@@ -33,8 +33,8 @@ public:
     /// Builds the lists of some cells again: cells whose slack would not be enough for the next
     /// step if they move as in the last step.
     Result<void> renew_restless(const Tissue& tissue);
-    /// Whether the lists are valid in this state, and also for cells whose positions differ from it
-    /// by up to `around`.
+    /// Whether the lists are valid in this state, and also at positions that differ by up to
+    /// `around` from those of this state.
     bool reach(const Tissue& tissue, const std::vector<Field>& state, double around) const;
     /// Whether the lists of these cells are valid at their present positions.
     bool reach(const Tissue& tissue, std::span<const std::uint32_t> cells) const;

@@ -31,8 +31,8 @@ struct Weights {
     double of_old, of_new, of_old_rate, of_new_rate;
 };
 
-/// The error of moments is 2 to this power of a step. In single precision, species change by less
-/// than their rounding in shorter parts of a step.
+/// The error of moments, as a fraction of a step, is 2 to this power. In single precision, species
+/// change by less than their rounding in shorter parts of a step.
 int power_of(Precision precision) { return precision == Precision::single ? -16 : -20; }
 /// If margins are not smooth, the search takes at most this many probes more than bisection. If
 /// they are smooth, it takes a fifth of the probes of bisection.

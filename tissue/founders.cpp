@@ -17,7 +17,7 @@ constexpr std::size_t most_tries = 10'000;  ///< The most positions tried per fo
 
 double fraction(std::uint32_t word) { return (word + 0.5) * 0x1p-32; }
 
-/// Random positions of the surroundings. Each depends on its index.
+/// Random positions of the surroundings. Each is determined by its index.
 class FounderPlaces {
 public:
     FounderPlaces(const Surroundings& surroundings, std::uint32_t seed, std::uint32_t stage)

@@ -16,7 +16,7 @@ namespace cascade {
 /// The probability, 0 … 1, of accepting a founder at each of these positions. NaN counts as 0.
 using FounderChance = std::function<std::vector<double>(std::span<const NearPlace> places)>;
 
-/// `count` random positions, by area on a surface and by volume in a box. Without a chance,
+/// `count` random positions, uniform by area on a surface and by volume in a box. Without a chance,
 /// position k depends only on the surroundings, `seed`, `stage` and k. With a chance, as many of
 /// these positions are tried as needed. Fails if fewer than one in ten thousand is accepted.
 Result<std::vector<NearPlace>> random_founders(const Surroundings& surroundings, std::size_t count,

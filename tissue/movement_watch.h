@@ -14,12 +14,11 @@
 
 namespace cascade {
 
-/// Measures how far cells move. A cell's movement is the distance between its two positions, plus
-/// its growth, because a growing cell approaches other cells, too.
+/// Measures how far cells move. A cell's movement is the distance between its earlier and its
+/// present position, plus its growth, because a growing cell approaches other cells, too.
 class MovementWatch {
 public:
-    /// The limit of a cell's movement in a step, as a multiple of its radius, or of half the
-    /// distance of neighbours if that is larger.
+    /// The limit of a cell's movement in a step, as a multiple of slack_of() for a skin of 1.
     static constexpr double most_of_radius = 0.5;
     /// The skin of lists that stay valid in every step in which no cell moves farther than
     /// `most_of_radius` allows. Includes a margin for rounding.
@@ -28,8 +27,8 @@ public:
     /// Must be called when lists have been built with these skins, for cells at these positions.
     void begin_lists(std::span<const Vector3d> places, std::span<const double> radii,
                      const NeighbourRule& rule, std::span<const float> skins);
-    /// Must be called when the list of one cell, which may be new, has been built again at this
-    /// position.
+    /// Must be called when the list of one cell has been built at this position. The cell may be
+    /// new.
     void renew(std::size_t cell, Vector3d place, double radius, const NeighbourRule& rule,
                double skin);
     void resize(std::size_t cells) { listed_.resize(cells); }

@@ -1,5 +1,5 @@
-// The search for neighbours. Its boxes also serve later, for cells whose neighbours change
-// (internal to tissue/).
+// The search for neighbours. Its boxes are kept for later searches for cells whose neighbours
+// change (internal to tissue/).
 #pragma once
 
 #include "core/parallel.h"
@@ -31,7 +31,7 @@ public:
     bool finds_nothing() const { return boxes_.empty(); }
 
     /// Finds the keys of a cell's neighbours. First come the neighbours in octaves of larger cells,
-    /// whose number is returned. Then come the neighbours in the cell's own octave.
+    /// then those in the cell's own octave. Returns the number of the former.
     std::size_t find(std::uint32_t cell, NeighbourKeys& found) const;
     /// The number of links, estimated from a sample of cells.
     double estimated_links() const;

@@ -31,7 +31,7 @@ struct Part {
 
 void search_part(const NeighbourSearch& search, RowRange cells, std::atomic<std::int64_t>& left,
                  Part& part) {
-    // The number of cells between two checks of the remaining work.
+    // The number of cells between two checks of how many links may still be found.
     constexpr std::int64_t cells_at_once = 256;
     part.neighbours.reserve(static_cast<std::size_t>(16 * (cells.end - cells.begin)));
     part.counts.reserve(static_cast<std::size_t>(cells.end - cells.begin));

@@ -29,8 +29,8 @@ struct NeighbourRule {
 };
 
 /// The distance, in script lengths, that each cell may move before a list built with this `skin`
-/// can miss a pair. This is `skin` times the largest of its radius, half the distance `near` and a
-/// quarter of the mean radius.
+/// can miss a pair. This is `skin` times the largest of three lengths: the cell's radius, half the
+/// distance `near` and a quarter of the mean radius.
 inline double slack_of(const NeighbourRule& rule, double skin, double radius) {
     return skin * std::max({radius, rule.near / 2, rule.mean_radius / 4});
 }

@@ -46,7 +46,7 @@ struct NearTriangles {
     std::vector<std::uint32_t> before;  ///< At the last complete step, by cell.
     std::vector<std::uint32_t> now;     ///< At the last evaluation, by cell.
 
-    /// Begins a step at the triangles of a complete step.
+    /// Begins a step, whose searches begin at these triangles of the last complete step.
     void begin(std::span<const std::uint32_t> triangles) {
         before.assign(triangles.begin(), triangles.end());
         now = before;

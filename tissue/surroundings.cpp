@@ -68,7 +68,7 @@ public:
     }
 
 private:
-    /// The nearest position. For cells that are neither above nor below the inside of `triangle` or
+    /// The nearest position to a cell that is neither above nor below the inside of `triangle` or
     /// of a triangle next to it.
     NearPlace search(Vector3d point, std::uint32_t triangle) const {
         NearPlace near = near_nothing(point);

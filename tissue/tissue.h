@@ -125,9 +125,9 @@ public:
     void freeze_by(std::size_t kept_plane);
 
     /// Puts a copy of cell sources[k] at index k, for all k. Cells that are not among the sources
-    /// disappear. The cells at the indices `born` get the next numbers, in this order. No two other
-    /// cells have the same source. Returns whether the layout has changed. If not, all planes stay
-    /// in memory. Throws std::bad_alloc.
+    /// disappear. The cells at the indices `born` get the next numbers, in this order. Of the cells
+    /// that are not in `born`, no two have the same source. Returns whether the layout has changed.
+    /// If not, all planes stay in memory. Throws std::bad_alloc.
     bool rearrange(std::span<const std::uint32_t> sources,
                    std::span<const std::uint32_t> born = {});
     /// Copies the values of the last cell to the elements after it.

@@ -68,7 +68,7 @@ struct TissueSchedule {
     double most_list_bytes = 4e9;
     std::size_t most_cells = 10'000'000;
     int threads = 1;
-    std::int64_t check = 0;    ///< `ends` is called at multiples of this. 0: never.
+    std::int64_t check = 0;    ///< `ends` is called every `check` steps. 0: never.
     TissueObserver ends = {};  ///< Returns true to end the stage.
     /// `keep_is_due` is called after each step. If it returns true, the state must be saved, and
     /// `keep` is called. The answer does not influence the run's results.
@@ -129,7 +129,7 @@ public:
 
     /// Continues until tissue.time.steps is `last_step`. Observes at multiples of `interval`, or
     /// never if this is 0. Uses `control` as TimeLoop::advance() does. May be called again unless
-    /// it failed. Throws std::bad_alloc.
+    /// an earlier call failed. Throws std::bad_alloc.
     TissueOutcome advance(std::int64_t last_step, std::int64_t interval, RunControl& control,
                           const TissueObserver& observe);
 

@@ -52,7 +52,8 @@ struct TissueStep {
     std::vector<RegisterId> states;  ///< The result of state_registers() for the scheme.
 };
 
-/// The registers at which the sweeps of a scheme evaluate rates, including the old step.
+/// The registers that hold the states in which a scheme's sweeps evaluate rates, including the
+/// state at the beginning of the step.
 std::vector<RegisterId> state_registers(const Scheme& scheme);
 
 /// The equations of a tissue as passes over its planes. The problems returned below stay valid

@@ -50,8 +50,7 @@ struct TriedStep {
     bool is_abandoned = false;
 };
 
-/// Called with the curve through a tried step, and the fraction of the tried step after which it
-/// ends.
+/// Called with the curve through a tried step, and with the resulting StepEvents::part.
 using CurveUser = std::function<void(const StepCubic& curve, double part)>;
 
 /// Owns everything that must be made again when planes move. Between calls, tissue.species holds

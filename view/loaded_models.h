@@ -29,7 +29,7 @@ struct LoadLimits {
 class LoadedModels {
 public:
     /// Stores models in `folder`, which scripts must be permitted to read. Each model gets a file
-    /// name that is neither used there nor in `script_folder`, which scripts search first. If
+    /// name that is used neither there nor in `script_folder`, which scripts search first. If
     /// `folder` is empty, no model is accepted.
     LoadedModels(std::filesystem::path folder, std::filesystem::path script_folder,
                  const LoadLimits& limits = {});

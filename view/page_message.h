@@ -40,7 +40,7 @@ struct AskForFeatures { std::string show; };
 struct AskForPicture { PictureRequest request; };
 /// Asks for the declaration and the uses of the name at a byte of `text`.
 struct AskForUses { std::string text; std::size_t byte = 0; };
-/// Asks for `text` with another name at a byte.
+/// Asks for `text` with the name at byte `byte` changed to `name`.
 struct AskToRename { std::string text; std::size_t byte = 0; std::string name; };
 // clang-format on
 

@@ -263,7 +263,8 @@ public:
         return list;
     }
 
-    /// The position of the declaration in the text, or the name of the other source.
+    /// The position of the declaration in the text, or the name of the other source that contains
+    /// it.
     Json declaration() const {
         const auto span = index_.declaration_at(byte_);
         if (!span) return nullptr;

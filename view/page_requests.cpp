@@ -1,5 +1,5 @@
-// The numbers of a page's requests increase. So a request was carried out if its number is at most
-// the number of the last request that was.
+// The numbers of a page's requests increase. So a request was carried out before if its number is
+// at most that of the last request carried out.
 #include "view/page_requests.h"
 
 #include <algorithm>

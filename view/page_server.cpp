@@ -130,14 +130,15 @@ struct OpenPage {
     std::uint64_t seen = 0;  ///< The number of the last snapshot that was sent.
 };
 
-/// Models that are loaded on a page may come from strangers.
+/// The most seconds for making a model's cells. Models that are loaded on a page may come from
+/// strangers.
 constexpr double most_model_seconds = 120;
 constexpr int snapshot_frame = 0, surface_frame = 1, file_frame = 2;
 
 }  // namespace
 
 struct PageServer::State {
-    std::mutex mutex;  ///< Protects all members below that have no own locks.
+    std::mutex mutex;  ///< Protects all members below that have no locks of their own.
     std::condition_variable is_wanted;
     std::map<PageId, OpenPage> pages;
     PageRequests requests;

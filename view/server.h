@@ -42,8 +42,8 @@ class Connection;
 /// The time the server waits for pages to answer its close, and for clients to read a refusal.
 constexpr std::chrono::milliseconds farewell_time{500};
 
-/// The part of a connection to a page that other threads use. Only the server's thread locks
-/// `connection`.
+/// The part of a connection to a page that threads other than the server's use. Only the server's
+/// thread locks `connection`.
 struct PageLine {
     std::shared_ptr<Outbox> outbox;
     std::weak_ptr<Connection> connection;

@@ -18,9 +18,9 @@ class Body {
 public:
     Body(const KernelPart& part, Function& function, Cells& cells, bool is_exact);
 
-    /// Writes the code of the values of a loop level. Must be called once for each level, outer
-    /// levels first, but for the level of cells once for each vector of the group. The calls for
-    /// cells also write the stores of results.
+    /// Writes the code of the values of a loop level. Must be called for each level, outer levels
+    /// first: at the level of cells once for each vector of the group, and at all other levels
+    /// once. The calls for cells also write the stores of results.
     void write(LoopLevel level);
 
 private:

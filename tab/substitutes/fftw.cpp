@@ -32,7 +32,8 @@ struct Lines {
     int stride, distance;
 };
 
-/// Transforms lines of n numbers. For complex transforms, a number is a pair of numbers.
+/// Transforms lines of n numbers. In complex transforms, a number of a line is a pair: its real and
+/// its imaginary part.
 struct Pass {
     Transform transform;
     fftw_r2r_kind kind;  ///< For a real transform.
@@ -42,8 +43,8 @@ struct Pass {
 
 struct Plan {
     Pass pass;
-    // The sizes and kinds for fftw_plan_r2r(), which transforms along several axes, the slowest
-    // first.
+    // The sizes and kinds for fftw_plan_r2r(), which transforms along several axes. They begin with
+    // the axis whose index varies slowest in memory.
     std::vector<int> sizes = {};
     std::vector<fftw_r2r_kind> kinds = {};
     double* values = nullptr;

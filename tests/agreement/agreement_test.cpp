@@ -42,7 +42,7 @@ using test::same_bits;
 SimulationOptions interpreted() { return {"interp", 0, 1}; }
 SimulationOptions compiled(int lanes, int threads) { return {"jit", lanes, threads}; }
 SimulationOptions compiled_in_parts(int lanes, int parts) {
-    // Odd numbers of parts have halos as thick as themselves.
+    // If the number of parts is odd, parts may be as thin as their halos.
     return {"jit", lanes, 1, in_parts(parts, parts % 2 == 1 ? 1 : least_thickness)};
 }
 

@@ -19,8 +19,8 @@ struct FunctionRow {
     Contexts places;
 };
 
-/// All functions except those of cells that crawl, which these scripts do not contain, and those
-/// that only lowering makes.
+/// All functions except those that only lowering makes and those of crawling cells, which these
+/// scripts do not contain.
 std::vector<FunctionRow> functions_of_fields() {
     std::vector<FunctionRow> rows;
     const auto add = [&](Function function, const FunctionRow& row) {
@@ -247,7 +247,7 @@ private:
         return false;
     }
 
-    /// f0 of one value and f1 of two, which calls f0.
+    /// Writes the functions f0 of one value and f1 of two values. f1 calls f0.
     void write_functions() {
         readable_ = {"a"};
         text_ += fmt::format("fn f0(a) = {}\n", expression(Place::value, 2));
@@ -388,7 +388,7 @@ private:
 
     RandomStream stream_, mask_stream_, stencil_stream_;
     bool has_mask_ = false;   ///< With a mask, species have the sides of the domain.
-    bool is_fourth_ = false;  ///< With this stencil, too.
+    bool is_fourth_ = false;  ///< With the stencil `fourth`, they have these sides, too.
     std::string text_;
     std::vector<std::string> readable_, species_, previous_;
     std::vector<SystemNames> systems_;

@@ -8,7 +8,7 @@ namespace cascade::test {
 
 /// A script of one to three stages over random systems, valid by construction; a pure function of
 /// the seed. Every function and operator of lang/vocabulary/functions.def that a system or a value
-/// may hold is likely to occur, and so are functions of its own, families, masks, stencils,
+/// may hold is likely to occur, and so are the script's own functions, families, masks, stencils,
 /// invariants, definitions, rates of rates and uniform, varying and per-cell time steps.
 std::string random_script(std::uint64_t seed);
 

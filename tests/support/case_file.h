@@ -1,4 +1,4 @@
-// Writes cases that a script in node runs.
+// Writes test cases that a Node.js script runs.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace cascade::test {
 
-/// A file of numbers of 32 bits, little endian, and lists of bytes after their length.
+/// A file of numbers of 32 bits, little endian, and of lists of bytes, each preceded by its length.
 class CaseFile {
 public:
     explicit CaseFile(const std::string& path);

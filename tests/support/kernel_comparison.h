@@ -52,17 +52,17 @@ std::vector<Field> run_kernel(Backend& backend, const CellKernel& kernel, const 
 /// first difference: result, cell, both words.
 std::string same_bits(const std::vector<Field>& a, const std::vector<Field>& b);
 
-/// Empty if a run wrote only what backend.h allows: these cells, after the last cell of a row up to
-/// the next multiple of row_pad, and the columns of the halo beside the cells if these were to be
-/// filled. Otherwise the first wrong position. Only for planes from HostileInputs::run.
+/// Empty if a run wrote only what backend.h allows: these cells, the padding after the last cell of
+/// a row up to the next multiple of row_pad, and the halo's columns beside the cells if they were
+/// to be filled. Otherwise the first wrong position. Only for planes from HostileInputs::run.
 std::string stray_writes(const std::vector<Field>& results, const Patch& cells,
                          bool with_columns = false);
 
 /// Linked cells in 1 … max_height rows of 1 … max_width.
 Grid random_linked_grid(std::uint64_t seed, std::int64_t max_width, std::int64_t max_height);
 
-/// A grid of 1 … max_width × 1 … max_height cells, more than half of the time of up to max_depth
-/// slices, with any boundary along each axis.
+/// A grid of 1 … max_width × 1 … max_height cells, in more than half of the cases with up to
+/// max_depth slices, with any boundary along each axis.
 Grid random_grid(std::uint64_t seed, std::int64_t max_width, std::int64_t max_height,
                  std::int64_t max_depth = 1);
 

@@ -175,7 +175,8 @@ private:
                                                                      : hostile_long_word(stream_));
     }
 
-    /// A whole number by which scaling is defined: −128 … 127, in binary64 −1024 … 1023.
+    /// A whole number that is a valid exponent of 2 for scaling: −128 … 127, in binary64 −1024 …
+    /// 1023.
     ValueId power_of_two() {
         const std::uint64_t half = options_.precision == Precision::single ? 128 : 1024;
         const ValueId word =
@@ -239,7 +240,7 @@ private:
         return values_[from + stream_.below(values_.size() - from)];
     }
 
-    /// A value in which NaN, if possible, is replaced by 0.
+    /// A value in which NaN is replaced by 0, unless all executors give it the same bits.
     ValueId exact_operand() {
         const Value value = operand();
         if (value.is_exact) return value.id;

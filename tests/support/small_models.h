@@ -18,12 +18,12 @@ std::string bytes_of(std::uint32_t value, bool big_endian = false);
 /// be replaced.
 std::string gltf_text(std::string_view indices_accessor = R"("indices":1,)");
 
-/// The parts of a GLB file put together.
+/// A GLB file made of these two parts.
 std::string glb_file(std::string_view json, std::string_view data);
 
 struct SmallModel {
     std::string_view name;
-    std::string_view ending;  ///< The ending of the format, in lower case.
+    std::string_view ending;  ///< The format's file name ending, in lower case.
     std::string bytes;
 };
 
