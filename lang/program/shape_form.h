@@ -29,8 +29,8 @@ struct ShapeForm {
                                             ///< quantities.
     std::vector<double> usual;  ///< For each quantity, the value if a picture gives none.
     Formula place;              ///< The position of a point, a vector. Empty if `radius` is given.
-    Formula radius, middle;     ///< A number and a vector: the tube around the line `middle`. If
-                                ///< `middle` is empty, the line goes straight up to 1.
+    Formula radius, middle;     ///< A tube: its radius, a number, and the line in its middle, a
+                                ///< vector. If `middle` is empty, the line goes straight up to 1.
     Formula shade;              ///< A number, 0 … 1.
     std::uint32_t parts = 1;
 

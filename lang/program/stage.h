@@ -25,11 +25,12 @@ struct StageTime {
     std::optional<double> duration;
     /// If given, the duration is this number times the speed at the start of the stage.
     std::optional<std::int64_t> duration_in_steps;
-    double every = 0;  ///< If above 0, a step ends at each multiple, and the stage is observed.
-    Span every_span;   ///< The place of `every` in the script.
+    /// If above 0, a step ends at each multiple of this time, and the stage is observed then.
+    double every = 0;
+    Span every_span;        ///< The place of `every` in the script.
     bool open_end = false;  ///< Whether only `until` or the largest number of steps ends the stage.
     bool automatic_speed = false;  ///< Whether steps are as long as stability and accuracy allow.
-    std::optional<Formula> until;  ///< A condition that ends the stage. The same in all cells.
+    std::optional<Formula> until;  ///< A condition, equal in all cells, that ends the stage.
     std::optional<double> steady;  ///< Ends the stage when its pattern has settled to this degree.
     std::optional<std::int64_t> check;  ///< The number of steps between two evaluations of `until`.
     /// The stage first runs on a grid whose cells are wider by this factor. 1 if there is no such
@@ -83,8 +84,9 @@ struct Stage {
                                       ///< for species.
     std::int64_t iterations = 0;      ///< The number of steps. If there is a duration, the largest
                                       ///< number of steps.
-    std::int64_t interval = 1;  ///< The number of steps between two outputs, such as pictures of a
-                                ///< film. 0 means `every`, or else a tenth of the duration.
+    /// The number of steps between two outputs, such as pictures of a film. If 0, the time between
+    /// outputs is `every`, or else a tenth of the duration.
+    std::int64_t interval = 1;
     Formula show;
     StageTime time;
     /// For `grid: coarse(…)`: the ratio of the width of the stage's cells to the width of the

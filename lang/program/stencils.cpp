@@ -32,9 +32,9 @@ constexpr std::array difference_rows = [] {
     };
 }();
 
-/// A difference over all axes, on one, two and three axes. There is a weight for the neighbours
-/// along axes (N, S, E, W, U and D), one for the diagonal neighbours, and one for the cell itself.
-/// The isotropic Laplacian comes from Patra & Karttunen (2006).
+/// A difference over all axes. For grids with one, two and three axes: the weight of the neighbours
+/// along axes (N, S, E, W, U and D), of the diagonal neighbours, and of the cell itself. The
+/// isotropic Laplacian comes from Patra & Karttunen (2006).
 struct Star {
     Difference difference;
     std::array<std::array<int, 3>, 3> weights;

@@ -1,7 +1,7 @@
-// The differences between neighbouring cells from which operators are made, as data: offsets and
-// weights. Lowering makes kernels from this table (lang/lower), and calculus computes bounds from
-// it (lang/calculus). Tests compare the symbols of waves (analysis) with the table.
-// spec/numerics.md has the same formulas.
+// Operators are made from differences between neighbouring cells. This table contains the
+// differences as data: offsets and weights. Lowering makes kernels from the table (lang/lower), and
+// calculus computes bounds from it (lang/calculus). Tests compare the symbols of waves (analysis)
+// with it. spec/numerics.md has the same formulas.
 #pragma once
 
 #include "lang/program/program.h"

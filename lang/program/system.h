@@ -44,8 +44,8 @@ struct Definition {
 
 struct Invariant {
     ItemId species;
-    bool at_least = true;  ///< Whether the species must be at least the bound. If false, at most
-                           ///< the bound.
+    bool at_least = true;  ///< Whether the bound is the smallest value of the species. If false,
+                           ///< it is the largest.
     Formula bound;         ///< A formula of numbers and parameters.
 };
 
@@ -96,7 +96,7 @@ struct SideSetting {
 
 using SideSettings = std::array<SideSetting, wall_count>;
 
-/// The rules at sides of a definition that has such rules. At sides without a rule the definition
+/// A definition that has rules at sides, with these rules. At sides without a rule the definition
 /// is mirrored.
 struct DefinitionSides {
     DefinitionId definition;
@@ -140,7 +140,7 @@ struct CellRules {
 };
 
 /// The formulas of divide, die, along, of values that restart after a division, and of the
-/// distances of `near`. Some may be empty.
+/// distances of `near`. Some of these formulas may be empty.
 std::vector<const Formula*> rules_of(const CellRules& cells);
 
 struct System {

@@ -57,7 +57,7 @@ BasicVector3<Number> of_components(const Graph& nodes, const Node& call,
     return result;
 }
 
-/// Whether vector_by() has a rule for a function whose result is a vector.
+/// Whether vector_by() has a rule for calls of this function whose result is a vector.
 inline bool makes_flux(Function function) {
     const FunctionInfo& row = info(function);
     const bool is_leaf = row.kind == FunctionKind::flux && row.result == ResultKind::vector;

@@ -38,8 +38,8 @@ std::vector<KnownName> known_names(const Program& program);
 std::vector<KnownName> completions(std::string_view text, std::size_t byte, const Program& program);
 
 /// The meaning of the word at or before a byte of a text. For a species or a parameter, also the
-/// stage whose values the word means: the stage that the text names, or the first one of the system
-/// that the block declares, or else `stage`. The program may have no stages.
+/// stage whose values the word means: the stage that the text names, or the first stage of the
+/// system that the block around the byte declares, or else `stage`. The program may have no stages.
 struct Mention {
     KnownName known;
     std::optional<StageItem> item;

@@ -174,7 +174,8 @@ NameIndex::NameIndex(const ast::Script& tree, const Diagnostics& read, Sources& 
     for (const ast::Block& block : tree.blocks) note_source(block.keyword.span);
     for (const ast::FunctionDefinition& function : tree.functions) note_source(function.name.span);
     NameUses uses;
-    Diagnostics diagnostics = read;  // The check leaves out what a tree with errors cannot have.
+    // If `read` has errors, check() leaves out what needs a tree without errors.
+    Diagnostics diagnostics = read;
     check(tree, sources, diagnostics, &uses);
     errors_ = diagnostics.error_count();
     TreeNames(tree, uses).run();
@@ -210,8 +211,8 @@ void NameIndex::add(const NameUses& uses) {
         const std::size_t a = first_of(use), b = first_of(declaration);
         words_[std::max(a, b)].group = std::min(a, b);
     }
-    // The declaration of a name that declares itself is this name, not the declaration that it
-    // replaces.
+    // If a declaration replaces another one, its name refers to both. The declaration of such a
+    // name is the name itself.
     for (const NameUse& each : named) {
         if (each.use == each.declaration) {
             const std::size_t k = number.at(key_of(each.use));

@@ -29,14 +29,16 @@ public:
     /// The name that contains a byte of the text or ends directly before it. Empty if there is
     /// none.
     std::optional<Span> name_at(std::uint32_t byte) const;
-    /// The declaration of this name, in any of the sources. If a derived system replaces a
-    /// declaration, the result is the one that is valid at this byte.
+    /// The declaration of the name at this byte, in any of the sources. If a derived system
+    /// replaces the declaration, the result is the one that is valid at this byte.
     std::optional<Span> declaration_at(std::uint32_t byte) const;
-    /// All places where this name is used or declared, in all sources, in ascending order.
+    /// All places where the name at this byte is used or declared, in all sources, in ascending
+    /// order.
     std::vector<Span> uses_at(std::uint32_t byte) const;
 
-    /// The text with this name replaced by another. Fails if the name also occurs in another
-    /// source, or if the new text would have errors or the meaning of any name would change.
+    /// The text with the name at this byte replaced by `name`. Fails if the old name also occurs in
+    /// another source, or if the new text would have errors or the meaning of any name would
+    /// change.
     Result<std::string> renamed(std::uint32_t byte, std::string_view name) const;
 
 private:

@@ -158,8 +158,8 @@ struct Script {
     std::vector<FunctionDefinition> functions;
     std::vector<Use> uses;
     std::vector<Override> overrides;
-    /// Settings of the domain and of all stages that options give: --grid 64x32 is `grid: 64, 32`.
-    /// They override the script. The source of each statement is the text of the option. The
+    /// Settings that options give for the domain and for all stages: --grid 64x32 is `grid: 64,
+    /// 32`. They override the script. The source of each statement is the text of the option. The
     /// statement for --fast has no value.
     std::vector<Statement> options;
     std::vector<Expr> expressions;

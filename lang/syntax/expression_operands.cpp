@@ -90,7 +90,7 @@ ExpressionParser::Progress ExpressionParser::read_number() {
     return read_unit();
 }
 
-/// Reads the unit after a number, if there is one. An exponent has none.
+/// Reads the unit after a number, if there is one. An exponent has no unit.
 ExpressionParser::Progress ExpressionParser::read_unit() {
     const auto applies = [&](std::size_t depth, Function op) {
         return pending_.size() >= depth && !pending_[pending_.size() - depth].is_bracket() &&

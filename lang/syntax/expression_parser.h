@@ -79,7 +79,7 @@ private:
     void push_component(int axis, const ast::Word& name);
     Progress unexpected_operator(bool on_new_line);
     std::string hint_of_missing_operator() const;
-    /// An error about a form of other languages; its hint is empty if there is none.
+    /// An error about a form of other languages. The hint may be empty.
     struct ForeignForm {
         Span span;
         std::string message, hint;

@@ -51,7 +51,8 @@ double value_of_digits(std::string_view digits) {
     return value;
 }
 
-/// Where the power of `x10^-3` or `x10^(-3)` ends, which begins at the '^'. Empty if it is none.
+/// The end of the power in `x10^-3` or `x10^(-3)`. `caret` is the position of the '^'. Empty if no
+/// power follows.
 std::optional<std::size_t> end_of_power(std::string_view text, std::size_t caret) {
     std::size_t at = caret + 1;
     const auto here = [&] { return at < text.size() ? text[at] : '\0'; };

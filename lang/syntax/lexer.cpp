@@ -259,8 +259,8 @@ void Lexer::read_number() {
     push(TokenKind::garbage, begin, fault.end);
 }
 
-/// Reads a string, which must end on the same line. If it has other quotation marks, which have
-/// been reported, it becomes garbage.
+/// Reads a string, which must end on the same line. It becomes garbage if its quotation marks are
+/// not '"' or if it has unreadable bytes. Both errors are reported elsewhere.
 void Lexer::read_text(std::size_t quote_size, std::string_view closing) {
     const std::size_t begin = offset_;
     bool readable = quote_size == 1;

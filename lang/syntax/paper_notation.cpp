@@ -215,7 +215,7 @@ private:
             closings_ += times;
         }
     }
-    /// How many Laplacians ∇², ∇⁴ or Δ² applies.
+    /// How many times an operator such as ∇², ∇⁴ or Δ² applies the Laplacian.
     std::size_t times_applied(const Token& sign, const Token& power) {
         const std::string digits = digits_of(source(power.span));
         constexpr std::array<std::string_view, 4> even{"2", "4", "6", "8"};

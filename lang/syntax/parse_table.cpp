@@ -32,7 +32,7 @@ std::optional<double> number_in(std::string_view text) {
     return is_whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-/// The name in a cell such as "light [lux]". Empty if functions cannot have it.
+/// The name in a cell such as "light [lux]". Empty if functions cannot have this name.
 std::string_view function_name(std::string_view text) {
     text = text.substr(0, text.find_first_of("(["));
     while (text.ends_with(' ')) text.remove_suffix(1);
@@ -117,7 +117,7 @@ private:
     NumberTable table_;
 };
 
-/// The bytes of a cell, whose place counts characters.
+/// The span of a cell in bytes. The cell's line and column count characters.
 Span TableParser::span_of(const CsvCell& cell) const {
     std::size_t at = lines_[cell.line - 1];
     for (std::size_t column = 1; column < cell.column; ++column) {
@@ -278,8 +278,8 @@ void TableParser::add_damaged(std::size_t column) {
     script_.functions.push_back(std::move(function));
 }
 
-/// Adds the expression that has piece `first` … `last`, and returns its root. Piece k ends at
-/// row k, and the last piece does not end.
+/// Adds the expression that consists of the pieces `first` … `last`, and returns its root. Piece k
+/// ends at row k, and the piece after the last row has no end.
 ast::ExprId TableParser::between(std::size_t column, std::size_t first, std::size_t last) {
     if (first == last) return piece(column, first);
     const std::size_t middle = (first + last) / 2;
@@ -294,8 +294,8 @@ ast::ExprId TableParser::between(std::size_t column, std::size_t first, std::siz
     return node(span, ast::Call{{span, "if"}, arguments, 3});
 }
 
-/// Adds the expression of a piece: constant before the first row and after the last row, otherwise
-/// linear between the two rows.
+/// Adds the expression of a piece. The first and the last piece are outside the rows and constant.
+/// Any other piece is linear between two rows.
 ast::ExprId TableParser::piece(std::size_t column, std::size_t number) {
     const auto& times = table_.columns[0];
     const auto& values = table_.columns[column];

@@ -28,8 +28,8 @@ bool is_table_name(std::string_view path);
 void parse_table(SourceId source, const Sources& sources, ast::Script& script,
                  Diagnostics& diagnostics);
 
-/// Notes in the script that the names of a used file are unknown, because it could not be read:
-/// adds a function without a name. The check then reports no unknown functions and systems.
+/// Notes in the script that the names of a used file are unknown, because the file could not be
+/// read: adds a function without a name. The check then reports no unknown functions and systems.
 void add_unknown_names(ast::Script& script, Span use);
 
 }  // namespace cascade

@@ -50,7 +50,7 @@ void ScriptParser::parse_range(ast::Statement& statement) {
         return;
     }
     ast::Range range;
-    // A number without a unit has that of the value.
+    // A number without a unit has the unit of the value.
     const std::string_view unit = unit_text_of(script_, statement.values[0]);
     range.low = expressions_.parse("the lower end of the range");
     give_unit(script_, range.low, unit);

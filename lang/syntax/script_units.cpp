@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::array<std::string_view, base_quantity_count> default_names{"m",  "s", "mol",
                                                                           "kg", "A", "K"};
-/// In the name of a unit, the quantity whose unit may measure more than this quantity comes first:
-/// uM before m.
+/// The order of the base quantities in the name of a unit. A quantity comes earlier if its unit may
+/// also measure others: amount (uM) before length (m).
 constexpr std::array order_of_names{BaseQuantity::current,     BaseQuantity::amount,
                                     BaseQuantity::temperature, BaseQuantity::mass,
                                     BaseQuantity::length,      BaseQuantity::time};
@@ -58,8 +58,8 @@ std::string with_power(const std::string& name, double power) {
     return power == 1 ? base : fmt::format("{}^{:.4g}", base, power);
 }
 
-/// The part of a unit that is a concentration, such as mol/m^3 in mol/m^3/s, with its name. Its
-/// name is empty if there is none.
+/// The name and the value of the concentration in a unit, such as mol/m^3 in mol/m^3/s. The name is
+/// empty if the unit contains no concentration.
 std::pair<std::string, Unit> concentration_in(std::string_view text) {
     const Dimension wanted =
         Dimension::of(BaseQuantity::amount) / Dimension::of(BaseQuantity::length, 3);
@@ -99,7 +99,8 @@ bool ScriptUnits::empty() const {
     return std::ranges::none_of(known_, [](bool is_known) { return is_known; });
 }
 
-/// If the unit has a factor such as um or h, which measures only this quantity, takes it.
+/// Takes the first factor that measures only this quantity, such as um or h, as the script's unit
+/// of the quantity, unless one has been taken before.
 void ScriptUnits::take_plain(std::string_view text, BaseQuantity quantity) {
     Base& base = bases_[index_of(quantity)];
     for (const UnitFactor& factor : factors_of_unit(text)) {
@@ -109,7 +110,7 @@ void ScriptUnits::take_plain(std::string_view text, BaseQuantity quantity) {
     }
 }
 
-/// Takes factors such as uM, kg or mV for the quantities other than length and time.
+/// Takes factors such as uM, kg or mV as units of the quantities other than length and time.
 void ScriptUnits::take_others(std::string_view text) {
     const auto [name, concentration] = concentration_in(text);
     Base& amount = bases_[index_of(BaseQuantity::amount)];
@@ -148,7 +149,7 @@ void ScriptUnits::note_known(std::string_view text) {
     }
 }
 
-/// The size of the script's unit of this dimension, whose powers are whole.
+/// The size of the script's unit of a dimension. The dimension's powers must be whole.
 Unit ScriptUnits::size_of(const Dimension& dimension) const {
     Unit size;
     for (std::size_t k = 0; k < base_quantity_count; ++k) {

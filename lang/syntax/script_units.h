@@ -15,18 +15,18 @@ namespace cascade {
 
 /// One unit for each base quantity. The unit of length is that of the domain's `extent` or
 /// `spacing`, the unit of time that of a `duration`, `every`, `speed` or `largest_step`. If these
-/// have no unit, and for the other quantities, it is the first unit in the script that measures the
-/// quantity; if there is none, m, s, mol, kg, A or K.
+/// settings have no unit, and for all other quantities, the script's first unit that measures the
+/// quantity is taken. If the script has none, the units are m, s, mol, kg, A and K.
 class ScriptUnits {
 public:
     ScriptUnits();
 
-    /// Whether a unit of this script measures the quantity. Of length, only units such as m do, not
-    /// l or M; of time, every unit with a time in it.
+    /// Whether a unit of this script measures the quantity. Units such as m measure length, but l
+    /// and M do not. Every unit that contains a time measures time.
     bool knows(BaseQuantity quantity) const { return known_[static_cast<std::size_t>(quantity)]; }
     /// Whether no number of the script has a unit.
     bool empty() const;
-    /// A number of this unit as a number of the script's units.
+    /// Converts a number in `unit` to the script's units.
     double convert(double number, const Unit& unit) const;
     /// The unit that numbers of this dimension have in this script: `um^2/s`. Empty for plain
     /// numbers.
@@ -37,7 +37,7 @@ public:
 private:
     struct Base {
         std::string name;
-        Dimension dimension;  ///< Of the unit with this name, which may measure more.
+        Dimension dimension;  ///< Of the unit `name`, which may measure further quantities.
         Unit size;            ///< The unit of the base quantity alone.
         bool is_given = false;
     };
@@ -57,15 +57,16 @@ ScriptUnits units_of(const ast::Script& script);
 /// for all other expressions.
 std::string_view unit_text_of(const ast::Script& script, ast::Expression expression);
 
-/// If the expression is a number without a unit and the last one of the script, gives it a unit.
+/// If the expression is the script's last one and is a number without a unit, gives it `unit`.
 void give_unit(ast::Script& script, ast::Expression& expression, std::string_view unit);
 
-/// The dimensions of the parts of a script with a unit, by their source location.
+/// The parts of a script that have a unit: the dimension of each, by its source location.
 class MeasuredSpans {
 public:
     MeasuredSpans() = default;
     explicit MeasuredSpans(const ast::Script& script);
-    /// Null if the part at this location is not a number with a unit or a length of the domain.
+    /// Null if the part at this location is neither a number with a unit nor a length of the
+    /// domain.
     const Dimension* find(Span span) const;
 
 private:

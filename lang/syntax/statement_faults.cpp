@@ -43,7 +43,8 @@ std::string side_meant_by(std::string_view word) {
 
 }  // namespace
 
-/// A hint about the index of a statement, which the cursor is at. `u[t + 1] = e` is a step forward.
+/// A hint about a statement's index, whose first token is at the cursor. For a step in time, as in
+/// `u[t + 1] = e`, the hint suggests a rate.
 std::string ScriptParser::hint_of_index(std::string_view name) const {
     const bool is_time = cursor_.at(TokenKind::name) && cursor_.kind(1) == TokenKind::plus &&
                          (cursor_.at_name("t") || cursor_.at_name("n"));
@@ -87,7 +88,7 @@ void ScriptParser::report_dot(const ast::Statement& statement) {
                                : fmt::format("did you mean {}.{}?", statement.name.text, near));
 }
 
-/// Reports `u''' = e` and skips the value, because it cannot be converted to second derivatives.
+/// Reports `u''' = e`, which cannot be converted to second derivatives, and skips its value.
 bool ScriptParser::report_third_rate(const ast::Statement& statement) {
     while (cursor_.at(TokenKind::prime)) cursor_.take();
     const std::string name = shortened(cursor_.text(statement.name.span));

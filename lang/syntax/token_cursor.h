@@ -31,8 +31,8 @@ public:
     const Token& behind(std::size_t count) const {
         return tokens_[position_ < count ? 0 : position_ - count];
     }
-    /// The position where the last token ends that was taken, which may be a line break. 0 if only
-    /// line breaks were taken.
+    /// The end of the token that was taken last, even if this is a line break. 0 if only line
+    /// breaks were taken.
     std::uint32_t taken_up_to() const;
     Token take();
     bool take_if(TokenKind kind);

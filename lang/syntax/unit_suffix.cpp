@@ -187,7 +187,7 @@ std::string spelling_in_unit(const std::string& spelling, std::string_view name,
                           unit_named("u" + spelling.substr(2));
     for (std::size_t k = before.size(); is_micro && k-- > 0;) {
         const Token& token = before[k];
-        // A unit has no blanks. So its beginning is the last word after a blank.
+        // A unit contains no blanks, and a number comes before the blank that precedes it.
         if (token.span.end != offset) {
             return token.kind == TokenKind::number ? spelling.substr(1) : spelling;
         }

@@ -15,8 +15,9 @@ namespace cascade {
 /// parameters of functions. In this script none of them is a unit.
 std::unordered_set<std::string_view> declared_names(std::span<const Token> tokens);
 
-/// The spelling of a name with Greek letters, written as `name` at `offset` after these tokens. In
-/// a unit after a number, µ is the prefix u, not the letter mu.
+/// Returns the ASCII spelling of a name with Greek letters, which the source writes as `name` at
+/// `offset`, after the tokens `before`. This is `spelling`, except in a unit after a number, where
+/// µ is the prefix u, not the letter mu.
 std::string spelling_in_unit(const std::string& spelling, std::string_view name,
                              std::span<const Token> before, std::size_t offset);
 

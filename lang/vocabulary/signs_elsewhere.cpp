@@ -38,7 +38,7 @@ constexpr LatexCommand latex_commands[] = {
     {"tanh", "this is LaTeX; write tanh(u)"},
 };
 
-/// Words that count things, which numbers without a unit count, too.
+/// Names of counted things that newcomers write after a number like a unit, as in "20 steps".
 constexpr std::string_view counted_things[] = {"steps", "iterations", "cells", "pixels", "px"};
 
 /// Advice on `0x10` (as in other languages) and on `100x100` (the size of a screen). Empty for
@@ -89,7 +89,8 @@ std::string advice_about_unit(std::string_view number, std::string_view unit) {
 
 namespace {
 
-/// An operator of derivatives with its operand. Its size is 0 if the text is none.
+/// The operator of derivatives with which the text begins, and its operand. The size is 0 if the
+/// text begins with anything else.
 LatexText latex_operator(std::string_view text) {
     constexpr std::string_view nabla = "nabla", delta = "Delta";
     const bool is_nabla = text.starts_with(nabla);

@@ -11,9 +11,9 @@ struct LatexText {
     std::size_t size = 0;  ///< In bytes, without the backslash.
     std::string advice;
 };
-/// The command after a backslash at the beginning of a text. If it is an operator of derivatives
-/// with a simple operand, such as \nabla^2 u, \nabla \cdot J or \Delta (u + v), the operand belongs
-/// to it.
+/// The command of LaTeX with which a text begins. The backslash before the command is not in the
+/// text. If the command is an operator of derivatives with a simple operand, such as \nabla^2 u,
+/// \nabla \cdot J or \Delta (u + v), the operand belongs to it.
 LatexText latex_text(std::string_view text);
 
 /// Advice on a word after a number that resembles a unit but is none, as in "20 steps" or "5 C".

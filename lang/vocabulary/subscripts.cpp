@@ -1,5 +1,6 @@
-// Derivatives commute, so the axes are counted first. Second derivatives along one axis have the
-// smallest stencils; at most one derivative along each axis is left.
+// Derivatives commute, so only the number of derivatives along each axis counts. Second derivatives
+// along one axis are taken first, because they have the smallest stencils. Then at most one
+// derivative along each axis is left.
 #include "lang/vocabulary/subscripts.h"
 
 #include <algorithm>

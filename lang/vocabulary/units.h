@@ -11,7 +11,7 @@
 
 namespace cascade {
 
-/// What a unit measures. Amount is that of a substance, in moles.
+/// What a unit measures. `amount` is the amount of a substance, in moles.
 enum class BaseQuantity : std::uint8_t { length, time, amount, mass, current, temperature };
 inline constexpr std::size_t base_quantity_count = 6;
 
@@ -35,8 +35,8 @@ struct Dimension {
 
 Dimension operator*(const Dimension& a, const Dimension& b);
 Dimension operator/(const Dimension& a, const Dimension& b);
-/// The dimension to the power `power`. Empty if it has other powers than multiples of a sixth up to
-/// 1000.
+/// The dimension to the power `power`. Empty unless each power in the result is a multiple of 1/6
+/// and at most 1000 in magnitude.
 std::optional<Dimension> to_power(const Dimension& dimension, double power);
 
 /// A unit: `times / over * 10^decimals` of m, s, mol, kg, A and K. `times` and `over` are whole.
@@ -49,7 +49,7 @@ Unit operator*(const Unit& a, const Unit& b);
 Unit operator/(const Unit& a, const Unit& b);
 /// The unit to a whole power.
 Unit to_power(const Unit& unit, int power);
-/// A number of the unit, in m, s, mol, kg, A and K.
+/// Converts a number in `unit` to m, s, mol, kg, A and K.
 double in_base_units(double number, const Unit& unit);
 
 /// The unit with this name, with or without a prefix, such as m, um or hour. Empty for other words.
