@@ -1,5 +1,5 @@
-// The common parts of all functions of include/cascade/cascade_c.h: the handles, which are indices
-// of tables, the errors, and functions that make a call of a Pattern safe.
+// The common parts of all functions of include/cascade/cascade_c.h: handles (which are indices of
+// tables), errors, and functions that make a call of a Pattern safe.
 #pragma once
 
 #include "cascade/cascade.h"

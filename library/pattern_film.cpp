@@ -20,8 +20,9 @@
 namespace cascade {
 namespace {
 
-/// The steps between frames if the caller does not give them: the interval or a fiftieth of the
-/// steps of each remaining stage, whichever is the fewest.
+/// The steps between frames if the caller does not give them. For each remaining stage that has
+/// steps, takes the interval, or a fiftieth of the steps if there is no interval. The result is the
+/// smallest of these numbers.
 std::int64_t usual_steps_between_frames(const LiveRun& run) {
     constexpr std::int64_t frames_of_stage = 50;
     std::int64_t every = std::numeric_limits<std::int64_t>::max();

@@ -16,7 +16,7 @@ constexpr int severity_error = 1, severity_warning = 2, severity_information = 3
 constexpr std::size_t most_fixes = 5, largest_fixed_text = std::size_t{1} << 16;
 
 /// The span in the document's own text at which a diagnostic is shown. For a diagnostic in a file
-/// that the script uses, it is the name of the file.
+/// that the script uses, this is the span of the file's name in the script.
 Span own_span(const Script& script, Span span) {
     if (span.source == own_source) return span;
     const std::string& name = script.sources[span.source].name();

@@ -149,7 +149,7 @@ std::optional<Card> card_of(Document& document, std::size_t byte) {
 
 Result<Json> hover(const Asked& asked) {
     const std::string& text = asked.document.text();
-    // If a word begins after this byte, it is not meant, so the byte must be in or after a word.
+    // Only a word that contains this byte or ends directly before it is meant.
     const std::size_t end = end_of_word(text, asked.byte);
     const std::size_t begin = end - last_word(std::string_view(text).substr(0, end)).size();
     if (begin == end) return Json();

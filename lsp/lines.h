@@ -30,9 +30,9 @@ public:
     std::size_t byte_at(std::string_view text, Position position) const;
 
 private:
-    /// A position in the text of which line, column and byte are known. There is a mark at the
-    /// start of each line and, in long lines, about one in each kilobyte, so that no search reads a
-    /// long text.
+    /// A position in the text whose line, column and byte are known. There is a mark at the start
+    /// of each line and, in long lines, about one in each kilobyte, so that no search reads a long
+    /// text.
     struct Mark {
         std::uint32_t byte, line, column;
     };

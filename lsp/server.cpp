@@ -205,8 +205,8 @@ Document* LanguageServer::find(const Json& params) {
     return found == documents_.end() ? nullptr : found->second.get();
 }
 
-/// Lets all documents that use files be checked again, because a used file may be open and may have
-/// changed.
+/// Marks all documents that use files to be checked again, because a used file may be open and may
+/// have changed.
 void LanguageServer::forget_users_of_files() {
     for (const auto& [uri, document] : documents_) {
         if (!document->is_changed && !document->script().tree.uses.empty()) document->forget();

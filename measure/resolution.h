@@ -5,9 +5,9 @@
 
 namespace cascade::measure {
 
-/// In cells. The grid distorts waves that are shorter than this. Along an axis, the discrete
-/// Laplacian of such a wave is less than 0.81 = 2 (1 − cos(2π/4)) / (2π/4)² times the exact value.
-/// Along a diagonal the factor is larger.
+/// The wavelength, in cells, below which the grid distorts waves. Along an axis, the discrete
+/// Laplacian of a shorter wave is less than 0.81 = 2 (1 − cos(2π/4)) / (2π/4)² times the exact
+/// value. Along a diagonal the factor is larger.
 inline constexpr double fewest_cells_a_wave = 4;
 
 /// The wavelength of a field in cells, if it is below `fewest_cells_a_wave` but above 2 (the

@@ -39,8 +39,8 @@ FlatTriangle own_frame(const SurfaceMesh& mesh, std::uint32_t triangle);
 /// The barycentric weights of a point of the plane. Weights of a point outside are clamped to ≥ 0.
 std::array<double, 3> weights_at(const FlatTriangle& flat, Vector2d point);
 
-/// A vector expressed in another frame, whose x axis is the unit vector `turn` in the vector's
-/// frame.
+/// Converts a vector to another frame. `turn` is the x axis of the other frame, a unit vector in
+/// the vector's frame.
 inline Vector2d turned_into(Vector2d vector, Vector2d turn) {
     return {dot(turn, vector), cross(turn, vector)};
 }

@@ -13,8 +13,8 @@ struct FlatTriangles {
 };
 
 /// Repairs triangles that are at least 10¹⁰ times as long as high by flipping their longest edges,
-/// which leaves two triangles with an area. Does not flip an edge if the new edge would join points
-/// that already share an edge. Fails as half_edges() does.
+/// which leaves two triangles whose area is not 0. Does not flip an edge if the new edge would join
+/// points that already share an edge. Fails as half_edges() does.
 Result<FlatTriangles> remove_flat_triangles(SurfaceMesh& mesh);
 
 }  // namespace cascade

@@ -25,8 +25,6 @@ namespace cascade {
 
 namespace {
 
-// The points of a glTF primitive, with default morph weights and joints applied.
-
 /// The position, shape and light of a mesh.
 struct GltfPlacing {
     const GltfMatrix&
@@ -37,7 +35,7 @@ struct GltfPlacing {
     std::optional<std::array<double, 3>> light = {};
 };
 
-/// Whether a matrix mirrors. The order of a triangle's corners is then the opposite one.
+/// Whether a matrix mirrors, which reverses the orientation of triangles.
 bool mirrors(const GltfMatrix& m) {
     const auto column = [&](std::size_t k) {
         return Vector3d{m[4 * k], m[4 * k + 1], m[4 * k + 2]};

@@ -1,4 +1,4 @@
-// The texture coordinates of a glTF file to use, and their transformation.
+// Finds which texture coordinates of a glTF file to use, and their transformation.
 #pragma once
 
 #include "mesh/gltf_model.h"

@@ -6,7 +6,7 @@
 #include "mesh/surface_mesh.h"
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
-// This must follow the kernel's headers above.
+// QuadricT.hh must be included after the header above.
 #include <OpenMesh/Core/Geometry/QuadricT.hh>
 
 #include <limits>

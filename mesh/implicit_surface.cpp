@@ -16,10 +16,10 @@ namespace cascade {
 
 namespace {
 
-/// The least distance of a triangle's corner from the ends of its lattice edge, as a part of the
-/// edge. At an end, triangles would have no area.
+/// The least distance of a triangle's corner from the ends of its lattice edge, as a fraction of
+/// the edge. With corners at such ends, triangles could have no area.
 constexpr double least_part = 0.1;
-/// Distances from a point at which the surface is searched, as multiples of the edge, nearest
+/// The distances at which the surface is searched from a point, as multiples of the edge, nearest
 /// first.
 constexpr std::array reaches = {0.05, 0.15, 0.4, 1.0};
 constexpr int most_halvings = 60;
@@ -68,7 +68,8 @@ private:
         double near_value = 0, far_value = 0;
     };
 
-    /// Clamped to the box, because the function need not be defined outside of it.
+    /// The point at a distance along a bracket's line, clamped to the box, because the function
+    /// need not be defined outside of the box.
     Vector3d place(const Bracket& b, double distance) const {
         const Vector3d p = b.origin + b.direction * distance;
         return {std::clamp(p.x, request_.low.x, request_.high.x),
@@ -130,8 +131,8 @@ private:
     }
 
     /// Narrows all brackets to the surface by regula falsi. If an end of a bracket does not move in
-    /// a step, its value is halved (the Illinois rule). An occasional bisection bounds the number
-    /// of steps.
+    /// a step, the value at this end is halved (the Illinois rule). An occasional bisection bounds
+    /// the number of steps.
     Result<void> close_brackets(std::span<Vector3d> points) {
         std::vector<double> middles;
         for (int round = 0; round < most_halvings && !bracketed_.empty(); ++round) {

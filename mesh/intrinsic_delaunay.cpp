@@ -98,8 +98,8 @@ private:
         return {x, 2 * mesh_.area(edge.triangle) / base};
     }
 
-    /// The third corner of the triangle on the other side of the edge, which has the edge in the
-    /// opposite direction.
+    /// Converts the apex of the triangle on the other side of the edge. In that triangle the edge
+    /// has the opposite direction.
     static Vector2d mirrored(Vector2d apex, double base) { return {base - apex.x, -apex.y}; }
 
     IntrinsicMesh mesh_;

@@ -22,7 +22,8 @@ struct Joint {
 
 enum class Sides { one, both };  ///< Both: the limb has a mirror image, with x negated.
 
-/// Flesh around the smooth curve through its joints, at least one. It ends in half balls.
+/// Flesh around the smooth curve through `joints`, of which there is at least one. The flesh ends
+/// in half balls.
 struct Limb {
     std::vector<Joint> joints;
     double softness = 0;  ///< The length over which the limb blends with others.

@@ -171,7 +171,7 @@ private:
                       {PointAttribute{"red", {}}, PointAttribute{"green", {}},
                        PointAttribute{"blue", {}}}};
     std::vector<TexturePlace> texture_;
-    /// By corner, as long as every corner has texture coordinates.
+    /// For each corner the index of its texture coordinates, as long as every corner has some.
     std::vector<std::uint32_t> corner_texture_;
     bool all_have_texture_ = true, all_have_colours_ = true;
     bool has_curved_parts_ = false;  ///< Whether it has free-form surfaces, which are ignored.

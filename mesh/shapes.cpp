@@ -102,9 +102,10 @@ private:
         for (const Vector3d& corner : corners_) points_.push_back(corner * radius_);
     }
 
-    /// Adds the point that is the sum of the corners. The weight of a corner is the sine of the
-    /// corner's fraction of the angle between corners. For two corners the result divides their arc
-    /// by the fractions.
+    /// Adds the weighted sum of the corners, scaled to the sphere. The weight of a corner is
+    /// sin(angle · its part / cuts_), where `angle` is the angle between two corners. If only two
+    /// corners have parts above 0, the point divides the arc between these corners in the ratio of
+    /// the parts.
     std::uint32_t add_point(std::array<std::uint32_t, 3> corners,
                             std::array<std::uint32_t, 3> parts) {
         static const double angle = std::acos(1 / std::sqrt(5.0));
@@ -171,7 +172,7 @@ private:
     std::uint32_t cuts_;
     std::vector<Vector3d> corners_, points_;
     std::vector<std::array<std::uint32_t, 3>> triangles_;
-    /// The first point of each edge.
+    /// For the two corners of each edge, the first of the points between them.
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> edges_;
 };
 

@@ -119,7 +119,8 @@ constexpr unsigned most_edges_of_merged = 12;
 /// The weight of an edge's length. It makes short edges collapse first where no collapse changes
 /// anything, such as in a flat part of one colour.
 constexpr double weight_of_length = 1e-5;
-/// The cost of distance from a boundary's sides, relative to distance from the triangles' planes.
+/// The weight of squared distances from the planes through boundary edges, relative to those from
+/// the triangles' planes.
 constexpr double weight_of_boundary = 4;
 
 /// Priorities are the errors of the merged points. Lengths are relative to the surface's box, so
@@ -220,8 +221,8 @@ private:
         for (const VertexHandle v : {from, to}) quadrics_[number(v)] += quadric;
     }
 
-    /// If a neighbour across a collapsed triangle has only three triangles, two coinciding
-    /// triangles would remain there.
+    /// Whether the neighbour across a collapsed triangle keeps enough triangles. If it had only
+    /// three, two coinciding triangles would remain there.
     bool keeps_triangles(VertexHandle across) {
         return !across.is_valid() ||
                mesh().valence(across) > (mesh().is_boundary(across) ? 2U : 3U);

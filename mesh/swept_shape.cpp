@@ -241,7 +241,7 @@ bool keeps_to(const SweptDetail& detail, std::uint32_t count, const Place& place
     return true;
 }
 
-/// The longest edge of the mesh with a number of facets.
+/// The length of the longest edge in a mesh with these numbers of facets.
 double longest_edge(Probe& probe, SweptFacets facets) {
     double longest = 0;
     for (std::uint32_t i = 0; i < facets.along; ++i) {

@@ -36,7 +36,7 @@ struct DrawnDisc {
     Colour colour{0, 0, 0};
 };
 
-/// A line of text in the colour of contact sheets.
+/// A line of text in the same colour as the text of contact sheets.
 struct DrawnText {
     enum class Anchor { start, middle, end };
     /// The position of the start, middle or end of the text, as `anchor` says, at half the height

@@ -43,7 +43,7 @@ herr_t write_one(haddr_t address, const PendingWrite& one) {
                                    one.bytes.size(), one.bytes.data());
 }
 
-/// The library must not join parts that lie side by side.
+/// Keeps the library from joining parts that lie side by side.
 herr_t features_without_joining(const H5FD_t* file, unsigned long* flags) {
     const herr_t result = files_of_library->query(file, flags);
     if (flags) *flags &= ~static_cast<unsigned long>(H5FD_FEAT_ACCUMULATE_METADATA);

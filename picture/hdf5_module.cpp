@@ -238,7 +238,7 @@ void File::make_axes(const Hdf5Layout& layout) {
     for (const Hdf5Column& column : layout.coordinates) write_column(column, axes_.back());
 }
 
-/// Writes numbers along an axis. Without an axis they become an axis.
+/// Writes numbers along an axis. If `axis` is negative, the numbers become an axis themselves.
 void File::write_column(const Hdf5Column& column, hid_t axis) {
     const Handle space = space_of({column.values.size()});
     Handle dataset(H5Dcreate2(file_, column.name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT,

@@ -107,7 +107,7 @@ struct Painting {
     bool has_two_greys() const;
 };
 
-/// Makes the pixels transparent whose cells have NaN in `field`, because these are outside the
+/// Makes pixels transparent if their cells are NaN in `field`, because such cells are outside the
 /// domain. `field` must have as many columns and rows as the image.
 void clear_where_nan(Image& image, const Field& field);
 

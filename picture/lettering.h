@@ -35,8 +35,8 @@ void draw_text(Image& image, std::string_view text, std::int64_t x, std::int64_t
                std::int64_t room, std::int64_t dot);
 
 /// Draws a picture, enlarged by `factor`, in a frame of one pixel. `height` is the height of the
-/// enlarged picture. If it is larger than that, a picture with few rows is stretched to a band of
-/// this height.
+/// drawn picture. For a picture with few rows it may exceed the enlarged height, and the picture is
+/// stretched to a band of this height.
 void draw_framed(Image& image, const Image& picture, std::int64_t x, std::int64_t y,
                  std::int64_t factor, std::int64_t height);
 

@@ -16,8 +16,8 @@ struct Slice {
     friend bool operator==(const Slice&, const Slice&) = default;
 };
 
-/// The index along the axis of the cells in the slice: floor(place · cells), or the last one if
-/// place is 1.
+/// The index of the slice's cells along the slice's axis: floor(place · cells), or the last index
+/// if `place` is 1.
 std::int64_t slice_number(const PlaneLayout& layout, Slice slice);
 
 /// The grid of a slice's picture. A slice perpendicular to z has x as columns and y as rows.

@@ -13,8 +13,8 @@ namespace {
 
 /// Computes x ^ exponent in a seventh of the time of std::pow. Each octave is divided into 128
 /// parts. Around the middle m of a part, x = m (1 + r) with |r| ≤ 2^-8. The binomial series of (1 +
-/// r) ^ exponent ends after r⁵, because the rest is below 2^-53. For the 100 million arguments of
-/// the two functions below, a single result differs from the rounded std::pow.
+/// r) ^ exponent ends after r⁵, because the rest is below 2^-53. Of the 100 million arguments of
+/// the two functions below, only one has a result that differs from the rounded std::pow.
 class PowerTable {
 public:
     explicit PowerTable(double exponent) : exponent_(exponent) {
@@ -54,7 +54,8 @@ private:
         double power = 0, inverse = 0;  ///< At the middle of the part.
     };
     static constexpr std::uint32_t octaves = 10;
-    /// The sign, the exponent and the seven highest bits of the fraction of 2^-10.
+    /// part_of(2^-10), where the first part begins: the sign, the exponent and the seven highest
+    /// bits of the fraction.
     static constexpr std::uint32_t first_part = (127 - octaves) << 7;
     std::array<Part, octaves * 128 + 1> parts_;  ///< The last part begins at 1.
     std::array<double, 5> series_{};
@@ -64,7 +65,7 @@ private:
 /// Up to these values, light is proportional to the stored value.
 constexpr float dark_stored = 0.04045F, dark_light = 0.0031308F;
 
-/// Light is a power of this number if the stored value is larger.
+/// For stored values above dark_stored, light is bright_part(stored) ^ 2.4.
 float bright_part(float stored) { return (stored + 0.055F) / 1.055F; }
 
 const PowerTable& light_power() {

@@ -81,7 +81,7 @@ auto doing(bool (Pattern::*function)(Arguments...)) {
         of.check((of.running().*function)(arguments...));
     };
 }
-/// The same, but other Python threads may run during the call.
+/// Does the same as doing(), but other Python threads may run during the call.
 template <typename... Arguments>
 auto doing_long(bool (Pattern::*function)(Arguments...)) {
     return [function](PythonPattern& of, Arguments... arguments) {
