@@ -30,7 +30,8 @@ PythonPattern::PythonPattern(Pattern pattern)
 }
 
 PythonPattern::~PythonPattern() {
-    // After a fork, the threads that the pattern would wait for exist only in the other process.
+    // After a fork, the threads for which the pattern's destructor would wait exist only in the
+    // parent process.
     if (forks_ != forks()) (void)pattern_.release();
 }
 

@@ -37,8 +37,8 @@ public:
     PythonPattern& operator=(const PythonPattern&) = delete;
     ~PythonPattern();
 
-    /// The pattern, which may have failed. Throws an error if another thread is using it, or if the
-    /// process has been forked, because its threads are then missing.
+    /// The pattern, even after a failure. Throws an error if another thread is using the pattern.
+    /// Also throws after a fork of the process, because the pattern's threads are then missing.
     Pattern& own() {
         if (!pattern_ || is_busy_ || forks_ != forks()) refuse_use();
         return *pattern_;
@@ -65,7 +65,8 @@ public:
         return call(pattern);
     }
     /// Makes a call that gets a ProgressWatcher. The call ends early at Ctrl-C, if `watch` returns
-    /// False, or if it raises an exception, which is thrown after the call. `watch` may be None.
+    /// False, or if `watch` raises an exception, which is thrown after the call. `watch` may be
+    /// None.
     template <typename Call>
     auto watched(const py::object& watch, const Call& call) {
         Watch watching{watch, nullptr};
@@ -76,8 +77,8 @@ public:
         return result;
     }
 
-    /// Memory for an object, filled with zeros. pybind11 also takes it for an object whose
-    /// __init__ was never called. Then `pattern_` is null, which own() recognises.
+    /// Memory for an object, filled with zeros. If __init__ of the object is never called,
+    /// `pattern_` stays null, which own() recognises.
     static void* operator new(std::size_t size) {
         void* const memory = std::calloc(1, size);
         if (memory == nullptr) throw std::bad_alloc();
@@ -109,7 +110,7 @@ private:
     bool is_busy_ = false;  ///< Read and written only while Python's global lock is held.
 };
 
-/// Takes up to `count` steps. Ctrl-C ends the call early, and so does `watch`.
+/// Takes up to `count` steps. The call ends early at Ctrl-C, or if `watch` returns False.
 std::int64_t step(PythonPattern& of, std::int64_t count, const py::object& watch);
 
 /// The values of an expression as an array, without a copy if possible (PatternView).

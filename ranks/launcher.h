@@ -14,13 +14,13 @@
 
 namespace cascade {
 
-/// The MPI libraries that have a module. They share no processes: mpiexec of one library starts
-/// programs that use this library.
+/// The MPI libraries that have a module. All ranks of a run use the same one: mpiexec of a library
+/// only works for programs that use that library.
 enum class MpiLibrary : std::uint8_t { open_mpi, mpich };
 
 /// "Open MPI" or "MPICH"
 std::string_view name_of(MpiLibrary library);
-/// The packages of Debian that provide it: "libmpich-dev and mpich".
+/// The packages of Debian that provide the library, such as "libmpich-dev and mpich".
 std::string_view packages_of(MpiLibrary library);
 /// The library that the option `--mpi` names: "openmpi" or "mpich". Empty for other texts.
 std::optional<MpiLibrary> mpi_library_named(std::string_view text);
@@ -28,21 +28,21 @@ std::optional<MpiLibrary> mpi_library_named(std::string_view text);
 /// The number of ranks according to the environment that a launcher of Open MPI or MPICH sets.
 /// Empty if no launcher has started this process.
 std::optional<int> launched_ranks();
-/// The number of this rank according to that environment; 0 without a launcher.
+/// The number of this rank according to the launcher's environment; 0 without a launcher.
 int launched_rank();
 /// The number of ranks of this run that are on this machine; at least 1.
 int ranks_on_this_machine();
 
 /// The library to use: the `wanted` one or, if this is empty, the library of the launcher that has
 /// started this process, or else the first one that has a module. Fails if this build has no module
-/// for it.
+/// for the chosen library.
 Result<MpiLibrary> choose_mpi(std::optional<MpiLibrary> wanted);
 
 /// The name of this machine, or "?" if it is unknown.
 std::string this_machine();
 
 /// The messenger of this process. The first call loads the module of the library and initialises
-/// MPI. Fails if this build has no such module, if the library is not installed, or if its number
+/// MPI. Fails if this build has no such module, if the library is not installed, or if MPI's number
 /// of ranks differs from the launcher's.
 Result<Messenger*> connect_ranks(MpiLibrary library);
 

@@ -1,8 +1,8 @@
 // Messages between the ranks of a run: processes that share its steps, perhaps on several machines.
 //
-// Calls are collective, except post() and receive(): all ranks call the same functions in the same
-// order. Messages are only copied and never added, because the order in which an MPI library adds
-// numbers depends on the library and on the number of ranks.
+// The calls of exchange(), complete(), broadcast() and finish() are collective: all ranks make them
+// in the same order. Messages are only copied and never added, because the order in which an MPI
+// library adds numbers depends on the library and on the number of ranks.
 #pragma once
 
 #include <cstddef>

@@ -26,7 +26,7 @@ void for_pieces(std::span<std::byte> bytes, const Use& use) {
     }
 }
 
-/// The tags of messages that ranks exchange and post, which are received apart.
+/// The tags of exchanged and of posted messages. They let each kind be received separately.
 constexpr int exchanged = 0, posted = 1;
 
 int length(std::span<const std::byte> bytes) { return static_cast<int>(bytes.size()); }

@@ -14,7 +14,7 @@ namespace {
 
 using Message = Messenger::Message;
 
-/// Messages are sent from constant memory, too.
+/// A message to be sent. Its bytes are only read, so they may be in constant memory.
 Message message(int rank, std::span<const std::byte> bytes) {
     return {rank, {const_cast<std::byte*>(bytes.data()), bytes.size()}};
 }
@@ -35,7 +35,8 @@ RankExchange::RankExchange(const Grid& grid, Messenger& messenger, RankLoad& loa
     CHECK(parts_.size() == static_cast<std::size_t>(messenger.count()), "a part for each rank");
 }
 
-/// Adds the transfers that fill some rows of a part's halo. These rows may be beyond the grid.
+/// Adds to `all` the transfers that fill the rows `needed` of the halo of part `to`. These rows may
+/// be beyond the grid.
 void RankExchange::add_transfers(int to, RowRange needed, std::vector<Transfer>& all) const {
     const std::int64_t rows = grid_.height * grid_.depth;
     for (std::int64_t row = needed.begin; row < needed.end; row += layer_) {

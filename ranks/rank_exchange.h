@@ -16,9 +16,9 @@ class RankExchange final : public Exchange {
 public:
     /// Divides the grid among all ranks of the messenger. The grid must have at least as many rows
     /// as there are ranks. If it has several slices, it must have at least as many slices. `levels`
-    /// is the largest number of passes between two exchanges. Adds the time in messages, the bytes
-    /// and the number of exchanges of halos to `load`. Messenger and load must outlive the
-    /// exchange.
+    /// is the largest number of passes between two exchanges. Adds to `load` the time spent in
+    /// messages, and the bytes and the number of exchanges of halos. Messenger and load must
+    /// outlive the exchange.
     RankExchange(const Grid& grid, Messenger& messenger, RankLoad& load, int levels = 1);
 
     void fill_halos(std::span<const Shared> planes, std::int64_t width) override;
@@ -26,19 +26,20 @@ public:
     void gather(std::span<const Field* const> own, std::span<Field* const> whole) override;
     void scatter(std::span<const Field* const> whole, std::span<Field* const> own) override;
 
-    /// Combines the parts of planes to whole planes on every rank. These include the halo of the
-    /// grid.
+    /// Combines the parts of planes to whole planes on every rank. The whole planes include the
+    /// halo of the grid.
     void gather_everywhere(std::span<const Field> own, std::span<Field> whole);
 
     /// Whether all ranks pass true.
     bool all_agree(bool own);
 
 private:
-    /// Layers that a part computes and that a part, perhaps the same one, needs in its halo.
+    /// Layers that part `from` computes and that part `to` needs in its halo. Both may be the same
+    /// part.
     struct Transfer {
         int from = 0, to = 0;
-        RowRange rows;            ///< In the part that computes the layers.
-        std::int64_t target = 0;  ///< The first row in the halo.
+        RowRange rows;            ///< The rows of the layers in part `from`.
+        std::int64_t target = 0;  ///< The first row of the layers in the halo.
         bool is_across = false;   ///< Whether the halo lies beyond a side of the grid.
     };
 

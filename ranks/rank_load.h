@@ -18,11 +18,11 @@ struct RankLoad {
     double messages = 0;          ///< Seconds in messages, mostly waiting for other ranks.
     std::int64_t halo_bytes = 0;  ///< The bytes of halos sent to other ranks.
     std::int64_t halo_exchanges = 0;  ///< How often ranks have sent each other halos.
-    std::array<char, 64> machine{};   ///< The name of its machine, which ends with a 0.
+    std::array<char, 64> machine{};   ///< The name of the rank's machine, ended by a 0.
     bool is_stepping = false;         ///< Whether a TimeOfSteps exists.
 };
 
-/// Adds the time of its lifetime to a load, as steps.
+/// Adds the time for which it exists to a load, as time spent on steps.
 class TimeOfSteps {
 public:
     explicit TimeOfSteps(RankLoad& load)
@@ -48,8 +48,8 @@ private:
     double processor_;
 };
 
-/// Within the lifetime of a TimeOfSteps: counts the time of its own lifetime as messages, not as
-/// steps. Elsewhere it does nothing. MPI libraries use the processor while they wait.
+/// Counts the time for which it exists as messages, not as steps. Does nothing unless a TimeOfSteps
+/// exists. Also subtracts processor time, because MPI libraries use the processor while they wait.
 class TimeOfMessages {
 public:
     explicit TimeOfMessages(RankLoad& load)
@@ -79,9 +79,9 @@ struct SlowRank {
     double times = 0;  ///< Its time as a multiple of the median.
 };
 
-/// The slowest rank, if its seconds are more than twice the median. Of an even number of ranks, the
-/// lower one of the two in the middle is the median, so that one of two ranks may be slow. Times of
-/// less than a second say nothing.
+/// The slowest rank, if its seconds are more than twice the median. With an even number of ranks,
+/// the lower of the two middle times is the median, so that one of two ranks can count as slow.
+/// Empty if the slowest rank took less than a second.
 std::optional<SlowRank> slow_rank(std::span<const double> seconds);
 
 }  // namespace cascade

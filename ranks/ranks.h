@@ -35,12 +35,12 @@ public:
     /// Fails if this rank and rank 0 pass different texts. `what` names the text in the message.
     Result<void> compare(std::string_view what, std::string_view text);
 
-    /// The number of parts into which a grid can be cut.
+    /// The largest number of parts into which a grid can be cut.
     static std::int64_t most_parts(const Grid& grid);
 
     /// Makes executors that take the steps of this rank's part. On a grid with fewer rows or slices
-    /// than ranks, each rank takes all steps. Sets `cancel` on all ranks when rank 0 is to end. The
-    /// flag and this object must outlive the executors.
+    /// than ranks, each rank takes all steps. Sets `cancel` on all ranks when end_flag() is set on
+    /// rank 0. `cancel` and this object must outlive the executors.
     MakeExecutor executor(std::atomic<bool>& cancel);
 
     /// What this rank has spent on steps so far.
@@ -50,7 +50,7 @@ public:
     /// Sets a function that rank 0 calls with a sentence about a rank that keeps the others
     /// waiting, once for each such rank.
     void tell_slow(std::function<void(const std::string&)> tell) { tell_slow_ = std::move(tell); }
-    /// Whether ten seconds have passed since ranks were compared.
+    /// Whether ten seconds have passed since the last call of compare_loads().
     bool is_time_to_compare() const;
     /// Finds ranks that took more than twice the median time since the last call. All ranks must
     /// call this.
@@ -69,7 +69,7 @@ private:
     std::function<void(const std::string&)> tell_slow_;
     std::vector<RankLoad> compared_;  ///< All loads at the last comparison.
     std::chrono::steady_clock::time_point compared_at_ = std::chrono::steady_clock::now();
-    std::vector<bool> is_told_;  ///< The ranks that have been named.
+    std::vector<bool> is_told_;  ///< For each rank, whether it has been named as slow.
 };
 
 /// "rank 1 of 4 on NAME", the name of its machine

@@ -1,5 +1,5 @@
 // Takes the steps of one rank's part of the grid. When the time loop asks for planes, all ranks
-// complete them together, so that it sees whole planes.
+// complete them together, so that the loop sees whole planes.
 #include "ranks/rank_exchange.h"
 #include "ranks/ranks.h"
 #include "solvers/pass_runner.h"

@@ -12,9 +12,9 @@ struct View {
     float azimuth = 30;    ///< Degrees around the up axis, from the front to the right.
     float elevation = 25;  ///< Degrees above the horizon, −89 … 89.
     Vector3 up{0, 0, 1};   ///< One of the axes x, y, z.
-    /// Whether one frame must fit for all azimuths. The camera then rotates around the centre of
-    /// the scene's box, and the scene has the same position and size in a series of pictures from
-    /// all sides.
+    /// Whether the scene must fit into the picture at every azimuth. The camera then rotates around
+    /// the centre of the scene's box, and the scene has the same position and size in a series of
+    /// pictures from all sides.
     bool is_turning = false;
     /// The tangent of half the field of view, along the shorter side of the picture.
     float half_field = 0.22F;

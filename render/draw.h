@@ -21,7 +21,7 @@ using SurfaceColour = std::function<Colour(const Hit&)>;
 struct Sight {
     Hit hit;
     Vector3 direction;  ///< Direction of the ray, of length 1.
-    /// The width of the part of the pixel that the ray samples, at the hit and across the ray.
+    /// The width, at the hit and across the ray, of the area that the ray samples.
     float width = 0;
 };
 

@@ -14,7 +14,8 @@ namespace {
 /// The fraction of light from the front that glass, skin and most materials reflect.
 constexpr float of_glass = 0.04F;
 
-/// The factors of the Legendre polynomials P0, P1 and P2 of the angle between normal and light.
+/// For a light of power `p`: the factors of the Legendre polynomials P0, P1 and P2 of the cosine
+/// between normal and light.
 ///
 /// The integrals of ((1 + c)/2)^p P_l(c) over c from −1 to 1 follow from powers of t = (1 + c)/2.
 /// For the cosine, the corresponding factors are π, 2π/3 and π/4. The results are divided by π.

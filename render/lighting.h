@@ -29,9 +29,9 @@ constexpr std::optional<Lighting> lighting_named(std::string_view name) {
     return enum_named<Lighting>(lighting_names, name);
 }
 
-/// A soft light far away. Its radiance in the direction ω is colour · ((1 + ω·d)/2)^power. So a
-/// large power gives a small light. A light with the power 1 reaches all surfaces that
-/// do not face away.
+/// A soft light far away. Its radiance in the direction ω is colour · ((1 + ω·d)/2)^power. The
+/// larger the power, the smaller the light appears. A light with the power 1 reaches all surfaces
+/// that do not face away.
 struct SoftLight {
     Vector3 direction;  ///< The direction d, of length 1.
     /// Some channels may be negative, which darkens the side that faces the light.
@@ -39,8 +39,8 @@ struct SoftLight {
     double power = 1;  ///< At least 0.
 };
 
-/// All lights of a scene. In the unit of radiance, a white surface that faces a uniform environment
-/// of radiance 1 has the light 1.
+/// All lights of a scene. In units of radiance, a white surface reflects the light 1 if it faces a
+/// uniform environment of radiance 1.
 class Lights {
 public:
     /// Places the lights relative to the camera, but the sky and the ground relative to `up`.
@@ -52,12 +52,13 @@ public:
     Colour even{};             ///< The uniform radiance from all directions.
 
     /// The light that a white surface with this normal reflects from the soft lights, if nothing
-    /// hides them. It is the convolution of the lights with the cosine up to the second order of
-    /// spherical harmonics (R. Ramamoorthi and P. Hanrahan, "An Efficient Representation for
-    /// Irradiance Environment Maps", 2001).
+    /// hides them. This light is the convolution of the lights with the cosine up to the second
+    /// order of spherical harmonics (R. Ramamoorthi and P. Hanrahan, "An Efficient Representation
+    /// for Irradiance Environment Maps", 2001).
     Colour soft(const Vector3& normal) const;
 
-    /// The soft lights as seen in a mirror in this direction, blurred by the lobe of the gloss.
+    /// The light of the soft lights that a mirrored ray in this direction sees, blurred by the lobe
+    /// of the gloss.
     Colour mirrored(const Vector3& direction, const Gloss& gloss) const;
 
 private:
@@ -68,9 +69,9 @@ private:
     std::vector<std::array<float, 3>> orders_;
 };
 
-/// The fraction of the light from the direction of the viewer's mirror image that a surface
-/// reflects: C. Schlick's approximation (1994), reduced at grazing angles for rough surfaces (S.
-/// Lagarde, 2011). `facing` is the cosine between the normal and the direction to the viewer.
+/// The fraction that a surface reflects of the light from the viewer's mirrored direction: C.
+/// Schlick's approximation (1994), reduced at grazing angles for rough surfaces (S. Lagarde, 2011).
+/// `facing` is the cosine between the normal and the direction to the viewer.
 float reflectance(float facing, const Gloss& gloss);
 
 }  // namespace cascade

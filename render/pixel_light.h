@@ -21,7 +21,7 @@ struct PixelLight {
     float behind = 0;  ///< The light that a white background adds to each channel.
 };
 
-/// Adds a fraction of a light to a sum.
+/// Adds the fraction `part` of a light to `sum`.
 void add(const PixelLight& light, float part, PixelLight& sum);
 
 /// The light of a pixel with a single ray.

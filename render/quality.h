@@ -37,7 +37,7 @@ struct Effort {
     /// pixels count towards this number.
     std::uint32_t sun_tests = 8, sky_tests = 3;
 
-    /// The width of the area, in pixels, that the first ray of a pixel samples.
+    /// The width, in pixels, of the area that the first ray of a pixel samples.
     float widest_ray() const { return one_is_enough ? 1.0F : 0.5F; }
 };
 

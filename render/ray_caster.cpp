@@ -191,8 +191,8 @@ RTCRay ray_of(const Ray& ray, float reach) {
 
 }  // namespace
 
-/// Whether a ray misses the scene's box, or ends before it. This is true for most rays from the
-/// ground, and takes far less time than a search by Embree.
+/// Whether a ray misses the scene's box, or ends before it. Most rays from the ground do, and
+/// finding this out takes far less time than a search by Embree.
 bool RayCaster::misses_all(const Ray& ray, float reach) const {
     float enters = 0, leaves = reach;
     for (float Vector3::*axis : {&Vector3::x, &Vector3::y, &Vector3::z}) {

@@ -9,7 +9,7 @@
 
 namespace cascade {
 
-/// Finds hits of rays. Thread-safe. The contents of the scene must outlive it.
+/// Finds hits of rays. Thread-safe. The contents of the scene must outlive the caster.
 class RayCaster {
 public:
     /// Uses the same instructions on every processor, so that pictures are equal. Throws

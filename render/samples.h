@@ -15,7 +15,7 @@
 
 namespace cascade {
 
-/// The number of first rays of a pixel that has several.
+/// The number of rays with which a pixel begins if it gets more than one.
 inline constexpr std::uint32_t first_rays = 4;
 
 inline float to_fraction(std::uint32_t word) {
@@ -35,8 +35,9 @@ inline Point even_point(std::uint32_t k, std::uint32_t a, std::uint32_t b) {
             to_fraction((a ^ b) + k * 2654435769u)};
 }
 
-/// Positions of the first rays of a pixel that has several. They form a rotated grid. Its mean is
-/// the middle of the pixel, so the mean of samples of a linear function is exact.
+/// The position of ray `k` of the first rays in a pixel that gets more than one. The positions form
+/// a rotated grid. Their mean is the middle of the pixel, so the mean of samples of a linear
+/// function is exact.
 inline Point first_point(std::uint32_t k) {
     constexpr std::array<Point, first_rays> turned = {
         {{0.375F, 0.125F}, {0.875F, 0.375F}, {0.125F, 0.625F}, {0.625F, 0.875F}}};

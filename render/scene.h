@@ -21,7 +21,8 @@ struct Hit {
     std::array<float, 3> weights() const { return {1 - u - v, u, v}; }
 };
 
-/// Refers to its meshes, which must outlive the scene. Has at least one triangle.
+/// A body, copies of meshes, or both, with at least one triangle. All meshes must outlive the
+/// scene.
 class Scene {
 public:
     /// A scene with a body alone.

@@ -29,15 +29,16 @@ namespace {
 
 /// The side of a square of pixels. Each pixel of the square tests a different part of a light.
 constexpr int turn_side = 5;
-/// How many pixels away from a pixel tests of the sun and of the sky are used for it.
+/// The largest distance, in pixels, from which a pixel uses other pixels' tests of the sun and of
+/// the sky.
 constexpr int sun_reach = 1, sky_reach = 2;
 /// The number of tests for a light that is partly hidden.
 constexpr std::uint32_t enough_tests = 16;
 /// Two hits count as on different pieces of a surface if the cosine between their normals is
 /// smaller than this.
 constexpr float least_cosine = 0.9F;
-/// The largest difference between the visible part of the sun at a pixel and at its neighbours. If
-/// it is larger, there is the outline of a shadow.
+/// If the visible part of the sun differs by more than this between a pixel and its neighbours, the
+/// outline of a shadow is between them.
 constexpr float sharp_outline = 0.2F;
 /// If the contrast to an adjacent pixel is above this, one ray is not enough.
 constexpr float contrast_beside = 0.06F;
@@ -266,7 +267,7 @@ float TileDrawer::share_around(Light light, Pixel& pixel, int reach) {
         sum += other.all[light];
     });
     if (!pixel.is_partly_hidden[light]) return sum.share();
-    // On a narrow piece of surface few neighbours count, so the pixel adds tests of its own.
+    // On a narrow piece of surface, few neighbours count, so the pixel adds tests of its own.
     Tally& own = pixel.all[light];
     while (sum.asked < enough_tests) {
         const Tally answer = ask_in_turn(light, pixel, own.asked);

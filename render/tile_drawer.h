@@ -14,7 +14,7 @@
 namespace cascade {
 
 /// Draws tiles. Has memory for one tile, so each thread needs its own drawer. The arguments must
-/// outlive it.
+/// outlive the drawer.
 class TileDrawer {
 public:
     static constexpr std::int64_t side = 96;  ///< In pixels.
@@ -54,9 +54,9 @@ private:
         Seen seen;      ///< The hit of the ray through the pixel's middle.
         Colour tone{};  ///< The tone that the hit would have if no light were hidden.
         OfLights<Tally> first, all;
-        /// Whether the light is partly hidden at this pixel or nearby.
+        /// For each light, whether it is partly hidden at this pixel or nearby.
         OfLights<bool> is_partly_hidden;
-        bool is_edge = false;    ///< Whether adjacent pixels show other things.
+        bool is_edge = false;    ///< Whether adjacent pixels show something else.
         bool is_varied = false;  ///< Whether adjacent pixels show other colours of the same thing.
         std::int16_t x = 0, y = 0;  ///< Position relative to `left_` and `top_`.
     };

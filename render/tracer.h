@@ -14,8 +14,8 @@ namespace cascade {
 /// A point of the unit disc.
 struct DiscPoint {
     float x = 0, y = 0;
-    /// From 0 to below 1. A test passes through a surface if this is below the fraction of light
-    /// that passes.
+    /// A number from 0 to below 1. A test passes through a surface if this number is below the
+    /// fraction of light that the surface lets through.
     float part = 0;
 };
 
@@ -41,8 +41,8 @@ public:
     /// first surface that is not fully transparent. The ray samples a square of `width` pixels.
     Seen trace(float x, float y, float width) const;
 
-    /// Visits all hits of the same ray, from front to back: use(seen, weight), with weights that
-    /// sum to 1.
+    /// Visits all hits of the ray of trace(), from front to back: use(seen, weight), with weights
+    /// that sum to 1.
     template <typename Use>
     void trace_through(float x, float y, float width, const Use& use) const {
         const Ray ray = camera_.ray(x, y);

@@ -79,8 +79,8 @@ std::vector<Bound> bounds_of(const StageBench& bench);
 /// The resource with the largest share. Ignores resources for which is_outdone() is true, because
 /// they cannot be the limit.
 const Bound& tightest(const std::vector<Bound>& bounds);
-/// Whether the share is so far above 1 that the steps must have used less of the resource than was
-/// counted.
+/// Whether the resource's share is so far above 1 that the steps must have used less of the
+/// resource than was counted.
 bool is_outdone(const Bound& bound);
 
 /// The largest possible speed by the roofline model.

@@ -34,7 +34,7 @@ AxisRange widened(double low, double high, std::string name) {
     return {low - 0.04 * width, high + 0.04 * width, std::move(name)};
 }
 
-/// A state of a picture below the diagram, and where it is in the diagram.
+/// The state of a picture below the diagram, and the state's position in the diagram.
 struct Chosen {
     const Point* point;
     DrawnPoint at;
@@ -89,7 +89,8 @@ private:
         const auto style_of = [&](const Point& point) { return point.growing.value_or(0) > 0; };
         const auto& points = branch.points;
         for (std::size_t begin = 0; begin + 1 < points.size();) {
-            // A special point belongs to both sides, so the point after it decides.
+            // A special point belongs to the curves on both of its sides, so the point after it
+            // decides whether the next curve is dashed.
             const bool is_dashed =
                 style_of(points[begin + (points[begin].kind != PointKind::regular)]);
             std::vector<double> across{points[begin].place.parameter}, up{value(points[begin])};
@@ -180,7 +181,7 @@ private:
         }
     }
 
-    /// The picture of a state in a box, in a common range of values.
+    /// Draws the picture of a state in a box, with the range of values that all pictures share.
     void draw_state(const Point& point, const AxisBox& box, double low, double high) {
         const Grid& grid = pictures_.cells.grid;
         const continuation::Values values = first_of(point);

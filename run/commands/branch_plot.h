@@ -12,16 +12,16 @@
 
 namespace cascade {
 
-/// How states become pictures: lines as curves, planes and the middle slices of volumes as images
-/// of the first species.
+/// How states become pictures. The first species is drawn as a curve on a line, and otherwise as an
+/// image of the plane or of the volume's middle slice.
 struct StatePictures {
     continuation::DomainCells cells;
-    std::size_t count = 0;  ///< The most pictures. 0, and any number on a model: none.
+    std::size_t count = 0;  ///< The largest number of pictures. On a model none are drawn.
 };
 
 struct BranchPlotText {
     const FollowTable& table;
-    std::size_t up = 0;  ///< The number on the vertical axis, of table.numbers().
+    std::size_t up = 0;  ///< The index, in table.numbers(), of the number on the vertical axis.
     std::string across;  ///< The name of the parameter.
     std::string title;
 };

@@ -1,4 +1,5 @@
-// Prints each kind of dump by a function of the room that the data belongs to.
+// Calls, for each kind of dump, the function that prints it. The function is in the folder of the
+// printed data.
 #include "run/commands/dump.h"
 
 #include "ir/cell_kernel.h"
@@ -58,7 +59,7 @@ std::string dump_ir(const Program& program) {
     return text;
 }
 
-/// A group in TeX: a fraction of powers.
+/// A dimensionless group in TeX: a fraction of powers.
 std::string group_in_tex(const DimensionlessGroup& group) {
     const Symbols symbols{Notation::tex, true, {}, {}};
     std::string above, below;
@@ -73,8 +74,8 @@ std::string group_in_tex(const DimensionlessGroup& group) {
     return below.empty() ? above : fmt::format("\\frac{{{}}}{{{}}}", above, below);
 }
 
-/// A sentence with the dimensionless groups of the first stage of a system. Without units, a
-/// comment that says which values lack them. Empty if there is nothing to say.
+/// A sentence with the dimensionless groups of the first stage of a system. If units are missing, a
+/// comment that says which values have none. Empty if there is nothing to say.
 std::string groups_in_tex(const Script& script, const ProgramUnits& units, SystemId system) {
     const Program& program = *script.program;
     const auto stage = std::ranges::find(program.stages, system, &Stage::system);

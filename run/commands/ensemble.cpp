@@ -66,7 +66,7 @@ Statistics statistics_in(const Ensemble& ensemble, std::string_view number, Swee
 
 /// A curve: the statistics of a number at each position across, from left to right.
 struct Curve {
-    std::string name;  ///< The values of the further names, such as "kill = 0.06".
+    std::string name;  ///< The values of the remaining names, such as "kill = 0.06".
     std::vector<std::pair<double, Statistics>> points;
 };
 

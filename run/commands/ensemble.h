@@ -28,16 +28,17 @@ bool has_ensembles(std::span<const Variation> varied);
 
 /// A table with a row for each combination of the values other than the seed, and for each measured
 /// number except `angle`, whose mean would depend on where its circle begins. A row has the
-/// combination, the name of the number, and its statistics over the runs that have it.
+/// combination, the name of the number, and the number's statistics over the runs that have the
+/// number.
 std::string ensemble_table(SweepResults results, std::span<const Variation> varied);
 
-/// Checks whether draw_curve() can draw a number over the first varied name other than `seed`,
-/// whose values must then be numbers. Fails for an unknown number, too.
+/// Checks whether draw_curve() can draw a number over the first varied name other than `seed`.
+/// Fails if a value of this name is not a number, or if the measured number is unknown.
 Result<void> check_curve(std::string_view number, std::span<const Variation> varied);
 
 /// Draws a measured number over the first varied name other than `seed`, with a curve for each
-/// combination of the further names. Several seeds give the mean with a bar for the 95 % confidence
-/// interval. The arguments must have passed check_curve().
+/// combination of the values of the remaining names. Several seeds give the mean with a bar for the
+/// 95 % confidence interval. The arguments must have passed check_curve().
 Drawing draw_curve(std::string_view number, SweepResults results,
                    std::span<const Variation> varied);
 

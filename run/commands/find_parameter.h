@@ -9,8 +9,9 @@
 
 namespace cascade {
 
-/// The parameter of a stage with this name, such as "feed". The name of its stage or system may
-/// precede the name. Fails if there is none, or if it differs from cell to cell.
+/// The parameter with this name, such as "feed", in a stage. The name of the stage or its system
+/// may precede the parameter's name. Fails if there is no such parameter, or if its value differs
+/// from cell to cell.
 Result<ItemId> find_parameter(const Program& program, std::uint32_t stage, std::string_view name);
 
 }  // namespace cascade

@@ -20,8 +20,9 @@ namespace cascade::continuation {
 
 namespace {
 
-/// If motions must balance more than this fraction of the rates, the cells keep the pattern from
-/// moving. The cells of a model are spread unevenly, so they hold each pattern weakly.
+/// If motions of the pattern must balance more than this fraction of the rates, the pattern cannot
+/// move freely, because the cells hold it. The limit is higher on a model, whose unevenly spread
+/// cells hold each pattern weakly.
 constexpr double most_drift = 1e-7, most_drift_on_model = 0.01;
 
 class BranchRun {
@@ -93,7 +94,7 @@ Result<void> BranchRun::run_stages() {
     auto simulation = Simulation::create(script_, options_);
     if (!simulation) return tl::unexpected(simulation.error());
     simulation_ = *std::move(simulation);
-    // With any numbers for constants, this finds what is not supported before the run.
+    // Any numbers for the constants suffice to find, before the run, what is not supported.
     const auto trial = problem_with([](const Formula&) { return std::vector{1.0}; });
     if (!trial) return tl::unexpected(trial.error());
     for (std::uint32_t k = 0; k <= stage_; ++k) {

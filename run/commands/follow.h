@@ -18,15 +18,15 @@ struct FollowRequest {
     /// The name of a stage, or its number, counted from 1. Empty: the last stage.
     std::string stage;
     std::optional<VariedRange> varied;  ///< Must be given.
-    bool from_flat = false;    ///< Whether the first state is flat, and not the end of the run.
-    double step = 0.05;        ///< The longest step, in parts of the range and of usual values.
+    bool from_flat = false;  ///< Whether the first state is flat, and not the end of the run.
+    double step = 0.05;      ///< The longest step, as a fraction of the range and of usual values.
     std::size_t points = 400;  ///< The most points on each side of a branch's first point.
     std::size_t branches = 1;  ///< The most branches.
     std::size_t pictures = 6;  ///< The most pictures of states below the diagram.
-    std::string up;            ///< The number on the vertical axis. Empty: the norm of a species.
+    std::string up;  ///< The number on the vertical axis. Empty: the norm of the first species.
     /// Tables (.csv) and diagrams. If empty, SCRIPT_branches.csv and SCRIPT_branches.svg.
     std::vector<std::filesystem::path> outputs;
-    std::filesystem::path save;  ///< The folder of states as saved runs. Empty: none.
+    std::filesystem::path save;  ///< The folder in which states are saved as runs. Empty: none.
     SimulationOptions simulation;
 };
 

@@ -31,8 +31,8 @@ public:
     /// The names of the numbers of a state: for each species its norm, least, largest and mean
     /// value.
     const std::vector<std::string>& numbers() const { return numbers_; }
-    /// The number with this name, such as "max_u", or "max" for the first species. Fails with a
-    /// list of the names.
+    /// The index in numbers() of the number with this name, such as "max_u", or "max" for the first
+    /// species. Fails with a list of the names.
     Result<std::size_t> find_number(std::string_view name) const;
 
     /// The table as CSV, with a row for each point.

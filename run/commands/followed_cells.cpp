@@ -53,8 +53,8 @@ std::vector<bool> inside_of(const SimulationDomain& domain) {
     return inside;
 }
 
-/// The rotations that map a sphere or a torus to itself, about axes through the middle of its box:
-/// for each, the components of the velocity.
+/// The rotations that map a sphere or a torus to itself, about axes through the middle of its box.
+/// Each is given by the components of its velocity in all cells.
 std::vector<std::array<std::vector<double>, 3>> turns_of(const SimulationDomain& domain) {
     const ModelShape shape = domain.program->domain.model->shape;
     std::vector<std::size_t> axes;

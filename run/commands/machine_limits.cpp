@@ -1,5 +1,5 @@
 // Runs twelve independent chains of sums and products, a kernel of divisions, and a triad (a + s ·
-// b), on planes that fill each cache. Each is measured several times, and the best result counts.
+// b), on planes that fill each cache. Each measurement is repeated, and the best result counts.
 #include "run/commands/machine_limits.h"
 
 #include "core/cache_sizes.h"

@@ -1,4 +1,4 @@
-// Only the first '=' divides, and "==" compares.
+// Only the first '=' ends a name, and "==" is a comparison.
 #include "run/commands/named_expression.h"
 
 #include <algorithm>

@@ -98,7 +98,8 @@ void Runner::remark(std::string words) {
     report_.remarks.push_back(std::move(words));
 }
 
-/// Adds remarks on the stages of a resumed run whose `steps` allowed no more steps.
+/// For a resumed run, adds a remark on each stage that could take no more steps because of its
+/// `steps`.
 void Runner::remark_on_resumed() {
     const auto& stages = script_.program->stages;
     for (std::uint32_t k = 0; k + 1 < script_.stage_count(); ++k) {

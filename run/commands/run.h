@@ -59,7 +59,7 @@ struct RunRequest {
     /// continues with the last script of the session.
     std::optional<SessionLog> session;
     /// The live run of this script whose present moment is written instead of running the stages.
-    /// Null: none. `session` is then only the log that pictures contain, if any.
+    /// If there is one, `session` is only the log that pictures contain, if any. Null: none.
     const LiveRun* present = nullptr;
     MomentsRequest moments;  ///< The times at which the run is observed.
     LogRequest log;
@@ -95,8 +95,8 @@ struct RunReport {
 };
 
 /// Runs the script and writes the requested outputs. All outputs are checked before the first step.
-/// After a cancel, the results so far are written. The text of a failure needs no addition. If the
-/// failure is an error in the script, it is also in `script.diagnostics`.
+/// After a cancel, the results so far are written. The text of a failure is a complete message. If
+/// the failure is an error in the script, it is also in `script.diagnostics`.
 Result<RunReport> run(Script& script, const RunRequest& request, RunControl& control);
 
 /// Writes every field of the started stages as STAGE.NAME.npy, the script, and `run.json`. A saved

@@ -110,7 +110,7 @@ bool Runner::has_cancelled(std::string what) {
     return true;
 }
 
-/// Repeats the session and returns its run at the end. The session must be one of this script.
+/// Repeats the session and returns the live run at its end. The session must belong to this script.
 Result<std::unique_ptr<LiveRun>> Runner::play_session() {
     auto played = LiveRun::play(*request_.session, script_.folder, request_.simulation, control_);
     if (!played) {

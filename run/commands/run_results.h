@@ -61,7 +61,8 @@ private:
     /// empty, and a note in the report says that `what` was left out and which part had been drawn.
     std::optional<Image> drawn(const Canvas& canvas, const std::string& what,
                                const std::filesystem::path& path);
-    /// The flag that stops drawing. Ctrl-C sets it or, after a cancel, the need to end soon.
+    /// The flag that stops drawing. It is set by Ctrl-C or, if the run was already cancelled, by
+    /// the need to end soon.
     const std::atomic<bool>& stop() const {
         return report.status == RunStatus::cancelled ? control.hurry : control.cancel;
     }

@@ -109,8 +109,8 @@ Result<Script> load_saved_script(const std::filesystem::path& folder, const Over
     try {
         auto overrides = overrides_from_json(json->at("overrides").dump());
         if (!overrides) return tl::unexpected(damaged(folder, overrides.error().message));
-        // The limit on the steps of the saved run is not taken over, because it would stop the
-        // resumed run, too.
+        // The saved run's limit on steps is not taken over, because it would stop the resumed run,
+        // too.
         overrides->steps = changes.steps;
         overrides->until_stage = changes.until_stage;
         overrides->reads = changes.reads;

@@ -1,6 +1,6 @@
-// Fields have the shape of the grid. On a model they are one row of cells in the order of its file.
-// Cells that crawl are in the order of their numbers. Sizes and ranges are checked, because files
-// may have been changed.
+// Fields have the shape of the grid. On a model they are one row of cells, in the order in which
+// files list them. Cells that crawl are in the order of their numbers. Sizes and ranges are
+// checked, because files may have been changed.
 #include "run/commands/saved_stage.h"
 
 #include "picture/npy.h"

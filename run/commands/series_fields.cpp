@@ -46,8 +46,8 @@ std::vector<std::string> all_species(const Script& script) {
     return names;
 }
 
-/// Whether the fields have different names, which a file of HDF5 can have as names of datasets.
-/// Otherwise there is an error in `script.diagnostics`.
+/// Whether the fields have different names and, for an HDF5 file, names that datasets can have. If
+/// not, adds an error to `script.diagnostics`.
 bool check_names(Script& script, const SeriesFields& fields, bool is_hdf5) {
     const std::string option = flag_of(RunOption::field);
     const auto refuse = [&](const std::string& name, std::string message, std::string hint) {

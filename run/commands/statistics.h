@@ -8,7 +8,7 @@ namespace cascade {
 
 /// Statistics of independent numbers, such as a feature in runs with different seeds.
 struct Statistics {
-    std::size_t count = 0;  ///< The numbers that are not NaN. All others are left out.
+    std::size_t count = 0;  ///< How many of the numbers are not NaN. Only these count.
     double mean = 0;        ///< NaN without numbers.
     /// The standard deviation of the sample, with count − 1 in the denominator. NaN if there are
     /// fewer than two numbers.

@@ -219,8 +219,8 @@ void Sweeper::work(RunControl& control) {
     changed_.notify_all();
 }
 
-/// Waits until the threads of this process have ended, and then the other ranks. Called in the
-/// caller's thread.
+/// Waits until the threads of this process have ended, and then until the other ranks have. Called
+/// in the caller's thread.
 void Sweeper::watch() {
     const std::chrono::milliseconds pause = request_.messenger ? between_messages : between_reports;
     std::unique_lock lock(mutex_);

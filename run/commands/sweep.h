@@ -47,7 +47,7 @@ struct SweepRequest {
     FilmRequest pace;
     /// Numbers to draw over the first varied name other than the seed, each as NUMBER.svg.
     std::vector<std::string> curves;
-    PictureRequest picture;  ///< The values to show and measure. Its scale is ignored.
+    PictureRequest picture;  ///< Says which values to show and measure. `scale` is ignored.
     int tile_side = 160;     ///< In pixels. Larger pictures are reduced to this size by averaging.
     bool fields = false;     ///< Whether the fields of every run are saved, to be read or resumed.
     bool force = false;      ///< Whether runs of an earlier sweep are repeated.

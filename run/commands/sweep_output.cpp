@@ -24,8 +24,8 @@ MapAxis axis_of(const std::vector<Variation>& varied, std::size_t which) {
     return {"", {""}};
 }
 
-/// The vertical axis of the sheet, for the second variation. If there are more than two, it
-/// combines all variations except the first, and the second varies fastest.
+/// The vertical axis of the sheet, for the second variation. If there are more than two variations,
+/// the axis combines all except the first, and the second varies fastest.
 MapAxis upward_axis(const std::vector<Variation>& varied) {
     if (varied.size() <= 2) return axis_of(varied, 1);
     const std::span<const Variation> others = std::span(varied).subspan(1);

@@ -1,5 +1,5 @@
-// A message is a letter that says its kind, for two kinds the number of a run, and for results the
-// packed result.
+// A message begins with a letter that says its kind. In messages of two kinds, the number of a run
+// follows. In results, the packed result follows the number.
 #include "run/commands/sweep_queue.h"
 
 #include "core/check.h"

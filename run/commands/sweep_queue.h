@@ -35,7 +35,7 @@ public:
     bool is_root() const { return messenger_ == nullptr || messenger_->rank() == 0; }
 
     /// The next run for a thread of this process. Waits if rank 0 hands out the runs. Empty if
-    /// there are no more. If the same thread calls serve(), it must pass `serves`.
+    /// there are no more. `serves` must be true in the thread that calls serve().
     std::optional<std::size_t> next(bool serves);
     /// Sends a result to rank 0 with the next call of serve(). For all ranks but rank 0.
     void give(std::size_t run, const SweepResult& result);
@@ -62,7 +62,7 @@ private:
     std::condition_variable changed_;
     std::deque<std::size_t> waiting_;  ///< On other ranks: the runs received for idle threads.
     std::deque<std::string> results_;  ///< The results to be sent to rank 0.
-    std::size_t asked_ = 0;            ///< The runs that serve() has to ask for.
+    std::size_t asked_ = 0;            ///< The number of runs that serve() has to ask for.
     std::set<int> busy_;               ///< On rank 0: the other ranks that have not ended.
     bool is_over_ = false;             ///< Whether there are no more runs.
     bool is_cancelled_ = false;

@@ -39,7 +39,7 @@ std::string key_of_run(const Script& script, const PictureRequest& picture, int 
 Result<void> write_result(const std::filesystem::path& folder, const std::string& key,
                           const SweepResult& result);
 
-/// The result with that key. Empty if there is none, or if it is damaged.
+/// The result with this key. Empty if there is none, or if it is damaged.
 std::optional<SweepResult> read_result(const std::filesystem::path& folder, const std::string& key);
 
 /// The result as bytes, for another process of the same build.

@@ -56,7 +56,7 @@ std::optional<double> read_number(std::string_view text);
 
 /// A seed: a whole number from 0 to 4294967295. Empty for any other text.
 std::optional<std::uint32_t> read_seed(std::string_view text);
-/// The hint of messages about other texts.
+/// The hint in messages about texts that are not seeds.
 inline constexpr const char* what_seeds_are = "a seed must be a whole number from 0 to 4294967295";
 
 /// The number of runs, which is the number of all combinations of values. Fails if a name is varied
@@ -74,8 +74,8 @@ std::vector<std::string> values_of_run(std::span<const Variation> varied, std::s
 /// '_'.
 std::string folder_name(std::span<const Variation> varied, std::span<const std::string> values);
 
-/// Adds the values of a run to `base`. A value of `seed` sets the seed, and all others are appended
-/// to the sets. Fails if a seed is not an integer of 32 bits.
+/// Adds the values of a run to `base`. A value of `seed` sets the seed. All other values are
+/// appended to `sets`. Fails if a seed is not an integer of 32 bits.
 Result<Overrides> overrides_of_run(const Overrides& base, std::span<const Variation> varied,
                                    std::span<const std::string> values);
 

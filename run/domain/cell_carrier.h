@@ -31,8 +31,8 @@ public:
     /// it, or, on models, of the nearest cell. A larger cell is 1 if at least half of the cells
     /// that it covers are not 0.
     virtual Mask carried(const Mask& cells) const = 0;
-    /// Carries the values along one side of a grid, which is numbered `side`. Larger cells get
-    /// means along the side, and smaller cells repeat values.
+    /// Carries the values along side number `side` of a grid. Larger cells get means along the
+    /// side, and smaller cells repeat values.
     virtual std::shared_ptr<const SideValues> carried(const SideValues& values,
                                                       std::size_t side) const = 0;
 };

@@ -6,7 +6,8 @@
 
 namespace cascade {
 
-/// Sets `cancel` after this many seconds, unless it is destroyed before. 0 seconds: never.
+/// Sets `cancel` after this many seconds, unless the deadline is destroyed before. 0 seconds:
+/// never.
 class Deadline {
 public:
     Deadline(double seconds, std::atomic<bool>& cancel);
@@ -14,7 +15,8 @@ public:
     Deadline(const Deadline&) = delete;
     Deadline& operator=(const Deadline&) = delete;
 
-    /// Whether the time was over. If so, resets `cancel`. From now on `cancel` stays unchanged.
+    /// Ends the deadline, which no longer changes `cancel` afterwards. Returns whether the time was
+    /// over, and if so, resets `cancel`.
     bool ends_work();
 
 private:

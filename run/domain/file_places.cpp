@@ -109,8 +109,8 @@ void each_of_model(const ModelCells& model, const Visit& visit) {
     }
 }
 
-/// Moves a position by a vector. Its unit is the longest side of the domain's box, whose size is
-/// `extent`.
+/// Moves a position by a vector. The vector's unit is the longest side of the domain's box, whose
+/// size is `extent`.
 BuiltinValues moved(BuiltinValues place, Vector3d by, Vector3d extent) {
     const std::array<double, 3> way{by.x, by.y, by.z}, sides{extent.x, extent.y, extent.z};
     for (std::size_t axis = 0; axis < 3; ++axis) {

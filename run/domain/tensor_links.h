@@ -1,4 +1,4 @@
-// The links over which tensors that do not change diffuse on a model.
+// The links of a model for diffusion with tensors that do not change.
 #pragma once
 
 #include "core/links.h"
@@ -18,7 +18,7 @@ public:
     /// The links of the model's cells in the same order, then links of weight 0 to cells with which
     /// a cell shares a triangle, but no edge.
     const Links& links() const { return links_; }
-    /// The same with weights of gradients, computed by the first call. Throws std::bad_alloc.
+    /// The same links with weights of gradients, computed by the first call. Throws std::bad_alloc.
     const Links& links_with_gradients() const;
     /// The plane of tensor_weights(low, right, down), which has a number for each link. The
     /// operands have the cells in memory order. Throws std::bad_alloc.

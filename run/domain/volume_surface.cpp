@@ -21,9 +21,9 @@ namespace cascade {
 
 namespace {
 
-/// The length of the cube's longest side, as a multiple of the triangles' edges: the default if
-/// there are no arrays, and the largest value. With many more edges, making the surface would take
-/// minutes.
+/// The length of the cube's sides, as a multiple of the triangles' edges: the default, which is
+/// also the smallest value, and the largest value. With many more edges, making the surface would
+/// take minutes.
 constexpr double usual_edges = 50, most_edges = 100;
 /// The number of positions that are evaluated together. It is small enough for their values to stay
 /// in the caches.
@@ -122,8 +122,8 @@ public:
 
 private:
     /// The position of a point in an array that fills the cube. Sets `depth` to the distance from
-    /// the nearest side of the array, in elements, if that is less than its present value. The
-    /// distance is negative outside.
+    /// the nearest side of the array, in elements, if that is less than the present value of
+    /// `depth`. The distance is negative outside.
     static FilePlace place_in_cube(const Volume& volume, const Vector3d& point, double& depth) {
         FilePlace place{0.5, 0.5, 0.5};
         const std::array along{point.x, point.y, point.z};

@@ -28,7 +28,7 @@ struct ArrayMoment {
 ArrayMoment array_moment(const Simulation& simulation);
 
 /// The numbers of cells along each axis of an array, the slowest axis first: slices (of a volume),
-/// rows (unless there is one) and columns, or the cells of a model.
+/// rows (unless there is only one) and columns, or the cells of a model.
 std::vector<std::int64_t> sides_of_cells(const Simulation& simulation);
 
 /// Appends the cells of a field, in the order of the axes and in the run's precision. If the field

@@ -83,7 +83,8 @@ float level_of(float side) {
 /// Adds levels above level 0, up to `highest`.
 void add_levels(const SurfaceCells& cells, const CellState& parts, float highest, Levels& levels,
                 Team& team) {
-    // No blur wider than the surface is needed, and the surface is √cells distances wide.
+    // No blur wider than the surface is needed. In distances between cells, the surface is as wide
+    // as the square root of the number of cells.
     const double widest = std::log2(static_cast<double>(cells.places.size())) / 2;
     const double count = std::ceil(std::min<double>(highest, widest));
     double variance = 0;

@@ -57,7 +57,7 @@ public:
 
     MapSet maps() const override { return {.heights = true, .normals = true}; }
     void paint(const SampleRow& row) override;
-    /// The sum of the normals of all samples, each of the visible object or surface.
+    /// The sum over all samples of the normal of the visible object or surface.
     Vector3d raised_normal(std::span<const SurfacePlace> samples, const Vector3d& normal) override;
 
 private:

@@ -118,7 +118,7 @@ private:
     double spacing_ = 1;
     std::size_t bytes_of_number_ = 4;
     std::optional<std::uint32_t> described_;  ///< The last stage whose parameters are written.
-    std::unique_ptr<GrowingFile> place_;      ///< The name of the file, and its end.
+    std::unique_ptr<GrowingFile> place_;      ///< Gives the HDF5 file its name, and completes it.
     std::unique_ptr<Hdf5File> file_;
     std::unique_ptr<GrowingFile> list_;
     static constexpr std::string_view end_of_list = "  </Grid>\n</Domain>\n</Xdmf>\n";

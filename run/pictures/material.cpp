@@ -31,8 +31,8 @@ constexpr std::array<NumberSetting, 3> number_settings = {{
 constexpr std::array<MaterialPart, 3> emission_parts = {MaterialPart::red, MaterialPart::green,
                                                         MaterialPart::blue};
 
-/// Clamps the numbers of all cells to 0 … 1. Adds to `changed` the number of cells inside that had
-/// to be changed.
+/// Clamps the numbers of all cells to 0 … 1. Adds to `changed` the number of cells inside the
+/// domain whose numbers had to be changed.
 std::vector<float> clamped(const std::vector<double>& values, float usual,
                            std::span<const std::uint8_t> inside, std::size_t& changed) {
     std::vector<float> result;

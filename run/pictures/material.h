@@ -52,8 +52,8 @@ struct Material {
     MaterialCells cells() const;
 };
 
-/// The names of the settings of a material that the picture block has, in quotes and joined:
-/// "'height' and 'opacity'". Empty if it has none.
+/// The names of the material's settings in the picture block, in quotes and joined: "'height' and
+/// 'opacity'". Empty if it has none.
 std::string material_said(const Script& script);
 
 /// The maps of a baked picture of fields: one for each setting in the script, and the occlusion by

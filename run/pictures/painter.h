@@ -34,8 +34,8 @@ struct Canvas {
     PlaneScales scales{1, 1};
     /// The number of parts of a cell along each axis. Above 1 in maps and smooth pictures.
     std::int64_t parts = 1;
-    /// The cells of a stage of crawling cells, in the order of the values in the fields. Otherwise
-    /// null.
+    /// The cells of a stage of crawling cells, in the order of the values in the fields. Null for
+    /// other stages.
     std::shared_ptr<const DrawnCells> cells = nullptr;
     /// The surface of a volume that is drawn as a body, in the script's unit of length. The fields
     /// are then one row with the values at the points of the surface. The surface has no points if

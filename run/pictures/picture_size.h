@@ -21,8 +21,8 @@ bool draws_body(const Script& script, const PictureRequest& request);
 /// and crawling cells are.
 bool draws_scene(const Script& script, const PictureRequest& picture);
 
-/// Whether a picture of a plane or slice continues with a copy of itself, first at its left and
-/// right sides, second at its upper and lower sides.
+/// Whether a picture of a plane or slice continues with a copy of itself: the first value for its
+/// left and right sides, the second for its upper and lower sides.
 std::array<bool, 2> sides_that_repeat(const Grid& grid, const Slice& slice);
 
 /// A picture of a plane or slice may consist of several copies. Returns the size of a single copy.

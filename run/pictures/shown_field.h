@@ -1,4 +1,4 @@
-// Fields as pictures show them: in binary32, and of a volume one slice.
+// Fields as pictures show them: in binary32, and only one slice of a volume.
 #pragma once
 
 #include "core/plane.h"

@@ -18,7 +18,7 @@ namespace cascade {
 /// The surface below cells: a model, a function of two parameters over a grid, or a body.
 struct SurfaceSource {
     std::shared_ptr<const ModelCells> model;
-    /// A body below crawling cells, in the script's unit of length. Otherwise null.
+    /// A body below crawling cells, in the script's unit of length. Null if there is none.
     std::shared_ptr<const SurfaceMesh> body;
     std::optional<SurfaceSettings> function;  ///< Given if there is neither a model nor a body.
     Grid grid;
@@ -53,9 +53,9 @@ struct ShownSurface {
     std::vector<CellShare> shares;
 };
 
-/// Makes at most about 2²⁰ triangles. A larger model is replaced by a coarser copy. If there are
-/// more cells, the mesh has fewer points than cells, and the pattern is interpolated linearly
-/// between them. Throws std::bad_alloc.
+/// Makes at most about 2²⁰ triangles. A larger model is replaced by a coarser copy. If the mesh
+/// then has fewer points than the model has cells, the pattern is interpolated linearly between the
+/// points. Throws std::bad_alloc.
 ShownSurface shown_surface(const SurfaceSource& source, Team& team);
 
 }  // namespace cascade

@@ -38,8 +38,8 @@ PngTexts embed_script(const Script& script, const PictureRequest& picture);
 PngTexts embed_sweep(const Script& script, const PictureRequest& picture,
                      const std::vector<std::string>& varied);
 
-/// Reads the text chunks from `bytes`, which are the content of `file`. Fails with a message that
-/// names `file` if it is not a PNG that Cascade wrote.
+/// Reads the text chunks from `bytes`, which are the content of `file`. Fails if the file is not a
+/// PNG that Cascade wrote, with a message that names `file`.
 Result<EmbeddedScript> parse_embedded_script(std::string_view bytes, const std::string& file);
 
 /// Reads the text chunks of a file. Links, pipes and devices are refused.

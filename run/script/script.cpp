@@ -95,8 +95,8 @@ void UsedFiles::add(const std::filesystem::path& path, const std::string& text) 
     set_folder_of_files(first, path.parent_path());
 }
 
-/// Makes the paths of data files, which a used file gives relative to its own folder, relative to
-/// the script's folder.
+/// A used file gives the paths of data files relative to its own folder. Makes them relative to the
+/// script's folder.
 void UsedFiles::set_folder_of_files(ast::ExprId first, const std::filesystem::path& folder) {
     if (folder.empty()) return;
     auto& expressions = script_.tree.expressions;

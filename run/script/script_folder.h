@@ -13,14 +13,15 @@ namespace cascade {
 /// Otherwise only the last component of the path is stored.
 std::string portable_path(const std::string& path);
 
-/// The folder for files that the script of a saved run names. This is the current folder, or else
-/// the folder that contains `saved`, if its file `name` still has this text. Otherwise it is
-/// `saved` itself. A folder named in a saved run is not trusted, because that would grant the right
-/// to read files there.
+/// The folder for files that the script of a saved run names. The current folder and then the
+/// folder that contains `saved` are searched for a file `name` that still has this text. The result
+/// is the folder of this file or, if there is none, `saved` itself. A folder named in a saved run
+/// is not trusted, because that would grant the right to read files there.
 std::filesystem::path find_script_folder(const std::filesystem::path& saved,
                                          const std::string& name, const std::string& text);
 
-/// The first file of this name in these two folders. Empty if a file of this name has this text.
+/// The first file `name` in the two folders that find_script_folder() searches. Empty if there is
+/// none, or if one of these files has this text.
 std::optional<std::filesystem::path> find_edited_script(const std::filesystem::path& saved,
                                                         const std::string& name,
                                                         const std::string& text);

@@ -36,8 +36,9 @@ struct Paint {
 /// Sets every cell of the current stage to a given number. Paint evaluates an expression instead.
 struct SetValues {
     std::string item;
-    /// One for each cell: row by row and slice by slice, on a model and for crawling cells in the
-    /// order of the cells' numbers. Values outside a mask are ignored.
+    /// One for each cell. On a grid they are row by row and slice by slice. On a model and for
+    /// crawling cells they are in the order of the cells' numbers. Values outside a mask are
+    /// ignored.
     std::vector<double> values;
     bool operator==(const SetValues&) const = default;
 };

@@ -68,7 +68,8 @@ private:
         return species ? record_.species[species->index()] : record_.kept[item.index()];
     }
 
-    /// The index of an item among all stored items; their number if it is not stored.
+    /// The index of an item among all stored items. If the item is not stored, the number of stored
+    /// items.
     std::size_t kept_item(ItemId item) const {
         const auto found = std::ranges::find(kept_.items, system().item_name(item));
         return static_cast<std::size_t>(found - kept_.items.begin());
