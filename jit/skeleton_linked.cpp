@@ -78,10 +78,10 @@ void LinkedSources::find_links() {
     end_ = start_of(builder_.CreateAdd(slice, count(1)));
 }
 
-// A slice may have no entries. Values of the cells that the entries need are added to the block
-// before the loop while the loop is written, so this block gets its terminator last. Until the loop
-// is complete, loads replace its phi nodes, because InstSimplifyFolder draws wrong conclusions from
-// unfinished phi nodes.
+// A slice may have no entries. While the loop's code is written, code for values that its entries
+// need from the vector's own cells is added to the block before the loop. So this block gets its
+// terminator last. Until the loop is complete, loads take the place of the loop's phi nodes,
+// because InstSimplifyFolder draws wrong conclusions from unfinished phi nodes.
 std::vector<Value*> LinkedSources::over_entries(llvm::ArrayRef<llvm::Constant*> first,
                                                 WriteEntry write) {
     find_links();

@@ -34,8 +34,8 @@ int widest_lanes(const llvm::TargetMachine& machine);
 bool has_multiply_add(const llvm::TargetMachine& machine);
 
 /// Whether combining two vectors by a shift takes less time than a load across two cache lines. In
-/// one cycle, Zen 4 loads 64 bytes inside a line or 32 bytes across lines, while it shifts and
-/// computes 64.
+/// one cycle, Zen 4 loads 64 bytes inside a line, but only 32 bytes across lines. Shifts and
+/// arithmetic process 64 bytes per cycle.
 bool is_short_of_loads(const llvm::TargetMachine& machine);
 
 /// Whether gathering a vector takes less time than loading each of its numbers. This is so on

@@ -1,6 +1,6 @@
 // Expression graphs that simplify themselves. Used for formulas derived from other formulas, such
-// as derivatives. The values of a pattern itself are always computed by the formulas as their
-// author wrote them.
+// as derivatives. A pattern is always computed by formulas as their author wrote them, without
+// these simplifications.
 #pragma once
 
 #include "lang/program/flatten.h"
@@ -14,7 +14,8 @@ class Algebra : public ExpressionGraph {
 public:
     NodeId call(Function function, std::initializer_list<NodeId> operands,
                 ValueType type = ValueType::number) override;
-    /// Applies the function of a node to the node's operands, one to three nodes of this graph.
+    /// Applies the function of a node to the node's operands, which must be one to three nodes of
+    /// this graph.
     NodeId call_of(const Node& node);
 
     NodeId sum(NodeId a, NodeId b) { return call(Function::add, {a, b}); }
@@ -50,8 +51,8 @@ struct FlatRates {
     NodeId rate(ItemId species) const { return flattening.rate(species); }
 };
 
-/// The formula, in which the definitions and rates that it reads are replaced by their own
-/// formulas. The system must be free of errors.
+/// The formula, with each definition and rate in it replaced by that definition's or rate's
+/// formula. The system must be free of errors.
 Formula without_definitions(const System& system, const Formula& formula);
 /// The distances d of the sums `over near(d)` in a formula.
 std::vector<Formula> near_distances(const Formula& formula);

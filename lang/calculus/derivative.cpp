@@ -1,5 +1,6 @@
-// Derivatives of rates, found by forward accumulation. For each species, goes once through the list
-// of all parts of definitions and rates. Equal parts are listed once.
+// Derivatives of rates, found by forward accumulation. For each species, one loop over all
+// subexpressions of definitions and rates computes their derivatives. Equal subexpressions occur
+// once in the loop.
 #include "lang/calculus/derivative.h"
 
 #include "core/check.h"
@@ -14,8 +15,8 @@ namespace cascade {
 
 namespace {
 
-/// The slopes of all parts of the rates with respect to a species. Empty if there is no rule for a
-/// part that a rate needs, or if there are too many slopes.
+/// The slopes of all subexpressions of the rates with respect to a species. Empty if there is no
+/// rule for a subexpression that a rate needs, or if there are too many slopes.
 std::optional<IdVector<NodeId, Slopes>> slopes_of(FlatRates& rates, SlopeRules& rules,
                                                   ItemId species) {
     IdVector<NodeId, Slopes> slopes;
@@ -71,8 +72,8 @@ public:
 private:
     /// The values of x (relative to the largest gain) at which the growth of waves is evaluated.
     /// Growth that is linear in x is largest at an end. With nested operators it may be largest in
-    /// between. If the values differ by a factor √2, the maximum of a parabola is underestimated by
-    /// at most 4 %.
+    /// between. Adjacent values then differ by a factor √2, so the maximum of a parabola is
+    /// underestimated by at most 4 %.
     std::vector<double> lengths() const {
         std::size_t degree = 0;
         for (const auto* diffusions : {&own_diffusion_, &cross_diffusion_}) {
@@ -113,7 +114,7 @@ Term largest(const std::vector<Term>& parts) {
     return most;
 }
 
-/// The largest value of a part over the domain.
+/// A formula for the largest value of `part` over the domain.
 Formula over_domain(const Algebra& algebra, Term part) {
     return algebra.formula(algebra.is_number(part) ? part : domain_max(part));
 }

@@ -13,8 +13,9 @@ namespace cascade {
 /// The derivatives of all rates with respect to the values of all species in the same cell.
 /// Aggregates, and values that operators read at neighbours, are held constant.
 struct LocalJacobian {
-    /// Contains the rates, with definitions and other rates expanded. `written` gives the node of
-    /// the rates' formulas from which each node comes, numbered as by Flattening::add_rates().
+    /// Contains the rates, with definitions and other rates expanded. For each node, `written`
+    /// gives the formula and the position in it from which the node comes. Formulas are numbered as
+    /// by Flattening::add_rates().
     Algebra algebra;
     /// rows[of][by] is the derivative of the rate of species `of` with respect to species `by`.
     IdVector<SpeciesId, IdVector<SpeciesId, NodeId>> rows;
@@ -23,12 +24,13 @@ struct LocalJacobian {
 /// if the formulas become too large.
 std::optional<LocalJacobian> local_jacobian(const Program& program, std::uint32_t stage);
 
-/// Bounds of the Jacobian J of the rates, evaluated at a state. Each bound is a formula whose one
-/// value is its maximum over all cells (an aggregate). slopes.h explains what operators contribute.
+/// Bounds of the Jacobian J of the rates, evaluated at a state. Each bound is a formula with a
+/// single value: an aggregate, the maximum over all cells. slopes.h explains what operators
+/// contribute.
 struct JacobianBound {
-    /// A bound of the eigenvalues' magnitude: the largest Σ |J_ij| of a row i, where i and j are
-    /// pairs of a species and a cell (S. Gerschgorin, 1931). It limits the step of an explicit
-    /// method, or sets its number of stages.
+    /// A bound of the eigenvalues' magnitude: the largest sum Σ_j |J_ij| in any row i, where each
+    /// index stands for one species in one cell (S. Gerschgorin, 1931). It limits the step of an
+    /// explicit method, or sets its number of stages.
     Formula whole;
     /// A bound for the part of J that additional stages do not stabilise: the reaction, waves, and
     /// growth caused by operators, such as the growth by -lap(c) in lap(c^3 - c - lap(c)). It

@@ -32,7 +32,7 @@ std::optional<Term> slope_of(Algebra& algebra, const Node& call, std::size_t n) 
 #define CASCADE_ELEMENTARY(id, value, kernel, slope) case Function::id: return slope;
 #include "lang/vocabulary/elementary.def"
         // clang-format on
-        // The value is mean + spread · noise, with |noise| ≤ 1.
+        // The value is mean + spread · noise with |noise| ≤ 1, so 1 bounds both derivatives.
         case Function::random: return one;
         default: return std::nullopt;
     }

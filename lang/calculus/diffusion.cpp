@@ -1,5 +1,5 @@
-// Goes forward through the parts of the rates. Writes each part as a sum of operators that are
-// applied to the species.
+// Goes through the subexpressions of the rates, operands first. Writes each subexpression as a sum
+// of operators that are applied to the species.
 #include "lang/calculus/diffusion.h"
 
 #include "lang/calculus/derivative_rules.h"
@@ -17,15 +17,15 @@ namespace cascade {
 
 namespace {
 
-/// How a part depends on the species: directly (`own`), and through the operators of
-/// DiffusionTerms.
+/// How a subexpression of a rate depends on the species: directly (`own`), and through the
+/// operators of DiffusionTerms.
 struct Operators {
     Term own;
     DiffusionTerms<Term> terms{};
 };
 
-/// Whether a node has the same value in all cells. An aggregate of values that differ by cell
-/// counts as different.
+/// Whether a node has the same value in all cells. Returns false for an aggregate whose operand
+/// differs by cell.
 bool is_even(const ExpressionGraph& graph, NodeId root, const Program& program,
              std::uint32_t stage) {
     return std::ranges::none_of(formula_of(graph.nodes(), root).nodes, [&](const Node& node) {
@@ -45,7 +45,7 @@ public:
           face_(face),
           zero_{&algebra_, algebra_.number(0)} {}
 
-    /// The operators of all parts. Stops early if there are too many nodes.
+    /// The operators of all subexpressions. Stops early if there are too many nodes.
     IdVector<NodeId, Operators> run() && {
         found_.reserve(rates_.count);
         while (found_.size() < rates_.count && algebra_.size() < most_calculus_nodes) {
@@ -104,8 +104,9 @@ private:
         }
     }
 
-    /// How far the face is from the centre of a cell, in the unit of this coordinate. 0 for other
-    /// values, and on surfaces, where positions do not follow the rows and columns.
+    /// The value of `coordinate` at the face minus its value at the centre of the cell. 0 unless
+    /// `coordinate` is a position along the axis across the face. Also 0 on surfaces, where
+    /// positions do not follow the rows and columns.
     double way_to_face(Builtin coordinate) const {
         const DomainSettings& domain = program_.domain;
         if (!face_ || *face_ == Side::border || domain.surface || domain.model) return 0;
@@ -120,7 +121,8 @@ private:
         return 0;
     }
 
-    /// A factor, with positions at the face.
+    /// The factor `root`, with positions at the face in place of positions at the centre of the
+    /// cell.
     NodeId at_face(NodeId root) {
         if (!face_) return root;
         const IdVector<NodeId, bool> needed = needed_by(algebra_, {&root, 1});
@@ -161,8 +163,8 @@ private:
 
     /// The symbol of dxy is at most the mean of the symbols of dxx and dyy. So a11 dxx + a22 dyy +
     /// 2 a12 dxy damps no wave more than (a11 + |a12|) dxx + (a22 + |a12|) dyy. Between periodic
-    /// sides the symbol of dxy is known for each wave. Between other sides dxy turns waves into
-    /// other waves.
+    /// sides the symbol of dxy is known for each wave. Between other sides dxy couples different
+    /// waves.
     Operators directed(const Node& node) {
         Operators result = nothing();
         const Term own{&algebra_, found_[node.operands[0]].own};

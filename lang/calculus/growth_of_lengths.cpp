@@ -1,4 +1,5 @@
-// Divides lengths by their lengths on the grid, and finds their logarithmic derivatives.
+// Divides each length of the domain, a formula of time, by the length of the grid along the same
+// axis, and finds its logarithmic derivative.
 #include "lang/calculus/growth_of_lengths.h"
 
 #include "lang/calculus/algebra.h"
@@ -14,11 +15,11 @@ namespace cascade {
 
 namespace {
 
-/// Numbers in two formulas that differ by less than this part count as equal, because the lengths
-/// of a script are rounded.
+/// Two numbers count as equal if their relative difference is below this, because the lengths of a
+/// script are rounded.
 constexpr double same_number = 1e-9;
 
-/// Sums that are nested deeper are divided as a whole.
+/// Sums that are nested more deeply than this are divided as a whole.
 constexpr int deepest_sum = 32;
 
 class LengthRules {

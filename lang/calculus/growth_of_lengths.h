@@ -1,4 +1,4 @@
-// From the lengths of a domain, as formulas of time, to its growth.
+// Computes the growth of a domain from its lengths, which are formulas of time.
 #pragma once
 
 #include "core/grid.h"
@@ -9,10 +9,10 @@
 
 namespace cascade {
 
-/// The growth of a domain whose sides have these lengths along x, y and z, formulas of numbers and
-/// `t`. Sides that are left out grow like the first. The dilution is the sum of the logarithmic
-/// derivatives of the lengths. Empty if there is no rule for the derivative of a length. `written`
-/// and `span` are left to the caller.
+/// The growth of a domain with these lengths along x, y and z. The lengths are formulas of numbers
+/// and `t`. Axes for which none is given grow like the first. The dilution is the sum of the
+/// logarithmic derivatives of the lengths. Empty if there is no rule for the derivative of a
+/// length. The caller must set `written` and `span`.
 std::optional<Growth> growth_of(std::span<const Formula> lengths, const Grid& grid);
 
 }  // namespace cascade

@@ -72,9 +72,9 @@ private:
     /// conditions.
     static constexpr std::size_t most_found = 64, most_guards = 64;
 
-    /// A condition around some parts, which decides whether their values matter. They matter where
-    /// the condition `part` is not 0 or, if `is_zero`, where it is 0. `around` is the condition
-    /// around this one.
+    /// A condition that decides in which cells the values of some subexpressions matter: where the
+    /// node `part` is not 0 or, if `is_zero`, where this node is 0. `around` is the index of the
+    /// enclosing condition.
     struct Guard {
         NodeId part;
         bool is_zero = false;
@@ -136,7 +136,8 @@ private:
     Algebra& algebra_;
     const IdVector<NodeId, bool>& may_be_nan_;
     IdVector<NodeId, bool> seen_;
-    std::vector<std::pair<NodeId, std::size_t>> waiting_;  ///< Parts and their innermost guards.
+    /// Subexpressions to visit, with the index of their innermost guard.
+    std::vector<std::pair<NodeId, std::size_t>> waiting_;
     std::vector<Guard> guards_;
     std::vector<LostNumber> found_;
 };

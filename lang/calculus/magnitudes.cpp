@@ -1,5 +1,5 @@
-// Computes two bounds for each node, from the leaves of an expression graph to its roots: of the
-// node's value, and of the error by parts that count as 0.
+// Computes two bounds for each node, from the leaves of an expression graph to its roots: a bound
+// of the node's value, and a bound of the error made by subexpressions that count as 0.
 #include "lang/calculus/magnitudes.h"
 
 #include "lang/calculus/algebra.h"
@@ -25,7 +25,7 @@ struct Part {
     double lost = 0;  ///< A bound of the total of all parts that count as 0 because they are too
                       ///< small.
     std::optional<NodeId> lost_by = {};  ///< The part that counts as 0.
-    std::optional<NodeId> within = {};   ///< The part to which this part was added, if any.
+    std::optional<NodeId> within = {};   ///< The part to which `lost_by` was added, if any.
     std::optional<NodeId> too_large = {};
     std::optional<double> number = {};  ///< The value, if it is a constant.
 
@@ -44,7 +44,7 @@ struct Part {
         const double least = std::max({lowest, -highest, a.least - b.most, b.least - a.most, 0.0});
         return {{least, std::isnan(most) ? INFINITY : most, lowest >= 0, highest <= 0}, lost};
     }
-    /// The sign of a product or a quotient.
+    /// The bounds `least` and `most`, with the sign of a product or quotient of a and b.
     static Magnitude with_sign(double least, double most, const Part& a, const Part& b) {
         const Magnitude &x = a.size, &y = b.size;
         return {least, most, (x.is_positive && y.is_positive) || (x.is_negative && y.is_negative),
@@ -161,7 +161,7 @@ private:
         return part;
     }
 
-    /// Adds what one operand of a sum loses to the other in all cells.
+    /// If one operand of a sum is too small in all cells to change the other, adds it to the loss.
     void swallow(const Node& node, Part& part) const {
         for (const std::size_t small : {0, 1}) {
             const NodeId id = node.operands[small], other = node.operands[1 - small];

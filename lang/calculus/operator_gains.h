@@ -1,5 +1,5 @@
-// The factors by which operators on planes, surfaces and models multiply waves. Also the components
-// of vectors (internal to derivative.cpp).
+// Gains: the factors by which operators on planes, surfaces and models multiply waves. Also the
+// components of vectors (internal to derivative.cpp).
 #pragma once
 
 #include "lang/calculus/algebra.h"

@@ -1,6 +1,6 @@
-// Each side has a small system of linear equations. The unknowns are the changes of species from
-// the cell to the face. The equations are solved by elimination before the run. The results are
-// formulas.
+// Each side has a small system of linear equations. Each species has one unknown: its slope at the
+// face if its rule gives a slope, otherwise its change from the cell to the face. The equations are
+// solved by elimination before the run. The results are formulas.
 #include "lang/calculus/side_values.h"
 
 #include "core/check.h"
@@ -141,8 +141,9 @@ private:
         return slopes[root];
     }
 
-    /// The change of a species from the cell to the face, divided by its unknown. If the unknown is
-    /// a slope, this is half a cell's width. If the unknown is the change itself, this is 1.
+    /// The change of a species from the cell to the face, divided by the species' unknown. If the
+    /// unknown is a slope, this is half a cell's width. If the unknown is the change itself, this
+    /// is 1.
     NodeId change_by(SpeciesId species) {
         if (is_fixed(species)) return algebra_.number(1);
         const NodeId half = algebra_.number(program_.domain.grid.spacing / 2);

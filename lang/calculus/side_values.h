@@ -2,11 +2,11 @@
 // from these.
 //
 // A flux becomes the slope that causes this flux. A species in a formula means its value at the
-// face: the mean of the cell beside the side and the cell beyond it. That value depends on the
-// formula's value, so both are found together, by one step of Newton's method from the values in
-// the cell. The result is exact if the formula is linear. Otherwise its error is of second order in
-// the spacing, like the errors of operators. The method also keeps stiff sides stable: as k grows,
-// slope(-k * u) approaches fixed(0).
+// face: the mean of the values in the cell beside the side and in the cell beyond the side. That
+// value depends on the formula's value, so both are found together, by one step of Newton's method
+// from the values in the cell. The result is exact if the formula is linear. Otherwise its error is
+// of second order in the spacing, like the errors of operators. The method also keeps stiff sides
+// stable: as k grows, slope(-k * u) approaches fixed(0).
 #pragma once
 
 #include "lang/calculus/diffusion.h"
@@ -36,7 +36,7 @@ struct Conductivity {
     std::string_view why_not;  ///< Why there is no factor, as the rest of a sentence that begins
                                ///< with the name of the species.
 };
-/// `diffusion` must be diffusion_of() of the stage.
+/// `diffusion` must be the result of diffusion_of() for the stage.
 Conductivity conductivity_at(const System& system,
                              const IdVector<SpeciesId, SpeciesDiffusion>& diffusion,
                              SpeciesId species, Side side);

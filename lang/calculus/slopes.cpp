@@ -160,8 +160,8 @@ Slope SlopeRules::of_advection(const Node& node, const IdVector<NodeId, Slopes>&
     return slope;
 }
 
-/// A value that is averaged at faces contributes half its gain as a wave: for the values c of the
-/// cell, E and W of its neighbours, (c + E)/2 − (c + W)/2 = (E − W)/2.
+/// A value that is averaged at faces contributes half its gain as a wave: for the value c of the
+/// cell and the values E and W of its neighbours, (c + E)/2 − (c + W)/2 = (E − W)/2.
 Slope SlopeRules::of_divergence(const Slopes& flux) {
     Slope slope = zero();
     Node vector;

@@ -1,5 +1,5 @@
-// How much parts of a formula change if a species changes: its value in the cell itself, or values
-// that operators read (internal to derivative.cpp).
+// How much the subexpressions of a formula change if a species changes: in the cell itself, or in
+// cells that operators read (internal to derivative.cpp).
 //
 // Coefficients of operators count as if they had the same value in all cells around the cell. An
 // operator then multiplies each wave by a factor. For operators of diffusion the factor is −gain ·
@@ -42,8 +42,8 @@ public:
     /// `model` may be null if only derivatives with respect to the cell's own value are needed.
     SlopeRules(Algebra& algebra, const Program& program, const ModelFacts* model);
 
-    /// The slopes of part `id` with respect to `species`, given the slopes of all earlier parts.
-    /// Empty if the part depends on the species and there is no rule for it.
+    /// The slopes of node `id` with respect to `species`, given the slopes of all earlier nodes.
+    /// Empty if the node depends on the species and there is no rule for this node.
     std::optional<Slopes> slopes_of(NodeId id, ItemId species,
                                     const IdVector<NodeId, Slopes>& before);
 

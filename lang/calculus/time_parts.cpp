@@ -1,5 +1,5 @@
-// Marks parts from the leaves upwards, then takes the largest parts that depend only on time and
-// positions.
+// Marks nodes from the leaves upwards, then takes the largest subexpressions that depend only on
+// time and positions.
 #include "lang/calculus/time_parts.h"
 
 #include "lang/calculus/algebra.h"
@@ -10,7 +10,7 @@ namespace cascade {
 
 namespace {
 
-/// Facts about a part of a formula.
+/// Facts about a subexpression of a formula.
 struct TimeFacts {
     bool is_of_time = false;    ///< It reads only constants and `t`.
     bool is_of_places = false;  ///< It reads only constants, `t` and positions.

@@ -165,8 +165,8 @@ std::optional<Formula> check_view(const ast::Script& script, ast::Expression exp
     Workspace work = workspace_of(program, diagnostics);
     work.units = units_of(script);
     work.measured = MeasuredSpans(script);
-    // The functions of cells are read only if there are cells, because reading them searches the
-    // sources of all brush strokes of a session, which may be many.
+    // The functions of cells are read only if there are cells. Reading them takes a search through
+    // all sources, and a session has a source for each of its brush strokes, which may be many.
     const bool has_cells = std::ranges::any_of(program.systems, [](const System& system) {
         return system.cells.has_value();
     });

@@ -56,7 +56,8 @@ public:
             IdVector<ItemId, Formula> starts;
             for (const Quantity& quantity : system.quantities) starts.push_back(quantity.start);
             starts.resize(system.item_count());
-            // Without a stage there is no order. A second pass knows all names.
+            // Without a stage, items have no order, so there are two passes. In the second, the
+            // measures of all names are known.
             std::vector<ItemId> order;
             for (int pass = 0; pass < 2; ++pass) {
                 for (const ItemId item : starts.ids()) order.push_back(item);
@@ -93,7 +94,7 @@ private:
         for (const ItemId item : order) {
             if (items[item].nodes.empty()) continue;
             own.items[item] = measure_of(items[item], leaves(own, Measure::Kind::plain), found_);
-            // A plain number may have left out its unit.
+            // The unit of a plain number may have been left out.
             if (!own.items[item].is_known()) own.items[item] = {};
         }
         for (const Definition& definition : system.definitions) {
@@ -106,7 +107,7 @@ private:
         return measure_of(formula, leaves(own, Measure::Kind::any), found_);
     }
 
-    /// Compares two measures that must be equal. `first` and `second` are where they were found.
+    /// Compares two measures that must be equal. `first` and `second` are their source locations.
     void compare(const Measure& expected, Span first, const Measure& other, Span second,
                  std::string what = {}) {
         if (!expected.is_known() || !other.is_known()) return;

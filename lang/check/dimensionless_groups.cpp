@@ -51,7 +51,8 @@ public:
         std::vector<DimensionlessGroup> groups;
         for (std::size_t column = 0; column < variables_.size(); ++column) {
             if (std::ranges::find(pivots_, column) != pivots_.end()) continue;
-            std::int64_t power = 1;  // The least power with which all powers are whole.
+            // The least power of this variable for which all powers are whole.
+            std::int64_t power = 1;
             for (std::size_t row = 0; row < pivots_.size(); ++row) {
                 power = std::lcm(power, rows_[row][column].below);
             }

@@ -22,10 +22,10 @@ struct DimensionlessGroups {
     std::vector<std::string> without_unit;
 };
 
-/// A complete set of independent groups of a stage, by Buckingham's theorem: the parameters, the
-/// first length of the domain, called `width`, and the duration, called `duration`, if these two
-/// have a unit. Every group is a null vector of the matrix of dimensions, found by exact
-/// elimination. Values that are declared first occur in most groups.
+/// A complete set of independent groups of a stage, by Buckingham's theorem. Groups consist of the
+/// parameters and, if they have a unit, of the domain's first length (called `width`) and of the
+/// duration (called `duration`). Every group is a null vector of the matrix of dimensions, found by
+/// exact elimination. Values that are declared first occur in most groups.
 DimensionlessGroups dimensionless_groups(const ProgramUnits& units, const Program& program,
                                          std::uint32_t stage);
 

@@ -204,8 +204,8 @@ private:
     static bool is_raised(std::string_view number) {
         return superscript_digit(decode_utf8(number, 0).value).has_value();
     }
-    /// A number as its author wrote it. A number that was computed, as in the functions of a table,
-    /// may have the source location of another one.
+    /// A number as its author wrote it, or its value if the program computed it, such as in a
+    /// table's function. A computed number may have the source location of a different number.
     std::string digits(Span span, double value) const {
         const std::string_view text = sources_.text(span);
         double written = value;

@@ -43,7 +43,7 @@ struct Symbols {
 /// Escapes a text for TeX's text mode.
 std::string tex_text(std::string_view text);
 
-/// Whether Unicode has all characters of the name after its first `_` as subscripts.
+/// Whether Unicode has a subscript for every character after the first `_` of the name.
 bool has_subscript(std::string_view name);
 
 /// The text in Unicode superscripts or subscripts. Empty if Unicode lacks such a form of a

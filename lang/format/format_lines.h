@@ -29,7 +29,7 @@ std::vector<FormatLine> format_lines(const std::vector<FormatWord>& words);
 
 /// Sets the columns of all cells and comments. If `respelled`, words may be spelled otherwise than
 /// in the source. Then the distance between a column of words and the widest words before that
-/// column stays the same.
+/// column stays as in the source.
 void place_words(const std::vector<FormatWord>& words, std::vector<FormatLine>& lines,
                  bool respelled);
 

@@ -75,8 +75,8 @@ const LibraryText* text_of(std::span<const LibraryText> texts, std::string_view 
     return found != texts.end() && found->system_name() == name ? &*found : nullptr;
 }
 
-/// The texts with these names, and of their bases. Each comes after its base. `find` returns the
-/// text of a name.
+/// The texts with these names, and the texts of their bases. Each comes after its base. `find`
+/// returns the text of a name.
 template <typename Find>
 std::vector<LibraryScript> read_texts(const std::vector<std::string_view>& names, const Find& find,
                                       Sources& sources, Diagnostics& diagnostics) {

@@ -62,9 +62,9 @@ struct LibraryScript {
 std::vector<LibraryScript> read_library(const ast::Script& script, Sources& sources,
                                         Diagnostics& diagnostics);
 
-/// The library shapes with these names, and their bases. Each comes after its base. Names of other
-/// shapes are ignored. Adds the texts to `sources`, or reuses the texts that an earlier call has
-/// added.
+/// The library shapes with these names, and their bases. Each comes after its base. Names that are
+/// not library shapes are ignored. Adds the texts to `sources`, or reuses the texts that an earlier
+/// call has added.
 std::vector<LibraryScript> read_library_shapes(const std::vector<std::string_view>& names,
                                                Sources& sources, Diagnostics& diagnostics);
 

@@ -29,7 +29,7 @@ public:
 
 private:
     /// Two values: beyond the border, and beyond two borders. The second is used for a diagonal
-    /// neighbour if both cells between are outside.
+    /// neighbour if both cells adjacent to it and to the present cell are outside.
     using Beyond = std::array<NodeId, 2>;
 
     NodeId image_of(const Node& node) override {

@@ -1,5 +1,5 @@
 // Facts about vectors at faces: which fluxes cross the sides of the grid, and the entries of
-// tensors. For lowering and for the room continuation/.
+// tensors. For lowering and for the folder continuation/.
 #pragma once
 
 #include "lang/lower/plan_graph.h"

@@ -38,9 +38,9 @@ struct PassContext {
     std::uint32_t stage = 0;
     Extent extent = Extent::domain;
     bool has_fewer_roundings = false;  ///< True for steps with --fast.
-    bool is_start = false;  ///< Whether these are starting values. They are computed before there
-                            ///< are values at borders.
-    bool is_step = false;   ///< Whether these are rates. They can read step-invariants.
+    bool is_start = false;  ///< Whether the expressions are starting values, which are computed
+                            ///< before values at borders exist.
+    bool is_step = false;   ///< Whether the expressions are rates, which can read step-invariants.
 
     /// Whether the cells crawl.
     bool is_tissue() const {

@@ -31,14 +31,14 @@ ValueId NodeValues::chosen(Offset inside, ValueId value, ValueId otherwise) cons
     return builder_.select(assembly_.inside(inside), value, otherwise);
 }
 
-/// The value of the neighbour along an axis of the cell at `from`, or the value that replaces it.
+/// The value one step along an axis from the cell at `from`, or the value that replaces it.
 ValueId NodeValues::beside(NodeId id, Offset from, Offset step) const {
     const auto [inside, beyond, twice] = read_of(graph_, id);
     const ValueId value = number_at(inside, from + step);
     if (!graph_.has_mask() || graph_.is_uniform(id)) return value;
     const ValueId next = chosen(from + step, value, number_at(beyond, from));
     if (from.is_own() || beyond == inside) return next;
-    // The border is between the cell and the cell at `from`.
+    // If the cell at `from` is outside, the border is between it and the present cell.
     return chosen(from, next, beside(id, from + step));
 }
 

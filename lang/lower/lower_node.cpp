@@ -67,8 +67,7 @@ Value lower_call(KernelAssembly& assembly, const NodeInCell& in) {
 Value lower_node(KernelAssembly& assembly, const NodeInCell& in) {
     const Overloaded value{
         [&](double number) -> Value { return {assembly.builder().number(number)}; },
-        [](TextId) -> Value { return {}; },  // The node that reads the text has no need for its
-                                             // value.
+        [](TextId) -> Value { return {}; },  // The node that reads the text needs no value of it.
         [&](ItemId item) -> Value {
             return {assembly.item({in.graph.stage(), item}, in.at)};
         },

@@ -74,12 +74,12 @@ public:
 
     // Outside the domain, values of other cells take the place of missing values (lower_mask.cpp).
     ValueId beside(NodeId id, Offset offset) const;
-    /// The value in the neighbour, one cell along an axis (`step`), of the cell at `from`.
+    /// The value one step along an axis from the cell at `from`.
     ValueId beside(NodeId id, Offset from, Offset step) const;
     ValueId chosen(Offset inside, ValueId value, ValueId otherwise) const;
 
     /// The weighted sum of a difference (lang/program/stencils.h), before the division. Empty if
-    /// `taps` is empty. Values with the same weight are added before they are multiplied.
+    /// `taps` is empty. Values with the same weight are added before the multiplication.
     /// `keeps_product` excludes the last product from contraction.
     std::optional<ValueId> weighted(NodeId id, const Taps& taps, bool keeps_product = false,
                                     Offset from = {}) const;

@@ -1,6 +1,6 @@
 // Increases the flow from one needed part after another until it is maximal. Nodes that a failed
-// search has reached do not lead to the sink, and no later flow can change this, because none can
-// enter them. So no search visits them again.
+// search has reached do not lead to the sink. Later flows cannot enter them, so this never changes,
+// and no search visits them again.
 #include "lang/lower/minimum_cut.h"
 
 #include <algorithm>

@@ -50,8 +50,8 @@ private:
         Term of;  ///< The number whose gradient it is.
         Term factor;
         bool changes = true;  ///< Whether `of` may differ from step to step.
-        /// A tensor that does not change, of the new graph. The factor is then the same in all
-        /// cells.
+        /// A tensor of the new graph that does not change. If there is one, `factor` is the same in
+        /// all cells.
         std::optional<NodeId> tensor = {};
     };
     /// A vector as a sum of gradients.
@@ -116,8 +116,8 @@ private:
         return gradients;
     }
 
-    /// Whether the rates of a tensor times a vector can have weights of links that are computed
-    /// once.
+    /// Whether a rate that reads this tensor times this vector can use weights of links that are
+    /// computed once.
     bool can_weigh(NodeId tensor, const Gradients& vector) const {
         const auto operands = old()[tensor].reads();
         return can_weigh_ &&
@@ -127,7 +127,7 @@ private:
                });
     }
 
-    /// Multiplies by tensors in the cells.
+    /// The same vector without tensors: gradients with a tensor are multiplied by it in the cells.
     Gradients without_tensors(const Gradients& vector) {
         Gradients sum;
         for (const Gradient& each : vector) {
@@ -153,7 +153,7 @@ private:
 
     static void add_to(std::optional<Term>& sum, Term term) { sum = sum ? *sum + term : term; }
 
-    /// The components of a vector without tensors in the cell itself.
+    /// The components, in the cell itself, of a vector whose gradients have no tensors.
     TermVector in_cell(const Gradients& gradients) {
         std::array<std::optional<Term>, 3> sums;
         for (const auto& [of, factor, changes, no_tensor] : gradients) {
@@ -172,7 +172,7 @@ private:
         return {sums[0].value_or(zero), sums[1].value_or(zero), sums[2].value_or(zero)};
     }
 
-    /// A tensor multiplied by a vector without tensors.
+    /// A tensor multiplied by a vector whose gradients have no tensors.
     Gradients turned(NodeId tensor, Gradients vector) {
         const TermVector v = in_cell(vector);
         const ModelTensor by = model_tensor(graph(), tensor);
@@ -203,8 +203,8 @@ private:
         if (function == Function::subtract) sum.back().factor = -add.factor;
     }
 
-    /// The weights of links by tensor(a1, a2, theta). Its matrix is γ + v vᵀ, where γ is the
-    /// smaller of a1² and a2², and v points in the direction of the larger.
+    /// The weights that tensor(a1, a2, theta) gives to links. The tensor's matrix is γ + v vᵀ,
+    /// where γ is the smaller of a1² and a2², and v points in the direction of the larger.
     Term weights_of(NodeId tensor) {
         const auto operand = [&](std::size_t n) { return term(graph()[tensor].operands[n]); };
         const Term first = square(operand(0)), second = square(operand(1)), theta = operand(2);
@@ -243,7 +243,7 @@ private:
     // Facts about nodes of the old graph.
     IdVector<NodeId, bool> is_uniform_, changes_;      ///< `changes_`: from step to step.
     std::unordered_map<NodeId, Gradients> gradients_;  ///< For each vector.
-    bool can_weigh_ = false;  ///< Whether tensors that do not change are weights of links.
+    bool can_weigh_ = false;  ///< Whether tensors that do not change become weights of links.
 };
 
 }  // namespace

@@ -82,7 +82,7 @@ private:
     }
 
     /// Marks the values that a component of a vector needs at a face: numbers in the two cells
-    /// beside it, and vectors at the face itself.
+    /// beside the face, and vectors at the face itself.
     struct AtFace {
         NeedFinder& own;
         Face where;

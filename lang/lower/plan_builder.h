@@ -50,7 +50,7 @@ private:
     const PlanGraph& graph_;
     PassPlanner planner_;
     Storage storage_;
-    std::vector<std::vector<NodeId>> written_;   ///< For each pass.
+    std::vector<std::vector<NodeId>> written_;   ///< For each pass, the nodes that it writes.
     std::vector<std::vector<NodeId>> nonlocal_;  ///< For each pass, the nodes that are computed
                                                  ///< directly before it.
     std::vector<NodeId> aggregates_;

@@ -17,7 +17,8 @@ struct StepGraph {
     /// species j in the same cell. Empty unless the solver needs derivatives.
     IdVector<SpeciesId, std::vector<NodeId>> derivatives;
     std::vector<NodeId> step_invariants;  ///< Nodes that are computed once per stage.
-    std::uint32_t tensor_weights = 0;  ///< How many of them, the last ones, are tensor_weights(…).
+    /// The number of nodes tensor_weights(…), which are the last of `step_invariants`.
+    std::uint32_t tensor_weights = 0;
 
     StepGraph(const Program& program, std::uint32_t stage, const PlanOptions& options);
 };

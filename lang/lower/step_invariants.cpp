@@ -25,7 +25,7 @@ bool is_costly(const PlanGraph& graph, NodeId id) {
            !has_tensor_weights(graph, id);
 }
 
-/// On every path from a root to its operands, the first node for which is_chosen(node) holds.
+/// On each path from a root through operands, the first node for which is_chosen(node) holds.
 template <typename Chosen>
 std::vector<NodeId> first_reached(const PlanGraph& graph, std::span<const NodeId> roots,
                                   const Chosen& is_chosen) {

@@ -103,8 +103,8 @@ struct StepPlan {
     std::string words;        ///< The passes and the reasons for them, if requested.
 };
 
-/// The choice of operands of operators that are written to a plane (materialised). All others are
-/// recomputed at the neighbours at which they are read. Every choice gives the same bits.
+/// Which operands of operators are written to a plane (materialised). All others are recomputed at
+/// the neighbours at which they are read. Every choice gives the same bits.
 enum class Materialise : std::uint8_t {
     when_cheaper,  ///< Operands that are cheaper to write and read than to recompute.
     never,         ///< Only operands that cannot be recomputed.

@@ -86,8 +86,9 @@ private:
                 break;
             case SweepTerm::Source::rate:
                 value = plan.value(rates_[item])[0];
-                // Without this, a cell whose value is at a bound would affect other cells in
-                // methods that combine or filter rates.
+                // A rate that points beyond a bound counts as 0 if the value is at this bound.
+                // Otherwise the cell would affect other cells in methods that combine or filter
+                // rates.
                 if (kind != SweepOutput::Kind::change && !form_.ignores_held_rates) break;
                 if (const auto held = is_held(plan, item)) {
                     value = builder.select(*held, builder.number(0), value);

@@ -11,7 +11,7 @@ TermVector TissueNumbers::items(ItemId first) {
     return {item(0), item(1), item(2)};
 }
 
-/// Column `axis` of the rotation matrix of the quaternion q = (w, x, y, z), divided by |q|². For ex
+/// Column `axis` of the matrix of the rotation q / |q|, for the quaternion q = (w, x, y, z). For ex
 /// it is (1 − 2 (y² + z²)/|q|², 2 (xy + wz)/|q|², 2 (xz − wy)/|q|²). The other axes follow by
 /// cyclic exchange.
 TermVector TissueNumbers::axis(std::size_t axis) {

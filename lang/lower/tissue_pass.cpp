@@ -247,7 +247,7 @@ Parts TissuePass::combined(NodeId id, std::span<const Parts> operands) {
     });
 }
 
-/// A sum, mean, least or greatest over touching or near cells.
+/// A sum, mean, minimum or maximum over touching or near cells.
 Parts TissuePass::over_neighbours(const Node& node) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const Term is_close = node.operand_count == 1 ? numbers_.is_touching()

@@ -11,9 +11,9 @@
 
 namespace cascade {
 
-/// Sets values[k] to the value of a node at position k, and returns true, if the node has a value
-/// that is neither a number nor a function of numbers. The k-th number of each column is the value
-/// of an operand at position k. Returns false for all other nodes.
+/// Evaluates nodes that are neither numbers nor functions of numbers, such as coordinates. Sets
+/// values[k] to the node's value at position k and returns true, or returns false if this node has
+/// no known value. The k-th number of each column is the value of an operand at position k.
 using KnownValues = std::function<bool(const Node&, const OperandColumns&, std::span<double>)>;
 
 /// Sets values[k] to the value of a formula at position k. The formula may consist of numbers,

@@ -137,8 +137,8 @@ NodeId FieldVectors::curl(const Node& node) {
     return vector(x, y, part(0, 1));
 }
 
-/// The angle from the first direction towards the second. On a model each cell has its own two
-/// directions.
+/// The angle of the vector `of`, from the first direction (x on a plane) towards the second (y). On
+/// a model each cell has its own two directions.
 NodeId FieldVectors::angle(NodeId of) {
     const SparseVector v = components(of);
     if (!space_.on_model) return atan2(v.y.term, v.x.term);

@@ -64,7 +64,7 @@ inline constexpr std::array<std::string_view, model_plane_count> model_names{
 constexpr bool is_made_when_read(ModelPlane plane) { return plane >= ModelPlane::curvature_mean; }
 
 using SystemId = Id<struct SystemTag>;  ///< An index into Program::systems.
-/// A quantity of a system. After the quantities come `frozen` and `speed`.
+/// An item of a system: a quantity or, numbered after all quantities, `frozen` or `speed`.
 using ItemId = Id<struct ItemTag>;
 using DefinitionId = Id<struct DefinitionTag>;      ///< An index into System::definitions.
 using TextId = Id<struct TextTag>;                  ///< A text in quotes, in Literals.

@@ -17,7 +17,7 @@ public:
     GrowingFormula(const Growth& growth, const DomainSettings& domain)
         : growth_(growth), stencil_(domain.grid.stencil()) {}
 
-    /// The formula, in which lengths grow.
+    /// The formula, rewritten for lengths that grow.
     Formula rewritten(const Formula& formula);
     /// rate − dilution · species
     Formula diluted(const Formula& rate, ItemId species);

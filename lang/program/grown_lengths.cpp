@@ -63,9 +63,9 @@ private:
         }
     }
 
-    /// If a formula reads the rate of a species, makes the rate a definition, which this formula
-    /// and the rate read. The definition has the name of a rate, so that it draws the same random
-    /// numbers.
+    /// If a formula reads the rate of a species, makes the undiluted rate a definition, which both
+    /// this formula and the new rate read. The definition has the name of a rate, so that it draws
+    /// the same random numbers.
     void keep_rate(ItemId species) {
         const NodeKind rate = Rate{species};
         const auto reads = [&](const Formula& formula) {

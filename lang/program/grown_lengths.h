@@ -21,8 +21,8 @@ namespace cascade {
 /// becomes a definition without the dilution.
 void let_lengths_grow(Program& program);
 
-/// A formula of a stage, such as a picture, in which lengths grow. Its definitions must be the
-/// definitions of Growth::written.
+/// A formula of a stage, such as a picture's formula, rewritten for lengths that grow. Its
+/// definitions must be the definitions of Growth::written.
 Formula with_growth(const Program& program, std::uint32_t stage, const Formula& formula);
 
 /// The duration of a stage if nothing ends it sooner. Empty if it is not known before the run.

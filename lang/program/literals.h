@@ -42,7 +42,7 @@ struct Constraint {
 };
 
 /// The kernel of a convolution. `weight` is a formula of numbers, uniform parameters, and
-/// `distance` and `direction` from the cell to the cell that is weighted (CellValue).
+/// `distance` and `direction` from the cell to the weighted cell (CellValue).
 struct ConvolutionKernel {
     Formula weight;
     Formula reach;  ///< The largest distance of cells that count. If empty, all cells count.

@@ -224,7 +224,7 @@ void fill_cell_time(Workspace& work, std::uint32_t index, const Settings& own,
     check_solver(work, time);
     time.automatic_speed = !is_adaptive(time.solver);
     if (!time.tolerance) time.tolerance = usual_tolerance;
-    // `iterations` is always the largest number of steps, even if something else ends the stage.
+    // `iterations` limits the number of steps even if the stage has another end.
     time.duration_in_steps.reset();
     time.duration = own.time.duration ? own.time.duration : defaults.time.duration;
     const auto& most = own.iterations ? own.iterations : defaults.iterations;

@@ -25,8 +25,8 @@ void fill_cell_time(Workspace& work, std::uint32_t stage, const Settings& own,
 void change_cell_solver(Workspace& work, std::uint32_t stage, const TimeSettings& asked);
 
 /// If a stage of cells continues with the cells of an earlier stage, takes position, frame, radius
-/// and age from that stage, except for values that the stage sets itself. `axes` are the stage's ey
-/// and ez. An axis that the stage does not set is empty. Reports a stage that has no cells.
+/// and age from there, except for values that the continuing stage sets itself. `axes` are this
+/// stage's ey and ez. An axis that it does not set is empty. Reports a stage that has no cells.
 void take_cells(Workspace& work, std::uint32_t stage, std::array<Formula, 2> axes);
 
 /// Checks what can be checked only once the whole stage is known: its cells sense only fields of

@@ -203,7 +203,7 @@ void report_no_setting(Workspace& work, const ast::Word& name) {
                            std::move(hint));
 }
 
-/// A hint with the lengths of `extent: 0 .. 10, 0 .. 10`.
+/// A hint for ranges such as `extent: 0 .. 10, 0 .. 10`, with the lengths that they mean.
 std::string hint_of_ranges(const ast::Script& script, const ast::Statement& statement) {
     std::string lengths;
     for (std::size_t k = 0; k + 1 < statement.values.size(); k += 2) {

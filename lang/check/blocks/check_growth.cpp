@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::array axis_names{"x", "y", "z"};
 constexpr int looks = 256;  ///< The number of times at which lengths are checked before the run.
-constexpr double smallest_jump = 1e-6;  ///< As a part of the length.
+constexpr double smallest_jump = 1e-6;  ///< As a fraction of the length.
 
 double value_at(const Formula& formula, double t) {
     BuiltinValues moment{};
@@ -183,7 +183,7 @@ private:
         return true;
     }
 
-    /// Whether the least length between two times is 0, by a search in thirds.
+    /// Whether the length becomes 0 between two times. Finds the least length by a ternary search.
     static bool vanishes(const Formula& scale, double from, double to) {
         const double largest = std::max(value_at(scale, from), value_at(scale, to));
         for (int third = 0; third < 100; ++third) {

@@ -13,8 +13,8 @@ namespace cascade::checking {
 /// both are normal numbers.
 inline constexpr double least_spacing = 1e-15;
 
-/// Whether a statement of the script may let lengths of the domain change in a stage. The domain
-/// must have been checked.
+/// Whether some statement of the script may make lengths of the domain change during a stage. The
+/// domain must have been checked.
 bool lengths_may_grow(const Program& program, const ast::Script& script);
 
 /// Checks `extent` in the domain: sets the spacing so that the sides of the grid have these lengths
@@ -25,8 +25,8 @@ void check_extent(Workspace& work, const ast::Script& script, const ast::Stateme
 void check_stage_extent(Workspace& work, const ast::Script& script, const ast::Statement& statement,
                         Stage& stage);
 
-/// Takes the growth of the domain, unless the stage sets its lengths itself, and the species that
-/// growth does not dilute.
+/// Gives the stage the growth of the domain, unless the stage sets lengths itself. Also sets the
+/// species that growth does not dilute.
 void fill_growth(Stage& stage, const DomainSettings& domain, const Settings& own,
                  const Settings& defaults);
 

@@ -87,8 +87,8 @@ public:
             check_named(mesh != nullptr ? *mesh : *surface);
         }
         if (!model_) return;
-        // `unit`, and the settings that turn a model, refer to the surface or model of the script,
-        // not to the model of --mesh.
+        // `unit`, and the settings that rotate a model, refer to the surface or model of the
+        // script, not to the model of --mesh.
         const bool is_own = option_ == nullptr;
         if (const auto* cells = find("cells")) check_cells(*cells);
         if (const auto* laplacian = find("laplacian")) {

@@ -1,5 +1,5 @@
-// Checks the `picture` block: the colour, the material of fields, and the shape of cells that crawl
-// with its quantities.
+// Checks the `picture` block: the colour, the material of fields, and, for cells that crawl, the
+// shape and the shape's quantities.
 #include "lang/check/blocks/check_blocks.h"
 #include "lang/check/blocks/check_growth.h"
 #include "lang/check/expressions/read_setting.h"
@@ -79,8 +79,8 @@ private:
         return false;
     }
 
-    /// Checks the body. It has no meaning on a model, which may replace the script's volume because
-    /// of --mesh.
+    /// Checks the body. A body has no meaning on a model, which --mesh may put in place of the
+    /// script's volume.
     void check_body(const ast::Statement& statement) {
         if (!are_fields(statement.name)) return;
         const DomainSettings& domain = work_.program.domain;

@@ -124,7 +124,7 @@ private:
                                           definition.name),
                               "");
             }
-            // The constraint of a solved field reads the field.
+            // A field that a constraint determines is always read: by this constraint.
             if (!solved_constraint(root) && !is_read_beside(system(), sides.definition)) {
                 return report(setting.span,
                               fmt::format("the side of '{0}' has no effect, because no operator "

@@ -146,9 +146,9 @@ void resolve(Workspace& work, Stage& stage, const std::vector<SubjectSide>& own)
     }
 }
 
-/// Converts a rule of system `from` to a rule of the system `derived` from it, in which names have
-/// other ids and may have other meanings. Reports an error and returns false if the rule cannot be
-/// computed in the derived system.
+/// Converts a rule of the system `from` to a rule of the system `derived`, which is derived from
+/// it. The same names have different ids there, and may have different meanings. Reports an error
+/// and returns false if the rule cannot be computed in the derived system.
 bool take_over(Workspace& work, const System& from, SystemId derived, SubjectSide& side) {
     const System& system = work.program.systems[derived];
     for (Node& node : side.setting.value.nodes) {

@@ -92,7 +92,7 @@ std::vector<Declaration> StageChecker::collect(
         const auto [first, is_new] = positions.try_emplace(declaration.name, declarations.size());
         if (is_new) return declarations.push_back(std::move(declaration));
         Declaration& before = declarations[first->second];
-        // u[2]: … overrides u[i]: …. If there are two overrides, the last applies.
+        // u[2]: … replaces u[i]: …. An override from outside replaces any earlier one.
         const bool replaces = from_outside || before.indices.size() > declaration.indices.size();
         const bool is_replaced =
             !from_outside && before.indices.size() < declaration.indices.size();

@@ -16,9 +16,9 @@ namespace cascade::checking {
 
 namespace {
 
-// In units of the model's longest side. Curvature is estimated triangle by triangle, so its
-// directions are smoothed a little. The directions of keys jump between the regions of two keys, so
-// they are smoothed more.
+// The default smoothing of directions, in units of the model's longest side. Curvature is estimated
+// triangle by triangle, so its directions are smoothed a little. The directions of keys jump
+// between the regions of two keys, so they are smoothed more.
 constexpr double smoothing_of_curvature = 0.02;
 constexpr double smoothing_of_keys = 0.1;
 constexpr double largest_number = 1e15;

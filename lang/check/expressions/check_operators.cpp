@@ -102,7 +102,7 @@ void ExpressionChecker::refuse_product(Function function, Span span, ValueType l
     }
 }
 
-/// Whether a tensor has multiplied the definition, or a vector that the definition reads.
+/// Whether the definition is a vector multiplied by a tensor, or is computed from such a vector.
 bool ExpressionChecker::is_turned(DefinitionId definition) const {
     const auto& definitions = work_.program.systems[scope_.system].definitions;
     IdVector<DefinitionId, bool> seen(definitions.size(), false);
@@ -194,7 +194,8 @@ void ExpressionChecker::check_shift(const Node& node) {
         const bool is_near = cells.constant && cells.value == std::floor(cells.value) &&
                              std::abs(cells.value) <= farthest_shift;
         if (is_near) {
-            // Minus signs of numbers are operators.
+            // A minus sign is parsed as an operator, so the operand is replaced by its constant
+            // value.
             formula_.nodes[node.operands[k]] = {cells.value, formula_.nodes[node.operands[k]].span};
             continue;
         }

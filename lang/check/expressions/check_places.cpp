@@ -1,4 +1,4 @@
-// Warns of positions that are given in cells or lengths as in `x < 5` or `disc(64, 64, 10)`. The
+// Warns of positions that are given in cells or lengths, as in `x < 5` or `disc(64, 64, 10)`. The
 // language takes positions as fractions of the longest side, 0 to 1. Comparisons are evaluated on
 // intervals of x, y and z (R. E. Moore, "Interval Analysis", 1966).
 #include "lang/check/expressions/expression_checker.h"
@@ -34,8 +34,8 @@ struct Interval {
         return a.place.empty() ? b.place : a.place;
     }
 
-    /// The interval from the least value to the largest, for lengths in other units. Messages about
-    /// fractions would be false for such lengths.
+    /// The interval from the least value to the largest. Has no `place`, because the values are not
+    /// fractions of the longest side, and messages about fractions would be false.
     static Interval around(std::initializer_list<double> values) {
         const auto [low, high] = std::minmax(values);
         if (std::isnan(low) || std::isnan(high)) return {};

@@ -10,7 +10,7 @@ namespace cascade::checking {
 
 namespace {
 
-// Numbers in single precision (lang/syntax/expression_operands.cpp).
+// The limits of converted numbers in single precision, as in lang/syntax/expression_operands.cpp.
 constexpr double too_large_converted = 0x1.ffffffp127;
 constexpr double smallest_converted = 0x1p-126;
 

@@ -111,7 +111,7 @@ void Expander::emit_length(Span span, const ast::Word& name) {
     emit(span, ast::Binary{Function::multiply, place, factor});
 }
 
-/// A length that grows along an axis, if the domain may grow.
+/// The length, marked as growing along `axis` if the domain may grow.
 ast::ExprId Expander::append_grown(Span span, ast::ExprId length, int axis) {
     if (!work_.lengths_grow) return length;
     const ast::ExprId along = append(span, ast::Number{static_cast<double>(axis)});

@@ -59,7 +59,8 @@ void Expander::repeat(const Task& task) {
     push(TaskKind::visit, over.operand);
 }
 
-/// Combines the operands so far: ((e1 + e2) + e3) + …, min(min(e1, e2), e3), …
+/// Combines the results for all values of the index so far: ((e1 + e2) + e3) + …, min(min(e1, e2),
+/// e3), …
 void Expander::combine(const Task& task) {
     const ast::Expr& here = expr(task.part);
     const auto& over = std::get<ast::Over>(here.node);

@@ -48,7 +48,7 @@ private:
         TaskKind kind = TaskKind::visit;
         ast::ExprId part = 0;
         std::int64_t value = 0;  ///< The value of an index. For a member: the number of nodes
-                                 ///< before it.
+                                 ///< before the nodes of its indices.
     };
     /// A function whose body is being expanded. The frame at the bottom is the expression itself.
     struct Frame {
@@ -78,7 +78,7 @@ private:
     void apply(ast::ExprId part);
     void repeat(const Task& task);
     void combine(const Task& task);
-    /// Whether the name means a constant of the script.
+    /// The constant of the script that has this name; null if there is none.
     const UserFunction* find_constant(std::string_view name) {
         return functions_of(work_, script()).find_constant(name);
     }

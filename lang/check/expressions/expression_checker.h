@@ -4,7 +4,7 @@
 // - check_call.cpp: arguments, types and constants of calls;
 // - check_context.cpp: whether a call is allowed where it is written;
 // - check_operators.cpp: operators of derivatives, vectors and tensors;
-// - check_links.cpp: sums over neighbours, and the values that cells that crawl read from them;
+// - check_links.cpp: sums over neighbours, and what crawling cells read from neighbours;
 // - check_directions.cpp: directions of a model as arguments of `along`;
 // - check_convolution.cpp: the kernels of convolutions;
 // - check_units.cpp: numbers with a unit.

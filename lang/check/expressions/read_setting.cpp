@@ -65,7 +65,7 @@ Dimension dimension_of(std::string_view setting) {
     return {};
 }
 
-/// The message why a setting does not accept a number.
+/// The message that explains why a setting does not accept a number.
 std::string refusal_of(const SettingInfo& setting, double value) {
     using Kind = SettingLimits::Kind;
     const auto& [kind, low, high] = setting.limits;

@@ -46,7 +46,7 @@ private:
     std::unordered_map<std::string_view, std::uint32_t> by_name_;
 };
 
-/// Whether names of functions and systems are unknown, because a used file or the name of a
+/// Whether names of some functions or systems are unknown, because a used file or the name of a
 /// function could not be read.
 bool lacks_names(const ast::Script& script);
 

@@ -71,7 +71,7 @@ std::string hint_of_subscript(std::string_view name, const std::vector<std::stri
     return fmt::format("write 'd{}({})'", axes, of);
 }
 
-/// The hint for the name of a stage, in place of one of its species.
+/// The hint if the name of a stage is written in place of the name of one of its species.
 std::string hint_of_stage(const Workspace& work, std::string_view name) {
     for (const Stage& stage : work.program.stages) {
         if (stage.name != name || stage.system == unknown_system) continue;

@@ -38,8 +38,8 @@ std::vector<ast::Word> names_in(const Declaration& declaration) {
     return names;
 }
 
-/// The names, with psi in place of psi_xx and psi_yy if there are several names and one of them is
-/// psi or another derivative of psi.
+/// The names without duplicates. If two or more of them are psi or derivatives of psi, such as
+/// psi_xx and psi_yy, psi takes the place of all these.
 std::vector<ast::Word> without_derivatives(const std::vector<ast::Word>& names) {
     const auto base_of = [](const ast::Word& name) {
         const auto subscripted = subscripted_name(name.text);

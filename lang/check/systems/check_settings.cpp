@@ -16,8 +16,8 @@
 namespace cascade::checking {
 namespace {
 
-/// Whether the value of `speed` is a word by which other programs choose the steps automatically,
-/// and which this script does not declare.
+/// Whether `speed` is set to a word that asks for automatic steps in other programs, and that this
+/// script does not declare.
 bool asks_for_automatic(const Workspace& work, const ast::Script& script,
                         const ast::Statement& speed, const Scope& scope) {
     static constexpr std::array<std::string_view, 9> words = {"automatic", "adaptive", "dynamic",
@@ -41,7 +41,7 @@ void report_unknown_species(Workspace& work, Span span, std::string_view name,
                            std::move(hint));
 }
 
-/// The species that growth does not dilute. Reports other values.
+/// The species that growth does not dilute. Reports values that are not species.
 std::vector<ItemId> read_undiluted(Workspace& work, const ast::Script& script,
                                    const ast::Statement& statement, const Scope& scope) {
     std::vector<ItemId> species;

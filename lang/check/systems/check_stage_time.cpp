@@ -32,8 +32,8 @@ bool has_condition(const Time& time) {
     return time.until || time.steady;
 }
 
-/// Sets the moments at which the stage is observed. A setting in the stage replaces both settings
-/// of its system.
+/// Sets the moments at which the stage is observed, by `interval` or `every`. If the stage sets
+/// either, both settings of its system have no effect.
 void fill_moments(Stage& stage, const Settings& own, const Settings& defaults) {
     const Settings& given = own.interval || own.time.every ? own : defaults;
     stage.time.every = given.time.every.value_or(0);

@@ -85,8 +85,8 @@ bool SystemChecker::can_declare(const Declaration& declaration) {
     return false;
 }
 
-/// Whether the declaration gives a string to a quantity. Reports it, and suggests a text of the
-/// system with a similar name.
+/// Whether the declaration gives a string to a quantity. If so, reports the declaration, and
+/// suggests a text of the system with a similar name.
 bool SystemChecker::is_misspelt_text(const Declaration& declaration) {
     const ast::ExprId value = declaration.value().root;
     if (!std::holds_alternative<ast::Text>(declaration.script->expressions[value].node))

@@ -29,7 +29,7 @@ void check_time_setting(Workspace& work, const ast::Script& script, const ast::S
 void fill_time(Stage& stage, const Settings& own, const Settings& defaults);
 
 /// Gives the stage the solver of `asked` (`--solver`). The duration stays the same. If the stage
-/// has no duration, it becomes iterations · speed. Stabilised and semi-implicit solvers choose
+/// has none, its duration becomes iterations · speed. Stabilised and semi-implicit solvers choose
 /// their steps as with `speed: auto`.
 void change_solver(Stage& stage, const TimeSettings& asked);
 

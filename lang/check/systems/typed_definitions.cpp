@@ -1,6 +1,6 @@
-// Finds the names that a definition reads from its text, before the definition can be checked. If
-// the definition reads a member of a family, the whole family is checked first, because the text
-// does not show which member is read.
+// Searches the text of a definition for the names that it reads, before the definition can be
+// checked. If the definition reads a member of a family, the whole family is checked first, because
+// the text does not show which member is read.
 #include "lang/check/expressions/read_setting.h"
 #include "lang/check/systems/typed_definitions.h"
 
