@@ -11,7 +11,7 @@ namespace cascade::analysis {
 
 namespace {
 
-/// Numbers of smaller relative size than these count as errors of the differences.
+/// Relative changes and relative products below these limits count as errors of the differences.
 constexpr double no_change = 1e-6, no_product = 1e-6;
 
 /// The rates as a polynomial of the change of the state: f(u) = J u + ½ Q(u, u) + ⅙ C(u, u, u).
@@ -35,7 +35,8 @@ public:
         };
         return extrapolated(change, a);
     }
-    /// Whether the parts of the Jacobian that read other cells stay constant along this direction.
+    /// Whether those terms of the Jacobian that read other cells stay constant along this
+    /// direction.
     bool is_local(const Vector& direction) const {
         const double step = 0.01 * size_ / direction.cwiseAbs().maxCoeff();
         const Matrices here = rates_.matrices(state_),

@@ -44,8 +44,8 @@ bool has_laplacian_alone(const LinearModel& model) {
     });
 }
 
-/// Directions along the axes that exist. Only one of each two opposite directions is included,
-/// because waves of opposite directions have conjugate rates.
+/// Directions along the axes that exist. Of two opposite directions, only one is included, because
+/// waves of opposite directions have conjugate rates.
 std::vector<Direction> directions_of(const LinearModel& model, const Lattice& lattice, int count) {
     const std::vector<std::size_t> axes = axes_of(lattice);
     std::vector<Direction> directions;

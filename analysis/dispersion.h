@@ -72,8 +72,8 @@ std::vector<Complex> eigenvalues(const LinearModel& model, const Matrices& matri
 /// model, the shortest wavelength is twice the mean distance between neighbours.
 Dispersion dispersion(const LinearModel& model, const Matrices& matrices);
 
-/// The same as dispersion(), but without the curve and the bands, and in a tenth of the time. Sets
-/// only the wave and the rate of `fastest`.
+/// The same as dispersion(), but without the curve and the bands, from fewer waves and in a tenth
+/// of the time.
 Dispersion quick_dispersion(const LinearModel& model, const Matrices& matrices);
 
 /// The fastest non-uniform wave that fits into the domain. Empty if the domain's size is unknown.

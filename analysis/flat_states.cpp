@@ -22,7 +22,7 @@ double scattered(std::uint32_t a, std::uint32_t b) {
     return (bits + 0.5) / 4294967296.0;
 }
 
-/// The size of each species' values, in proportion to which changes are judged.
+/// The usual magnitude of each species' values. Whether a change is small is judged relative to it.
 Vector sizes_of(const LocalRates& rates) {
     const Vector start = rates.start();
     const double largest = start.cwiseAbs().maxCoeff();
@@ -224,8 +224,8 @@ FlatStates flat_states(const LocalRates& rates) {
         Vector guess(start.size());
         for (Eigen::Index s = 0; s < guess.size(); ++s) {
             const double at = scattered(k + 100, static_cast<std::uint32_t>(s));
-            // By turns, guesses are around the starting values, between 0 and a multiple of the
-            // sizes, or of both signs.
+            // There are three kinds of guesses, by turns: near the starting values, between 0 and a
+            // multiple of the sizes, and with values of either sign.
             guess[s] = k % 3 == 0   ? start[s] + sizes[s] * (at - 0.5)
                        : k % 3 == 1 ? sizes[s] * std::exp(8 * (at - 0.7))
                                     : sizes[s] * 6 * (at - 0.5);

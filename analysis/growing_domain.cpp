@@ -1,4 +1,4 @@
-// Analyses the stage again with a number in place of t.
+// For each time, analyses the stage with this number in place of t.
 #include "analysis/growing_domain.h"
 
 #include "analysis/stage_analysis.h"

@@ -1,4 +1,4 @@
-// Computes the Jacobian that acts on a wave from the derivatives of all rates.
+// Computes, from the derivatives of all rates, the Jacobian that acts on a wave.
 #include "analysis/linear_model.h"
 
 #include "analysis/kernel_tapes.h"

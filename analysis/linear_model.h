@@ -3,9 +3,9 @@
 //
 // In a flat state all derivatives are 0. So every operator is linear around it and multiplies a
 // wave by a factor, the operator's symbol. The formulas of the rates are visited once, operands
-// first. Each part is turned into its value in the flat state and, for each variable, into a sum of
-// products of operators with coefficients. So the Jacobian of a wave is Σ symbol · matrix, where
-// the matrices are formulas of the species and do not depend on the wave.
+// first. Each subexpression is turned into its value in the flat state and, for each variable, into
+// a sum of products of operators with coefficients. So the Jacobian of a wave is Σ symbol · matrix,
+// where the matrices are formulas of the species and do not depend on the wave.
 //
 // The fields of constraints `0 = e` are variables in addition to the species, and each e is a rate
 // that is always 0. LocalRates eliminates them.
@@ -22,8 +22,7 @@
 
 namespace cascade::analysis {
 
-/// One of the matrices of which the Jacobian is the sum, and the operators whose symbol multiplies
-/// this matrix.
+/// A term of the Jacobian: a matrix, and the operators by whose symbol it is multiplied.
 struct JacobianTerm {
     OperatorProduct operators;
     std::vector<NodeId> entries;  ///< The entry for a rate and a variable has the index rate ·
@@ -36,8 +35,8 @@ struct KernelFormula {
     NodeId weight;              ///< A formula of components of lags and items of `varied`.
     /// A formula of items of `varied`. Empty if the kernel covers the whole domain.
     std::optional<NodeId> reach;
-    /// The item that represents the sum of the weights in formulas of the model. No item of the
-    /// stage has this id.
+    /// In the model's formulas, this item represents the sum of the weights. No item of the stage
+    /// has this id.
     ItemId sum;
 };
 

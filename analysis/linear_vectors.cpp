@@ -32,7 +32,7 @@ Result<void> Lineariser::add_tensor(const Node& node, Part& part) {
     return {};
 }
 
-/// Computes the part for a vector from its operands.
+/// Computes the LinearPart of a vector from those of its operands.
 struct Lineariser::OfVectors {
     Lineariser& own;
     Part& part;

@@ -21,7 +21,7 @@ Lineariser::Lineariser(LinearModel& model)
       flat_(model.variable_count()),
       axes_(lattice_of(*model.program).has_axis) {}
 
-/// Adds the part for a node. Fails with a message for the user.
+/// Adds the LinearPart of a node. Fails with a message for the user.
 Result<void> Lineariser::add(const Node& node) {
     if (algebra_.size() > most_calculus_nodes) return failure("its rates are too large");
     nodes_.push_back(node);
@@ -267,7 +267,8 @@ void Lineariser::add_diffusion(const Node& node, Part& part) {
         algebra_.product(algebra_.number(2), a12));
 }
 
-/// A step to the next cell adds the difference to this cell, step by step.
+/// The value in the next cell is the value plus the difference to that cell. Longer shifts repeat
+/// this.
 void Lineariser::add_shift(const Node& node, Part& part) {
     part.value[0] = this->part(node, 0).value[0];
     part.slopes = this->part(node, 0).slopes;

@@ -1,5 +1,5 @@
-// Visits the formulas of rates once. Finds the value of each part in the flat state and its
-// response to waves (internal to the linear model).
+// Visits the formulas of rates once. Finds the value of each subexpression in the flat state, and
+// its response to waves (internal to the linear model).
 #pragma once
 
 #include "analysis/linear_model.h"
@@ -15,9 +15,9 @@ namespace cascade::analysis {
 using Slope = std::map<OperatorProduct, NodeId>;
 using Slopes = std::vector<Slope>;  ///< One per variable.
 
-/// A part of the rates around a flat state.
+/// A subexpression of a rate, linearised around a flat state.
 struct LinearPart {
-    /// A number is in the first element. A vector has its components.
+    /// The value of a number is the first element. For a vector, the elements are its components.
     std::array<NodeId, 3> value{};
     TensorMatrix matrix{};  ///< The value of a tensor.
     Slopes slopes;          ///< The slopes of a number.

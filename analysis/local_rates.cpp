@@ -1,5 +1,5 @@
-// Four tapes with the same inputs. A constraint is linear in its field, so its values at two fields
-// determine the field that solves it.
+// Four tapes with the same inputs. A constraint is linear in its field, so its residuals for two
+// trial fields determine the field that solves it.
 #include "analysis/local_rates.h"
 
 #include <algorithm>

@@ -10,9 +10,9 @@
 namespace cascade::analysis {
 
 /// A message such as "v has a negative diffusion coefficient, -0.08: …", for the first species
-/// whose coefficient is a negative number in all cells and at all times, without damping by a
-/// higher power of lap. Empty if there is no such species, or if the coefficient is not known
-/// before the run.
+/// whose coefficient is the same negative number in all cells and at all times, and which no higher
+/// power of lap damps. Empty if there is no such species, or if the coefficient is not known before
+/// the run.
 std::optional<std::string> negative_diffusion(const Program& program, std::uint32_t stage);
 
 }  // namespace cascade::analysis

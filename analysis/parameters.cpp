@@ -27,7 +27,7 @@ public:
         sizes_ = sizes_.cwiseMax(0.1 * std::max(sizes_.maxCoeff(), 1e-3));
     }
 
-    /// The flat state near a known one. Empty if Newton's method finds none or another state.
+    /// The flat state near a known one. Empty if Newton's method finds none or jumps to another.
     Place at(const std::vector<double>& values, const std::optional<Vector>& beside) {
         rates_.set_varied(values);
         // Conserved totals follow from the starting values, which may depend on the parameters.
@@ -104,7 +104,7 @@ Result<double> present_value(const Program& program, std::uint32_t stage, ItemId
     return *number;
 }
 
-/// Finds the critical value between two values at which the class differs, by bisection. `step` is
+/// By bisection, finds the critical value between two values that have different classes. `step` is
 /// a small change of the parameter.
 CriticalValue bisected(Follower& follower, double low, double high, const Place& at_low,
                        const Place& at_high, double step) {
@@ -152,14 +152,14 @@ Result<ParameterScan> scan_parameter(const Program& program, std::uint32_t stage
     ParameterScan scan{span, *present, {}, {}, {}};
     const int parts = model->species_count() <= 2 ? 64 : 32;
     const double middle = std::clamp(*present, span.low, span.high);
-    // Values stay slightly inside the range, since a parameter at an end may be 0 and make a
-    // division impossible.
+    // Values stay slightly inside the range, because a parameter that is 0 at one of its ends may
+    // make a division impossible.
     const double inwards = 1e-6 * (span.high - span.low);
     const double small = 1e-4 * (span.high - span.low);
     const auto walk = [&](double end) {
         double last = *present;
         Place before = follower.at({last}, state);
-        // Changes of class between the present value and the range are not reported.
+        // On the way to the range from a value outside it, no change of class is reported.
         if (middle != last) {
             for (int k = 1; k <= parts; ++k) {
                 before = follower.at({last + (middle - last) * k / parts}, before.state);

@@ -43,8 +43,8 @@ struct StageAnalysis {
     std::optional<double> step;  ///< The time step, if it is the same in all cells and fixed.
 };
 
-/// The length of the stage's steps, if it is the same in all cells and the stage does not choose
-/// it.
+/// The length of the stage's steps. Empty if it differs between cells, or if the stage adapts it
+/// while it runs.
 std::optional<double> fixed_step(const LinearModel& model);
 
 /// Analyses a stage. Fails if linear_model() fails. The program must outlive the result.

@@ -48,7 +48,7 @@ std::string line(std::string_view name, const std::string& text) {
     return fmt::format("  {:<17} {}\n", name, text);
 }
 
-/// Prints a count for each cell, which may be a mean, such as the mean number of loaded links.
+/// Prints a count per cell. The count may be a mean, such as the mean number of loaded links.
 std::string mean_count(double count, std::string_view one, std::string_view many) {
     const std::string text = number(count);
     return fmt::format("{} {}", text, text == "1" ? one : many);

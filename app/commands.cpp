@@ -51,8 +51,8 @@ Result<std::string> read_standard_input() {
 
 namespace {
 
-/// Loads the log of a session from a file, in the same form as from a picture: with the last script
-/// of the session.
+/// Loads the log of a session from a file. As for a log in a picture, the script is the last one of
+/// the session.
 Result<LoadedFile> load_session_file(const std::filesystem::path& path, const Overrides& options) {
     auto text = read_file(path, largest_session_log);
     if (!text) return tl::unexpected(text.error());
@@ -85,7 +85,7 @@ Result<LoadedFile> load_file(const std::string& path, const Overrides& overrides
     return LoadedFile{load_script("<standard input>", std::move(*text), ".", overrides), ""};
 }
 
-/// A hint for a path that does not exist but has the name of an example. Empty if it has not.
+/// A hint for a path that does not exist but has the name of an example. Empty for other names.
 std::string advice_on_example(const std::filesystem::path& path) {
     const auto examples = read_examples();
     if (!examples) return "";

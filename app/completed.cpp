@@ -47,7 +47,8 @@ constexpr Known known_words[] = {{"systems", systems},
                                  {"--palette", palettes_by_name},
                                  {"examples", example_names}};
 
-/// Fills in the names that Cascade knows for a command or an option, if any.
+/// Sets `values` to the names that Cascade knows for a command or an option. Returns false if it
+/// knows none.
 bool is_known(const std::string& name, Completed& values) {
     for (const Known& row : known_words) {
         if (row.name != name) continue;

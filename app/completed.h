@@ -17,7 +17,7 @@ struct Completed {
     std::vector<std::string> endings;  ///< Of files, ".cascade". Empty if any file is possible.
 };
 
-/// The values of an option, known from the name of its value: "FILE.csv", "sun|studio".
+/// The values of an option, derived from the placeholder of its value: "FILE.csv", "sun|studio".
 Completed values_of(const ManualOption& option);
 /// The values of a command's arguments.
 Completed arguments_of(const ManualCommand& command);

@@ -14,8 +14,8 @@ namespace cascade {
 
 namespace {
 
-/// As long as this object exists, Ctrl-C is an ordinary character of the terminal. libedit makes it
-/// one, too, but only some time after it has drawn its prompt.
+/// As long as this object exists, Ctrl-C is an ordinary character of the terminal. libedit sets
+/// this, too, but only some time after it has drawn its prompt.
 class InterruptKeyIsText {
 public:
     InterruptKeyIsText() { set(false); }

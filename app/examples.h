@@ -22,7 +22,7 @@ struct Example {
 /// without examples.
 Result<std::vector<Example>> read_examples();
 
-/// The example with this name, or else all examples with this last part of a name ("fur").
+/// The example with this name, or else all examples whose name has this last part ("fur").
 std::vector<const Example*> examples_named(const std::vector<Example>& examples,
                                            std::string_view name);
 

@@ -45,7 +45,8 @@ constexpr ForeignOption foreign_options[] = {
     {"o", "--html ", "out.html"},
 };
 
-/// Options that are not needed, and why. `needs` is an option that only the right command has.
+/// Options that are not needed, and why. The advice applies only to a command that has the option
+/// `needs`.
 struct NeedlessOption {
     std::string_view name, needs, advice;
 };

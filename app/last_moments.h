@@ -10,10 +10,9 @@ namespace cascade {
 
 /// As long as this object exists, begin_last_moments() starts a short time. After half of it
 /// `hurry` is set, and at its end the program ends if `may_end` is true. The time is 2 s of
-/// processor time or, if the limit of time is reached, a tenth of `limit_seconds` if that is more.
-/// `hurry` is also set after 5 s of real time, because other programs may have used the processor.
-/// Only one such object may exist at a time. Uses system timers, because creating a thread may be
-/// forbidden.
+/// processor time. After --limit-time, it is a tenth of `limit_seconds` if that is longer. `hurry`
+/// is also set after 5 s of real time, because other programs may have used the processor. Only one
+/// such object may exist at a time. Uses system timers, because creating a thread may be forbidden.
 class LastMoments {
 public:
     LastMoments(double limit_seconds, std::atomic<bool>& hurry, const std::atomic<bool>& may_end);
@@ -29,7 +28,7 @@ private:
 };
 
 /// For signal handlers. The program will end with `status`. Does nothing if no LastMoments exists,
-/// or if they have begun.
+/// or if the last moments have already begun.
 void begin_last_moments(int status) noexcept;
 
 }  // namespace cascade

@@ -7,8 +7,8 @@
 
 namespace cascade {
 
-/// Sets `cancel` after a number of seconds, unless this object is destroyed before. 0 means no
-/// limit. At that moment the program's last moments begin (app/last_moments.h). Only one such
+/// After a number of seconds, sets `cancel` and begins the program's last moments
+/// (app/last_moments.h), unless this object is destroyed before. 0 means no limit. Only one such
 /// object may exist at a time. Uses a system timer, because creating a thread may be forbidden.
 class TimeLimit {
 public:

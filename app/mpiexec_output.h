@@ -15,7 +15,7 @@ std::string announcement_of_rank(int rank);
 
 /// Separates the output of ranks, which is passed on, from the explanations of mpiexec. Open MPI
 /// puts them between lines of dashes on standard error, and MPICH between lines of equals signs on
-/// standard output, so each stream has an object.
+/// standard output, so there is one object for each stream.
 class MpiexecOutput {
 public:
     /// Takes the next line, without its end. Returns whether it is a message that a rank has

@@ -7,7 +7,7 @@ namespace cascade::option_groups {
 
 namespace {
 
-/// Reads a number in a range, without its ends.
+/// Reads a number that lies between `low` and `high` and equals neither.
 auto number_between(double low, double high) {
     return [=](const std::string& text) -> Result<double> {
         const auto number = read_number(text);

@@ -17,7 +17,8 @@ inline constexpr const char* execution_group =
 void add_script(CLI::App& app, Options& options, const std::string& help);
 void add_allow_read(CLI::App& app, ReadAccess& reads, const std::string& about);
 void add_overrides(CLI::App& app, Overrides& overrides);
-/// Adds the picture options of `cascade run`, or only the options that `cascade sweep` has, too.
+/// Adds the picture options of `cascade run`, or, if `is_sweep` is true, only those that `cascade
+/// sweep` has, too.
 void add_picture_options(CLI::App& app, PictureChanges& picture, bool is_sweep = false);
 void add_files(CLI::App& app, RunRequest& run);
 /// Adds the options of run_options.def from `first` to `last`.

@@ -130,8 +130,8 @@ std::optional<std::string> Parser::unknown_option() const {
     return std::nullopt;
 }
 
-/// The option with its value in one word, "--set F=0.05", if the user has written `--set F 0.05`.
-/// Empty if the command has no such option.
+/// The correct form "--set F=0.05" if the user has written `--set F 0.05`, where `value` is "0.05".
+/// Otherwise empty.
 std::string Parser::in_one_word(const std::string& value) {
     const CLI::Option* const option = chosen()->get_option_no_throw("--set");
     if (option == nullptr || option->results().empty()) return "";
@@ -267,7 +267,7 @@ std::vector<std::string> without_terminator(std::vector<std::string> arguments) 
     return arguments;
 }
 
-/// The options of a command that --help shows, or its arguments.
+/// The options of a command that --help shows or, if `arguments` is true, its arguments.
 std::vector<ManualOption> describe(const CLI::App& app, bool arguments) {
     std::vector<ManualOption> all;
     for (const CLI::Option* option : app.get_options()) {

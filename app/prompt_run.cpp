@@ -66,7 +66,7 @@ std::string in_words(const Field& field) {
     return fmt::format("{:.6g} to {:.6g}\n", values.smallest, values.largest);
 }
 
-/// The progress of a stage, and the numbers of its cells if they crawl.
+/// The progress of a stage. If its cells crawl, also the numbers of cells, births and deaths.
 std::string progress_in_words(const Stage& stage, const StageState& state) {
     const std::string place = describe_place(stage, state);
     const auto cells = counts_of_cells(state);
@@ -120,7 +120,8 @@ bool PromptSession::begin_run() {
 void PromptSession::take_over(std::unique_ptr<LiveRun> run) {
     run_ = std::move(run);
     script_.reset();
-    // If the run began with a saved run, its log cannot reproduce it, and is not stored.
+    // The log of a run that continues a saved run cannot reproduce the run, so the log is not
+    // stored.
     const bool is_kept = at_terminal_ && !run_->is_resumed();
     kept_ = is_kept ? SessionFile::of(*run_, stem_, "repl", false) : nullptr;
 }

@@ -25,8 +25,9 @@
 namespace cascade {
 namespace {
 
-/// The time a rank waits for the message of rank 0 before it prints its own. Usually all ranks fail
-/// for the same reason. Ranks that share a processor reach that message later.
+/// How long a rank that fails waits for the message of rank 0 before it prints its own, because
+/// usually all ranks fail for the same reason. The time is longer if ranks share a processor,
+/// because rank 0 then fails later.
 std::chrono::seconds patience() {
     const int sharing = ranks_on_this_machine() / std::max(1, hardware_threads());
     return std::chrono::seconds(std::clamp(2 * sharing, 2, 20));
@@ -157,7 +158,7 @@ Result<void> share_steps(const Script& script, Ranks& ranks, RunRequest& request
     steps_alone.stop_at = request.stop_at;
     steps_alone.picture.detail = request.picture.detail;
     request = std::move(steps_alone);
-    // Leaves out the picture, too.
+    // Leaves out the picture at the end of the run, too.
     control.hurry = true;
     return {};
 }

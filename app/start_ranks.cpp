@@ -1,5 +1,5 @@
-// Runs mpiexec as a child process in a separate process group, so that Ctrl-C in a terminal
-// reaches only this process. mpiexec would kill the ranks a second later.
+// Runs mpiexec as a child process in a separate process group, so that Ctrl-C in a terminal reaches
+// only this process. On Ctrl-C, mpiexec would kill the ranks a second later.
 #include "app/exit_status.h"
 #include "app/mpiexec_output.h"
 #include "app/process_tree.h"
@@ -67,7 +67,7 @@ private:
     std::array<struct sigaction, watched.size()> saved_;
 };
 
-/// The launcher of the library. Debian adds the name of the library to it.
+/// The path of the library's mpiexec. Debian appends the library's name to the program's name.
 std::optional<std::filesystem::path> find_mpiexec(MpiLibrary library) {
     const char* const path = std::getenv("PATH");
     const bool is_mpich = library == MpiLibrary::mpich;

@@ -54,8 +54,8 @@ inline double double_area(const FlatTriangle& flat) {
 Chart chart_of(const SurfaceMesh& mesh, const Seams& seams, std::vector<std::uint32_t> triangles,
                std::span<std::uint32_t> numbers);
 
-/// The factors by which a triangle's flat image lengthens directions, the larger first. The smaller
-/// factor is negative if the image is mirrored.
+/// The largest and the smallest factor by which a triangle's flat image lengthens a direction, in
+/// this order. The smallest is negative if the image is mirrored.
 std::array<double, 2> stretches(const FlatTriangle& shape, const FlatTriangle& image);
 
 /// The largest factor by which lengths change, ≥ 1: the larger stretch or the reciprocal of the

@@ -1,5 +1,5 @@
-// Tries factors that are powers of a number slightly below 1. Finds the largest that fits by
-// bisection.
+// Tries factors that are powers of a number slightly below 1. By bisection, finds the largest with
+// which the charts fit.
 #include "atlas/pack_charts.h"
 
 #include "atlas/chart_box.h"
@@ -41,8 +41,8 @@ public:
     /// Makes a square of free cells.
     explicit CellRows(int side);
 
-    /// The free position for a shape with the smallest y and, among these, the smallest x. y is at
-    /// least `lowest`, and y + height is below `limit`.
+    /// Of all free positions for a shape, the one with the smallest y and, among these, the
+    /// smallest x. y is at least `lowest`, and y + height is below `limit`.
     std::optional<CellPlace> find_room(const CellShape& shape, int lowest, int limit) const;
 
     /// Occupies the cells of a shape and the eight cells around each of them.

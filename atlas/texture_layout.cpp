@@ -27,8 +27,7 @@ std::int64_t divided_down(std::int64_t number, std::int64_t size) {
     return (number - wrapped(number, size)) / size;
 }
 
-/// The first sample whose centre is not below `low`, and the last whose centre is not above a
-/// number.
+/// The first sample whose centre is not below `low`, and the last whose centre is not above `high`.
 std::int64_t first_from(double low) { return static_cast<std::int64_t>(std::ceil(low - 0.5)); }
 std::int64_t last_to(double high) { return static_cast<std::int64_t>(std::floor(high - 0.5)); }
 

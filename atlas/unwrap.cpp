@@ -89,9 +89,10 @@ std::vector<Chart> flat_parts(const SurfaceMesh& mesh, std::vector<std::uint32_t
 /// Divides a surface of area 1 into flat charts without overlaps (is_injective). In a chart of more
 /// than 1/512 of the area the mean distortion is at most 1.1, and it exceeds 1.5 in at most 1 % of
 /// the chart's area. Patches that bend little (bend_patches) are halved until they fulfil these
-/// conditions. Charts are then joined again along common edges, the longest first, as long as the
-/// joined charts still fulfil the conditions. The result is the same with any number of threads. It
-/// is incomplete if `cancel` became true.
+/// conditions. Charts are then joined again along common edges as long as the joined charts still
+/// fulfil the conditions. Pairs whose border is the largest fraction of the shorter outline come
+/// first. The result is the same with any number of threads. It is incomplete if `cancel` became
+/// true.
 std::vector<Chart> make_charts(const SurfaceMesh& mesh, Team& team,
                                const std::atomic<bool>& cancel) {
     std::vector<std::vector<std::uint32_t>> patches;

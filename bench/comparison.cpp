@@ -58,7 +58,8 @@ struct Contest {
     StraightSide theirs;
 };
 
-/// A comparison of different computations would be worthless.
+/// Ends the program if the sides compute different values, because then the comparison would be
+/// worthless.
 void check_agreement(Backend& backend) {
     for (const System& system : systems()) {
         for (const StraightSteps& steps :

@@ -1,5 +1,5 @@
 // Measures how long a user waits: from text to first step, after a change of a parameter, and for
-// Turk's own grid.
+// 2000 steps on Turk's own grid.
 #pragma once
 
 #include "ir/backend.h"

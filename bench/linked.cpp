@@ -250,7 +250,8 @@ const std::vector<std::pair<std::string, Advance>> contestants{
 #endif
 };
 
-/// A comparison of different computations would be worthless.
+/// Ends the program if the sides compute different values, because then the comparison would be
+/// worthless.
 void check_agreement(const Choices& choices, Backend& backend) {
     Contest contest(64, choices, backend);
     contest.sliced.advance(100);

@@ -3,7 +3,7 @@
 // colours, with OpenMesh's own quadrics and its test for triangles that turn over.
 //
 // All flags of Google Benchmark work. The argument of cases is the number of triangles. The counter
-// `off` is the mean depth of triangles' middles inside the unit sphere.
+// `off` is the mean depth of the triangles' middles below the surface of the unit sphere.
 #include "mesh/half_edges.h"
 #include "mesh/shapes.h"
 #include "mesh/simplify.h"

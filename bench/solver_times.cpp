@@ -47,8 +47,8 @@ struct Pattern {
     const char* varying;                    ///< The parameter that varies by cell, or empty.
 };
 
-/// Turk's spots in the two sizes of his leopard, and larger ones. The larger the spots, the less
-/// does the reaction limit the step. Then two systems with lap of lap.
+/// Turk's spots in the two sizes of his leopard, then larger spots, because the reaction limits the
+/// step less if spots are larger. Then two systems with lap of lap.
 constexpr Pattern known_patterns[] = {
     {"large", "stage s: turing_spots { iterations: 28000; ka: 0.05/16 }\n",
      &StraightSteps::turing_without_mask, "beta"},
@@ -144,13 +144,13 @@ double correlation(const Field& a, const Field& b) {
     return covariance / (of_a.deviation * of_b.deviation);
 }
 
-/// Euler's steps in straight C++, with the compiler flags that are the fastest.
+/// Euler's steps in straight C++, with the fastest of the three sets of compiler flags.
 class StraightEuler {
 public:
     StraightEuler(const Pattern& pattern, std::int64_t side, Backend& backend)
         : side_(CascadeSide(text_of(pattern, side), backend), pattern.varying),
           step_(pattern.straight) {
-        // This number of steps takes a tenth of a second.
+        // `steps_` becomes the number of steps that take a tenth of a second, but at least 4.
         side_.advance(straight_wide().*step_, 4);
         const double four = time(straight_wide(), 4);
         steps_ = std::max<std::int64_t>(4, static_cast<std::int64_t>(0.4 / four));

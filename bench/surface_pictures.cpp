@@ -1,7 +1,7 @@
 // cascade_picture_times: how long pictures of surface cells take.
 //
 // --model=FILE selects a model instead of a torus of 97,000 triangles. All flags of Google
-// Benchmark work. There are 64,000 cells, and as many threads as the machine has.
+// Benchmark work. Draws 64,000 cells with as many threads as the machine has.
 #include "mesh/make_mesh.h"
 #include "mesh/model_file.h"
 #include "run/pictures/cell_picture.h"

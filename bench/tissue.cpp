@@ -1,6 +1,7 @@
-// cascade_tissue_bench: 100,000 cells on a torus, on one core. Measures their neighbours, their
-// order in memory, what they sense, and their rates (collision, adhesion, combing) by native code
-// and by a scalar loop in C++. Also measures a tissue that grows (tissue_growth.cpp).
+// cascade_tissue_bench: 100,000 cells on a torus, on one core. Measures the time to find their
+// neighbours, to order them in memory, to compute what they sense, and to compute their rates
+// (collision, adhesion, combing) by native code and by a scalar loop in C++. Also measures a tissue
+// that grows (tissue_growth.cpp).
 #include "bench/straight_tissue.h"
 #include "core/floating_point.h"
 #include "ir/expression.h"

@@ -1,5 +1,5 @@
-// cascade_wasm_bench: kernels of steps as WebAssembly modules in node, compared with native code
-// for vectors of 4 cells, too.
+// cascade_wasm_bench: kernels of steps as WebAssembly modules in node, compared with native code,
+// which has vectors of 4 cells here, as WebAssembly does.
 //
 //   cascade_wasm_bench [SYSTEM…]    of the library; by default gray_scott turing_spots stripes
 //

@@ -26,8 +26,8 @@ struct Point {
     Tangent tangent;
     PointKind kind = PointKind::regular;
     int crossing = 0;  ///< For special points: the number of eigenvalues that pass 0.
-    /// For branch points: whether this branch consists of patterns, and meets a state that is the
-    /// same in all cells.
+    /// For branch points: whether this branch consists of patterns, but is the same in all cells at
+    /// this point.
     bool vanishes = false;
     /// The number of eigenvalues with positive real part. Empty if they could not be found.
     std::optional<int> growing;
@@ -37,10 +37,10 @@ struct Point {
 
 struct Branch {
     std::vector<Point> points;
-    /// The branch and the point from which this branch was reached, counted from 0. Empty for the
-    /// first.
+    /// The indices of another branch and of its point from which this branch was reached. Empty for
+    /// the first branch.
     std::optional<std::pair<std::size_t, std::size_t>> from;
-    std::string begins, ends;  ///< Why it is not followed farther, at both ends.
+    std::string begins, ends;  ///< Why it is not followed beyond each end.
 };
 
 struct FollowSettings {
@@ -58,8 +58,8 @@ public:
     Follower(Corrector& corrector, FollowSettings settings)
         : corrector_(corrector), settings_(std::move(settings)) {}
 
-    /// Follows the branch through a solved place in both directions, and then the branches that
-    /// meet it and each other, as many as the settings allow.
+    /// Follows the branch through a solved place in both directions, then the branches that meet
+    /// it, and those that meet these, as many as the settings allow.
     std::vector<Branch> follow(const Corrector::Solved& start);
 
 private:

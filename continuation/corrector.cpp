@@ -1,6 +1,6 @@
-// One sparse elimination for each step of Newton's method. The equations of the arc and of the
-// freedoms are its border (H. B. Keller, "Numerical solution of bifurcation and nonlinear
-// eigenvalue problems", 1977).
+// Each step of Newton's method is one sparse elimination. Its matrix is the Jacobian, with the
+// equations of the arc and of the freedoms as a border (H. B. Keller, "Numerical solution of
+// bifurcation and nonlinear eigenvalue problems", 1977).
 #include "continuation/corrector.h"
 
 #include <cmath>
@@ -12,10 +12,10 @@ namespace {
 
 constexpr int most_rounds = 12;
 constexpr int rounds_of_modes = 5;
-constexpr double end_of_steps = 1e-9;      ///< Of a last step, in parts of the usual sizes.
-constexpr double largest_residual = 1e-8;  ///< In parts of the sizes of the terms of rates.
+constexpr double end_of_steps = 1e-9;      ///< The length of a last step, in the lengths of Scales.
+constexpr double largest_residual = 1e-8;  ///< Of the rates, in parts of size_of_rates().
 
-/// The solution of a system, improved once. Empty if the matrix has no inverse.
+/// The solution of a system, refined once from its residual. Empty if the matrix has no inverse.
 std::optional<Vector> solution(const SparseColumns& matrix, const Factors& factors,
                                const Vector& right) {
     Vector x = factors.solve(right);
@@ -23,7 +23,7 @@ std::optional<Vector> solution(const SparseColumns& matrix, const Factors& facto
     const Vector rest = right - matrix * x;
     x += factors.solve(rest);
     if (!x.allFinite()) return std::nullopt;
-    // Elimination takes a singular matrix without a word.
+    // The elimination does not report every singular matrix, so this checks the solution.
     const Vector left = right - matrix * x;
     return left.norm() <= 1e-6 * right.norm() ? std::optional(x) : std::nullopt;
 }
@@ -40,10 +40,11 @@ Freedoms Corrector::freedoms_at(const Place& place) const {
     std::vector<Vector> moved;
     if (holds_motions_) {
         for (Vector& each : problem_.motions(place.state)) {
-            // Nothing moves a uniform state, nor a pattern along its stripes.
+            // A motion does not change a uniform state, and a motion along stripes does not change
+            // them.
             const double size = std::sqrt((each.array().square() * scales_.weights.array()).sum());
             if (size < 1e-6) continue;
-            // Oblique stripes are moved alike along both axes.
+            // Motions along both axes change oblique stripes in the same way, so only one counts.
             const double length = each.norm();
             for (const Vector& other : moved) each -= other.dot(each) * other;
             if (each.norm() > problem_.least_part() * length) moved.push_back(each.normalized());
@@ -73,7 +74,7 @@ SparseColumns Corrector::whole(const Linearised& at, const Freedoms& freedoms,
     return with_border(at.jacobian, columns, rows, corner);
 }
 
-/// The largest sum of the magnitudes of the terms of a rate.
+/// For each rate, adds up the magnitudes of its linear terms. Returns the largest of these sums.
 double Corrector::size_of_rates(const Linearised& at, const Vector& state) const {
     Vector sums = Vector::Constant(state.size(), 1e-300);
     for (Index column = 0; column < at.jacobian.cols(); ++column) {
@@ -145,8 +146,8 @@ std::vector<NeutralMode> Corrector::neutral_modes(const Solved& at) const {
     const Index moves = count - totals_.cols();
     std::vector<NeutralMode> modes;
     if (moves > 0) {
-        // The eigenvectors X next to the motions B: J X + B N = X Λ with Bᵀ X = 1. Where the cells
-        // hold a pattern weakly, Λ is near 0, and the rounds find it so that N becomes 0.
+        // Finds the eigenvectors X near the motions B: J X + B N = X Λ with Bᵀ X = 1. Each round
+        // changes Λ so that N tends to 0. Λ is near 0 if the cells hold the pattern only weakly.
         const SparseColumns matrix = with_border(at.at.jacobian, freedoms.columns, freedoms.rows,
                                                  Matrix::Zero(count, count));
         const Factors factors(matrix);

@@ -22,9 +22,9 @@ using Direction = Place;
 
 /// The direction of a branch at one of its points.
 struct Tangent : Direction {
-    /// The sign of the determinant of the equations with a row for the tangent. Along a branch it
-    /// changes where another branch meets this one, not where the branch turns back (H. B. Keller,
-    /// 1977). It is compared between points with the same number of freedoms.
+    /// The sign of the determinant of the matrix of all equations, including a row for the tangent.
+    /// Along a branch it changes where another branch meets this one, not where the branch turns
+    /// back (H. B. Keller, 1977). Can be compared only between points with equal `freedoms`.
     int orientation = 1;
     Index freedoms = 0;
 
@@ -35,10 +35,10 @@ struct Tangent : Direction {
     }
 };
 
-/// Measures lengths of directions. A length of 1 is the usual size of each species in all cells, or
-/// the whole range of the parameter.
+/// Measures lengths of directions. A change of all species by their usual sizes in all cells has
+/// length 1, and so has a change of the parameter by its whole range.
 struct Scales {
-    Vector weights;        ///< Of the squares of the unknowns.
+    Vector weights;        ///< The weights of the squares of the unknowns.
     double parameter = 1;  ///< The weight of the parameter's square.
 
     double product(const Direction& a, const Direction& b) const {
@@ -51,12 +51,13 @@ struct Scales {
     void normalise(Direction& direction) const;
 };
 
-/// The equations that a state needs besides its rates. A state that is moved is another state, and
-/// a reaction that conserves totals has a state for each total. Each such freedom gets an equation
-/// that chooses one of the states, and an unknown that is 0 in a steady state.
+/// The equations that determine a steady state, besides the rates. A steady state remains steady
+/// when it is moved, and if the reaction conserves totals, there is a steady state for each total.
+/// Each such freedom gets an equation that chooses one of the states, and an unknown that is 0 in a
+/// steady state.
 struct Freedoms {
     Matrix columns;  ///< For each freedom, the effect of its unknown on the rates.
-    Matrix rows;     ///< The equations, one in each row. A change of the state is 0 in all of them.
+    Matrix rows;     ///< One equation per row: its product with a change of the state is 0.
     Index count() const { return columns.cols(); }
 };
 
@@ -67,8 +68,8 @@ public:
 
     const Scales& scales() const { return scales_; }
     SteadyProblem& problem() { return problem_; }
-    /// Whether translations and rotations are chosen. Not if the grid itself holds patterns in
-    /// their places.
+    /// Whether translations and rotations count as freedoms. They do not if the grid itself holds
+    /// patterns in their places.
     void hold_motions(bool hold) { holds_motions_ = hold; }
     /// The totals that no rate changes. Each place on the branch keeps them.
     void keep_totals(Matrix totals) { totals_ = std::move(totals); }
@@ -79,17 +80,17 @@ public:
         Place place;
         Linearised at;
         int rounds = 0;
-        /// How much of the rates a motion would have to make up for, in parts of the rates'
-        /// size.
+        /// The largest rate that remains at this place, along the freedoms, as a multiple of
+        /// size_of_rates().
         double drift = 0;
     };
-    /// The place near `guess` where all rates are 0, on the plane through `guess` across
-    /// `direction`. Empty if the iteration does not converge.
+    /// The place near `guess` where all rates are 0, in the plane through `guess` that is
+    /// perpendicular to `direction`. Empty if the iteration does not converge.
     std::optional<Solved> solve(const Place& guess, const Direction& direction);
-    /// The tangent of the branch at a solved place, on the side of `direction`, of length 1. Empty
-    /// if it cannot be computed.
+    /// The tangent of the branch at a solved place. It has length 1 and goes to the same side as
+    /// `direction`. Empty if it cannot be computed.
     std::optional<Tangent> tangent(const Solved& at, const Direction& direction) const;
-    /// The neutral modes at a solved place: they do not count for stability.
+    /// The neutral modes at a solved place, which do not count for stability.
     std::vector<NeutralMode> neutral_modes(const Solved& at) const;
 
 private:

@@ -11,9 +11,9 @@
 
 namespace cascade::continuation {
 
-/// Unit column vectors, orthogonal to each other and to all columns of a matrix with few rows.
-/// Columns whose part along a direction is shorter than `tolerance`, all together, count as 0
-/// there.
+/// Unit column vectors, orthogonal to each other and to all columns of a matrix with few rows. A
+/// direction also counts as orthogonal if the components of all columns along it, as a vector, are
+/// no longer than `tolerance`.
 Matrix across_rows(const Matrix& matrix, double tolerance);
 
 /// The factors of a square sparse matrix.
@@ -24,7 +24,7 @@ public:
     Factors(Factors&&) noexcept;
 
     /// Whether the matrix has an inverse, as far as the elimination shows. A sparse elimination
-    /// does not notice every singular matrix, so check what is solved.
+    /// does not notice every singular matrix, so check each solution.
     bool is_regular() const;
     /// The sign of the determinant: 1, or −1.
     int sign() const;
@@ -39,8 +39,8 @@ private:
 SparseColumns with_border(const SparseColumns& matrix, const Matrix& columns, const Matrix& rows,
                           const Matrix& corner);
 
-/// A direction that does not count among the eigenvectors: `right` is an eigenvector whose
-/// eigenvalue is 0, or `left` is one of the transposed matrix. Their scalar product is 1.
+/// An eigenvector that does not count: either `right` is an eigenvector with eigenvalue 0, or
+/// `left` is one of the transposed matrix. The scalar product of both is 1.
 struct NeutralMode {
     Vector right, left;
 };
@@ -50,11 +50,11 @@ struct Mode {
     ComplexVector vector;  ///< Empty unless requested.
 };
 
-/// The eigenvalues of a square matrix with the largest real parts, by decreasing real part, at
-/// least `count` if there are so many. Neutral modes are left out. Small matrices are decomposed
-/// completely. Of larger ones, the eigenvalues nearest to 0 are found, and those nearest to
-/// `places` that are farther from 0. Empty if the search does not converge, or if `cancel`, which
-/// may be null, becomes true.
+/// The eigenvalues of a square matrix with the largest real parts, by decreasing real part: at
+/// least `count`, if the matrix has so many. Neutral modes are left out. Small matrices are
+/// decomposed completely. For larger ones, finds the eigenvalues nearest to 0, and then those
+/// nearest to each of `places` that lies outside the region found so far. Empty if the search does
+/// not converge, or if `cancel`, which may be null, becomes true.
 std::vector<Mode> leading_modes(const SparseColumns& matrix, std::span<const NeutralMode> neutral,
                                 std::span<const Complex> places, int count, bool with_vectors,
                                 const std::atomic<bool>* cancel);

@@ -112,7 +112,7 @@ const Reads& Differences::at_faces(Difference difference, int axis) {
         const bool is_inside = grid_.is_inside(row);
         if (!is_inside && !grid_.is_inside(row + grid_.shift(step))) continue;
         for (const Tap& tap : taps.taps) {
-            // Seen from the cell that belongs to the domain.
+            // Offsets count from a cell of the face that belongs to the domain.
             if (is_inside) taking.add(row, row, tap.at, factor * tap.weight);
             else taking.add(row, row + grid_.shift(step), tap.at + back, factor * tap.weight);
         }

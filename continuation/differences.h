@@ -13,8 +13,8 @@ namespace cascade::continuation {
 /// border (lang/lower/lower_mask.cpp).
 struct Reads {
     SparseRows all;  ///< For values that are mirrored at the border.
-    /// The three parts of `all`, by what is read: values of cells, values beyond the border and
-    /// values beyond two borders. Without rows if no position is outside of the domain.
+    /// The parts of `all` that read values of cells, values beyond the border, and values beyond
+    /// two borders. Without rows if no position is outside of the domain.
     SparseRows inside, once, twice;
 };
 
@@ -25,25 +25,31 @@ public:
 
     const PaddedGrid& grid() const { return grid_; }
 
-    /// A difference in the cells of the grid. Beyond sides its values are copied as `beyond` says.
+    /// A difference in the cells of the grid. Its results in the halo are copied from cells as
+    /// `beyond` says.
     const Reads& in_cells(Difference difference, int first, int second, const Boundaries& beyond);
     /// The value in the cell at an offset.
     const Reads& beside(Offset offset, const Boundaries& beyond);
 
-    /// Values at the faces along an axis. The row of a cell belongs to the face after it. Faces
-    /// before the first cells belong to cells of the halo. `difference` is `average` or `across`.
+    /// Values at the faces along an axis. The row of a cell is for the face after this cell, so the
+    /// faces before the first cells have the rows of halo cells. `difference` is `average` or
+    /// `across`.
     const Reads& at_faces(Difference difference, int axis);
-    /// The mean over both cells of a face of the central difference along another axis.
+    /// At each face: the central difference along another axis, averaged over both cells of the
+    /// face.
     const Reads& along_faces(int axis, int component);
     /// The difference of the values at both faces of a cell, divided by the spacing.
     const SparseRows& between_faces(int axis, const Boundaries& beyond);
-    /// Whether each cell's face after it along `axis` lies on a side of the grid: 1 or 0.
+    /// For each cell: 1 if the face after it, along the axis of `side`, lies on this side of the
+    /// grid; otherwise 0.
     Values on_side(int side) const;
-    /// Whether each cell's face after it along `axis` lies between two cells of the domain: 1 or 0.
+    /// For each cell: 1 if the face after it along `axis` lies between two cells of the domain;
+    /// otherwise 0.
     Values within_border(int axis) const;
     /// Σ w (f_j − f_i) over the links of each cell.
     const SparseRows& over_links();
-    /// Σ g (f_j − f_i) over the links of each cell, with the weights of a gradient's component.
+    /// Σ g (f_j − f_i) over the links of each cell, where g are the weights of a gradient's
+    /// component.
     const SparseRows& gradient_over_links(int component);
 
 private:

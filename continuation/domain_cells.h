@@ -19,8 +19,8 @@ struct DomainCells {
     const Links* links = nullptr;
     /// The area of each position, if cells differ in it. Empty otherwise.
     std::vector<double> areas;
-    /// The rotations that map the surface to itself: for each, the components of the velocity of
-    /// each position.
+    /// The rotations that map the surface to itself: for each rotation, the x, y and z components
+    /// of the velocity, by position.
     std::vector<std::array<std::vector<double>, 3>> turns;
 };
 

@@ -22,7 +22,7 @@ bool is_known_operator(const Node& node) {
            difference_of(node.function) || FieldExpressions::rule_of(node.function) != nullptr;
 }
 
-/// Whether the values are read once, before anything changes.
+/// Whether a call's values are read only once, before anything changes.
 bool is_constant_call(const Node& node) {
     const FunctionKind kind = info(node.function).kind;
     return kind == FunctionKind::shape || kind == FunctionKind::text;
@@ -216,7 +216,7 @@ void FieldExpressions::compute(NodeId id, const ItemParts& items, bool with_slop
     }
 }
 
-/// The chain rule.
+/// The slopes of a function of numbers, by the chain rule.
 SparseRows FieldExpressions::chained(NodeId id) const {
     const Node& node = algebra_[id];
     SparseRows sum;

@@ -23,7 +23,8 @@
 
 namespace cascade::continuation {
 
-/// The values of a formula that changes with no unknown, in all cells of the grid or once.
+/// Returns the values of a formula that depends on no unknown: one for each cell of the grid, or a
+/// single one if all are equal.
 using ConstantValues = std::function<std::vector<double>(const Formula& formula)>;
 
 /// The parts of the items that change: the species and the parameter. The values of a species
@@ -32,8 +33,8 @@ using ItemParts = std::map<ItemId, Part>;
 
 class FieldExpressions {
 public:
-    /// `changing` are the items that change. Fails with the reason if an expression cannot be
-    /// computed here: the rest of a sentence that begins with the stage.
+    /// `changing` are the items that change. If an expression cannot be computed here, fails with
+    /// the reason, as the rest of a sentence that begins with the stage.
     static Result<FieldExpressions> create(lowering::Expressions expressions,
                                            const lowering::PassContext& context,
                                            const PaddedGrid& grid, std::span<const ItemId> changing,
@@ -44,12 +45,11 @@ public:
     /// The rule of an operator. Null for plain differences, divergences, means and other functions.
     static OperatorRule rule_of(Function function);
 
-    /// Whether the expressions treat all cells along an axis alike: no value that stays the same
-    /// during the continuation changes along it, to the accuracy
-    /// of a metric.
+    /// Whether no value that is constant during the continuation varies along an axis, up to the
+    /// accuracy of a metric. If so, the expressions treat all cells along this axis alike.
     bool is_same_along(int axis) const;
-    /// Whether a value other than the area of cells differs from cell to cell and stays the same
-    /// during the continuation.
+    /// Whether any value that is constant during the continuation differs from cell to cell, apart
+    /// from the areas of cells.
     bool has_places() const { return has_places_; }
     std::size_t root_count() const { return plan_->roots().size(); }
     Differences& differences() { return *differences_; }

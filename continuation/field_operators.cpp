@@ -10,7 +10,7 @@ namespace cascade::continuation {
 
 namespace {
 
-/// Takes rows of one part where a condition holds, and of another part elsewhere.
+/// Takes the rows of `first` where `is_first` is 1, and those of `second` where it is 0.
 Part chosen(const Values& is_first, const Part& first, const Part& second) {
     Part a = product(Part{is_first, {}}, first);
     return sum(a, product(Part{1 - is_first, {}}, second));
@@ -24,7 +24,8 @@ Part FieldExpressions::difference(NodeId operand, Difference kind, int first, in
     return read(differences_->in_cells(kind, first, second, beyond), operand);
 }
 
-/// A difference of an operand, whose values beyond the border of a mask may be other nodes.
+/// A difference of an operand. Other nodes may give the operand's values beyond the border of a
+/// mask.
 Part FieldExpressions::read(const Reads& reads, NodeId operand) const {
     const Node& node = algebra_[operand];
     if (!node.calls(Function::bordered)) return applied(reads.all, parts_[operand]);
@@ -37,8 +38,8 @@ Part FieldExpressions::read(const Reads& reads, NodeId operand) const {
                    applied(reads.twice, all(node.operands[2]))));
 }
 
-/// As lang/lower/lower_operators.cpp, with sums over links of products expanded: Σ w (a_i + a_j)
-/// (e_j − e_i) = a L(e) + L(a e) − e L(a), where L is the Laplacian.
+/// The same rules as in lang/lower/lower_operators.cpp, but with expanded sums of products over
+/// links: Σ w (a_i + a_j) (e_j − e_i) = a L(e) + L(a e) − e L(a), where L is the Laplacian.
 Part FieldExpressions::over_links(const Node& node) {
     const Part& of = parts_[node.reads().back()];
     if (of.is_uniform()) return {};
@@ -115,7 +116,7 @@ Part FieldExpressions::advection(const Node& node, const Boundaries& beyond) {
     return all;
 }
 
-/// By the entries of a tensor, the first operand.
+/// Adds up second derivatives times the entries of a tensor, which is the first operand.
 Part FieldExpressions::diffusion(const Node& node, const Boundaries& beyond) {
     const Node& tensor = (*plan_)[node.operands[0]];
     const auto term = [&](std::size_t entry, Difference kind, int first, int second) {
@@ -199,7 +200,7 @@ struct FieldExpressions::AtFace {
     Part quotient(NodeId vector, NodeId by) const {
         const Part divisor = average(by);
         if (divisor.is_uniform()) return continuation::quotient(flow(vector), divisor);
-        // Rows that belong to no face are 0.
+        // Rows that belong to no face are 0. There, the divisor becomes 1.
         const Values nowhere = (divisor.values == 0).cast<double>();
         return continuation::quotient(flow(vector), continuation::sum(divisor, Part{nowhere, {}}));
     }

@@ -1,4 +1,4 @@
-// Steps along a branch, whose lengths follow from the effort of Newton's method and from the bend
+// Takes steps along a branch. Their lengths depend on the effort of Newton's method and on the bend
 // of the branch.
 #include "continuation/branch.h"
 
@@ -21,8 +21,8 @@ constexpr int kept_eigenvalues = 16;
 void Follower::find_stability(Point& point, const Corrector::Solved& solved) const {
     if (!settings_.finds_stability) return;
     const std::vector<NeutralMode> neutral = corrector_.neutral_modes(solved);
-    // The eigenvalues of the reaction in single cells: the fastest growth and the frequency with
-    // which oscillations may begin.
+    // Finds the eigenvalues of the reaction in single cells. They give the fastest growth, and the
+    // frequency with which oscillations may begin.
     const Index species = corrector_.problem().species_count();
     const Index cells = corrector_.problem().cell_count();
     std::vector<Matrix> local(static_cast<std::size_t>(cells), Matrix::Zero(species, species));
@@ -44,7 +44,7 @@ void Follower::find_stability(Point& point, const Corrector::Solved& solved) con
     }
     std::vector<Complex> places{growth};
     if (turning.imag() > 0) places.emplace_back(0, turning.imag());
-    // Eigenvalues that have grown away from 0 are near those of the point before.
+    // Eigenvalues that have moved away from 0 are near eigenvalues of the point before.
     places.insert(places.end(), growing_before_.begin(), growing_before_.end());
     const auto modes = leading_modes(solved.at.jacobian, neutral, places, kept_eigenvalues, false,
                                      settings_.cancel);
@@ -69,8 +69,8 @@ Point Follower::point_at(const Corrector::Solved& solved, Tangent tangent) const
     return point;
 }
 
-/// The point at a distance along the tangent of another one. Empty if there is none, or after a
-/// cancellation.
+/// The point of the branch at the distance `step` from another point, along the tangent of that
+/// one. Empty if there is none, or after a cancellation.
 std::optional<Point> Follower::try_point(const Point& from, double step, int& rounds) const {
     if (is_cancelled()) return std::nullopt;
     const Place guess{from.place.state + step * from.tangent.state,
@@ -85,11 +85,12 @@ std::optional<Point> Follower::try_point(const Point& from, double step, int& ro
     return point_at(*solved, *std::move(tangent));
 }
 
-/// The point at the end of the parameter's range, between two points.
+/// The point between two points of a branch at which the branch leaves the parameter's range.
 std::optional<Point> Follower::end_at(const Point& inside, const Point& outside) const {
     const double end = outside.place.parameter > settings_.high ? settings_.high : settings_.low;
     const double span = outside.place.parameter - inside.place.parameter;
-    // If branches meet exactly at the end, there is a point very near it.
+    // If branches meet exactly at the end of the range, no point can be computed there, but very
+    // near it.
     for (const double less : {0.0, 1e-7}) {
         const double at = end - less * (end - inside.place.parameter);
         const double share = (at - inside.place.parameter) / span;
@@ -103,7 +104,7 @@ std::optional<Point> Follower::end_at(const Point& inside, const Point& outside)
     return std::nullopt;
 }
 
-/// Adds points after the last one, in the direction of its tangent. Returns why it ends.
+/// Adds points after the last one, in the direction of its tangent. Returns why the branch ends.
 std::string Follower::go(std::vector<Point>& points, std::size_t number) {
     const Place begin = points.back().place;
     double step = std::min(settings_.step, 0.01), farthest = 0;

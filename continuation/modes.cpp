@@ -1,8 +1,8 @@
 // Eigenvalues, of small matrices by Eigen, of larger ones by Spectra in shift-and-invert mode.
 //
 // A neutral mode x with its left vector y is moved out of sight by adding a multiple of x yᵀ to the
-// matrix (H. Wielandt, 1944), which changes no other eigenvalue. Factors of the sum are factors of
-// a sparse matrix with one more row and column.
+// matrix (H. Wielandt, 1944), which changes no other eigenvalue. Instead of the sum, which is
+// dense, a sparse matrix with one more row and column is factorised. The warning is off, because
 // g++ 12 takes memory of Eigen's elimination for used after its end.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wuse-after-free"
@@ -26,7 +26,7 @@ namespace {
 
 constexpr Index most_dense_symmetric = 320;
 constexpr Index most_dense = 120;          ///< Smaller matrices are decomposed completely.
-constexpr Index most_dense_rescue = 1500;  ///< The same if the search does not converge.
+constexpr Index most_dense_rescue = 1500;  ///< Like most_dense, if the search does not converge.
 
 /// The largest sum of magnitudes in a row.
 double size_of(const SparseColumns& matrix) {
@@ -42,7 +42,7 @@ double size_of(const SparseColumns& matrix) {
 /// Thrown out of a search that is cancelled.
 struct SearchEnded {};
 
-/// The matrix minus a shift, bordered with the neutral modes.
+/// The inverse of the matrix minus a shift. The matrix is bordered with the neutral modes.
 template <typename Number>
 class ShiftedInverse {
 public:
@@ -88,7 +88,7 @@ public:
         Eigen::Map<Vector>(out, size) = aside(solved.head(size).real());
     }
 
-    /// From now on leaves out the space of these eigenvectors, so that others are found.
+    /// From now on leaves out this eigenvector and its conjugate, so that others are found.
     void lock(const ComplexVector& vector) {
         for (const Vector& part : {Vector(vector.real()), Vector(vector.imag())}) {
             const double length = part.norm();
@@ -135,7 +135,7 @@ std::vector<Mode> all_modes(const SparseColumns& matrix, std::span<const Neutral
         modes.push_back({solver.eigenvalues()[k], {}});
         if (with_vectors) modes.back().vector = solver.eigenvectors().col(k);
     }
-    // The neutral modes are now the farthest to the left.
+    // The neutral modes now have the smallest real parts.
     std::ranges::sort(modes, std::greater(), [](const Mode& mode) { return mode.value.real(); });
     modes.resize(modes.size() - std::min(modes.size(), neutral.size()));
     return modes;
@@ -146,8 +146,8 @@ bool is_symmetric(const SparseColumns& matrix, double size) {
     return (matrix - other).norm() <= 1e-13 * size;
 }
 
-/// All eigenvalues of a symmetric matrix. A neutral mode of it is its own left vector, to rounding
-/// and the accuracy with which the grid moves a pattern.
+/// All eigenvalues of a symmetric matrix. The two vectors of each of its neutral modes are equal,
+/// up to rounding and to the accuracy with which the grid moves a pattern.
 std::vector<Mode> all_of_symmetric(const SparseColumns& matrix,
                                    std::span<const NeutralMode> neutral, double away) {
     Matrix dense = matrix;
@@ -164,7 +164,7 @@ std::vector<Mode> all_of_symmetric(const SparseColumns& matrix,
     return modes;
 }
 
-/// A vector whose elements look random, another one for each pass.
+/// A vector whose elements look random. It differs from pass to pass.
 Vector start_of(Index size, int pass) {
     Vector start(size);
     for (Index k = 0; k < size; ++k) {
@@ -175,7 +175,8 @@ Vector start_of(Index size, int pass) {
 
 /// The modes nearest to a shift. An iteration from one vector finds only one eigenvector of an
 /// eigenvalue that occurs several times. So it is repeated without the vectors that were found,
-/// until none is nearer than the farthest of the first pass. Empty if it does not converge.
+/// until it finds no mode that is nearer to the shift than the farthest mode of the first pass.
+/// Empty if it does not converge.
 template <typename Solver, typename Inverse, typename... Shift>
 std::optional<std::vector<Mode>> found_near(Inverse& inverse, Complex place, Index count,
                                             Shift... shift) {
@@ -203,7 +204,7 @@ std::optional<std::vector<Mode>> found_near(Inverse& inverse, Complex place, Ind
             if (pass > 0 && distance(values[k]) > radius * (1 - 1e-6)) continue;
             all.push_back({values[k], vectors.col(k)});
             inverse.lock(all.back().vector);
-            // The last of the modes may be half of a pair.
+            // The last mode may be one of a conjugate pair, without the other.
             const bool is_half = values[k].imag() != 0 && k + 1 == values.size() &&
                                  (k == 0 || values[k - 1] != std::conj(values[k]));
             if (is_half) all.push_back({std::conj(values[k]), vectors.col(k).conjugate()});
@@ -232,7 +233,7 @@ std::optional<std::vector<Mode>> modes_near(const SparseColumns& matrix,
                                                                    place.real(), place.imag());
 }
 
-/// Adds modes that are not there yet.
+/// Adds the modes of `more` that `modes` does not contain yet.
 void join(std::vector<Mode>& modes, std::vector<Mode> more, double apart) {
     const std::size_t before = modes.size();
     for (Mode& mode : more) {

@@ -61,13 +61,14 @@ std::int64_t PaddedGrid::position(Index padded, int axis) const {
     return padded / strides_[k] % padded_[k] - (axes_.has(axis) ? 1 : 0);
 }
 
-/// As fill_halo() does: columns first, then rows with their halo columns, then slices.
+/// Lists the halo cells in the order of fill_halo(): columns first, then rows with their halo
+/// columns, then slices.
 void PaddedGrid::find_halo() {
     for (const int axis : axes_.present) {
         for (Index cell = 0; cell < size_; ++cell) {
             const std::int64_t at = position(cell, axis);
             if (at >= 0 && at < length(axis)) continue;
-            // Cells beyond a side of a later axis are filled with that axis.
+            // A cell that is also beyond a side of a later axis is listed with that axis.
             bool is_later = false;
             Index beside = cell;
             for (int other = 0; other < 3; ++other) {

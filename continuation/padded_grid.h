@@ -25,7 +25,7 @@ public:
     /// The number of cells of the padded grid, and of the grid.
     Index size() const { return size_; }
     Index cell_count() const { return static_cast<Index>(cells_.size()); }
-    /// The numbers of all positions of the grid, in the same order.
+    /// The numbers of all positions of the grid in the padded grid. x varies fastest, z slowest.
     const std::vector<Index>& positions() const { return positions_; }
     /// Whether some positions of the grid are not cells of the domain.
     bool has_outside() const { return has_outside_; }
@@ -42,13 +42,13 @@ public:
     Index shift(Offset offset) const;
     /// The position of a cell of the padded grid along an axis: −1 or `length` in the halo.
     std::int64_t position(Index padded, int axis) const;
-    /// The halo cells, in an order in which each comes after the cell that lies next to it, inwards
-    /// along the last axis on which it is beyond a side.
+    /// A cell of the halo. In halo(), it comes after its cell `inner`, which lies next to it along
+    /// the last axis on which it is beyond a side.
     struct HaloCell {
         Index cell = 0, inner = 0;  ///< `inner` is the next cell inwards.
         Index opposite = 0;         ///< The cell at the other end of the axis.
         int side = 0;               ///< The number of a Side.
-        Index beside = 0;           ///< The grid's cell whose value of the side counts.
+        Index beside = 0;           ///< The cell of the grid at which the side's value is taken.
     };
     const std::vector<HaloCell>& halo() const { return halo_; }
 

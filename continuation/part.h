@@ -19,7 +19,7 @@ struct Part {
 
 /// The values repeated in `size` cells, unless there are as many already.
 Values spread(const Values& values, Index size);
-/// The rows multiplied by factors. Of factors and rows, either may be one for all cells.
+/// The rows multiplied by factors. There may be a single factor or a single row for all cells.
 SparseRows scaled(const Values& factors, const SparseRows& rows);
 /// Adds rows to a sum that may be empty. Either may be one row for all cells.
 void add_rows(SparseRows& sum, SparseRows rows);

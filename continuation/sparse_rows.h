@@ -1,4 +1,4 @@
-// The types of vectors and matrices of this room.
+// The types of vectors and matrices of continuation/.
 #pragma once
 
 #include <Eigen/SparseCore>

@@ -12,13 +12,13 @@ namespace cascade::continuation {
 namespace {
 
 constexpr int most_halvings = 40;
-constexpr double beside_singular = 1e-7;  ///< The least distance from a singular point, per step.
-constexpr double narrow = 1e-7;  ///< The length of an interval that contains a point, per step.
+constexpr double beside_singular = 1e-7;  ///< The least distance from a singular point, in steps.
+constexpr double narrow = 1e-7;           ///< The length of an interval around a point, in steps.
 
 }  // namespace
 
-/// The point between two points where a test changes its sign, after `low` of the step. The regula
-/// falsi, in which an end that stays is weighed down (Illinois).
+/// The point between two points where a test changes its sign, at a distance of at least `low` from
+/// the first one. Uses the regula falsi, but halves the value at an end that stays (Illinois).
 std::optional<Follower::Event> Follower::find(
     const Point& from, const Point& to, double step, double low,
     const std::function<double(const Point&)>& test) const {
@@ -35,7 +35,8 @@ std::optional<Follower::Event> Follower::find(
                             high - std::min(margin, narrow * step));
         int rounds = 0;
         auto point = try_point(from, middle, rounds);
-        // Where branches meet, the equations have no solution to be computed. Very near they have.
+        // Where branches meet, the equations are singular and cannot be solved. Very near, they
+        // can.
         const bool is_singular = !point;
         for (double beside = beside_singular; !point && beside < 2e-3; beside *= 10) {
             point = try_point(from, middle + beside * step, rounds);
@@ -60,7 +61,7 @@ std::optional<Follower::Event> Follower::find(
     return best;
 }
 
-/// Where eigenvalues pass the imaginary axis, in the order of the step.
+/// The points where eigenvalues pass the imaginary axis, in the order in which they do.
 std::vector<Follower::Event> Follower::crossings(const Point& from, const Point& to,
                                                  double step) const {
     std::vector<Event> found;
@@ -68,7 +69,7 @@ std::vector<Follower::Event> Follower::crossings(const Point& from, const Point&
     const int change = *to.growing - *from.growing;
     const int sign = change > 0 ? 1 : -1;
     for (int passed = 0; passed < std::abs(change);) {
-        // The eigenvalues are sorted, so that the next one that passes has this number.
+        // The eigenvalues are sorted, so this is the index of the next one that passes.
         const auto number = static_cast<std::size_t>(sign > 0 ? *from.growing + passed
                                                               : *from.growing - 1 - passed);
         const auto test = [&](const Point& point) {
@@ -78,7 +79,7 @@ std::vector<Follower::Event> Follower::crossings(const Point& from, const Point&
         auto event = find(from, to, step, 0, test);
         if (!event) break;
         const double span = std::abs(test(from)) + std::abs(test(to));
-        // Eigenvalues that pass together count together.
+        // Eigenvalues that pass at the same point are one event.
         int together = 0;
         for (; passed < std::abs(change); ++passed, ++together) {
             const int next = sign > 0 ? *from.growing + passed : *from.growing - 1 - passed;
@@ -95,7 +96,7 @@ std::vector<Follower::Event> Follower::crossings(const Point& from, const Point&
     return found;
 }
 
-/// The size of what differs from cell to cell, in the lengths of Scales.
+/// The length of a state's deviation from its means over the cells, as Scales measures it.
 double Follower::unevenness(const Vector& state) const {
     const Index species = corrector_.problem().species_count();
     const Vector& weights = corrector_.scales().weights;
@@ -108,7 +109,8 @@ double Follower::unevenness(const Vector& state) const {
     return std::sqrt(sum);
 }
 
-/// Whether a point between two points of a branch is the same in all cells, and they are not.
+/// Whether the state at `at` is the same in all cells, although a state of the branch before or
+/// after it is not.
 bool Follower::vanishes_between(const Point& at, const Point& from, const Point& to) const {
     const double beside = std::max(unevenness(from.place.state), unevenness(to.place.state));
     return beside > 1e-6 && unevenness(at.place.state) < 0.01 * beside;
@@ -118,7 +120,7 @@ std::vector<Point> Follower::events(const Point& from, const Point& to, double s
     std::vector<Event> found = crossings(from, to, step);
     const auto turns_back = [](const Point& point) { return point.tangent.parameter; };
     if (auto turn = find(from, to, step, 0, turns_back)) {
-        // At a fold an eigenvalue passes 0 without another branch.
+        // At a fold, an eigenvalue passes 0 although no other branch begins there.
         const auto distance = [&](const Event& event) {
             const bool is_real = event.point.kind == PointKind::branch;
             return is_real ? std::abs(event.at - turn->at) : step;
@@ -128,7 +130,7 @@ std::vector<Point> Follower::events(const Point& from, const Point& to, double s
             found.erase(same);
         }
         // A symmetric branch turns back where it meets the branch of symmetric states. There the
-        // orientation changes once more than at the other branch points.
+        // orientation changes one time more often than at other branch points.
         int changes = from.tangent.orientation == to.tangent.orientation ? 0 : 1;
         for (const Event& event : found) {
             if (event.point.kind == PointKind::branch) changes += event.point.crossing;
@@ -158,10 +160,10 @@ bool Follower::is_known(const Point& point) const {
     });
 }
 
-/// The directions of the branches that begin at a branch point, without its own tangent: vectors
-/// that no rate feels. If there are several, the symmetric ones whose mirror is the first cell:
-/// stripes across each axis, and spots. If the branch itself goes in such a direction, the other
-/// branch is found by changing the parameter alone.
+/// The directions of the branches that begin at a branch point, without its own tangent: changes of
+/// the state that change no rate. If there are several, takes those that are symmetric about the
+/// first cell: stripes across each axis, and spots. If the branch itself goes in such a direction,
+/// the other branch is found by changing the parameter alone.
 std::vector<Direction> Follower::ways_from(const Point& point) const {
     const auto solved = corrector_.solve(point.place, point.tangent);
     if (!solved) return {};
@@ -208,7 +210,7 @@ std::vector<Direction> Follower::ways_from(const Point& point) const {
     return ways;
 }
 
-/// The first point of the branch that begins at a point in a direction.
+/// The first point of the branch that begins at `from` in the direction `way`.
 std::optional<Point> Follower::first_on(const Point& from, Direction way) const {
     for (double step = settings_.step; step > settings_.step / 1000; step /= 3) {
         const Place guess{from.place.state + step * way.state,

@@ -19,7 +19,7 @@ namespace {
 
 constexpr const char* no_steady_state = "so that no state is steady";
 
-/// The parameters that depend on a parameter, in an order in which to compute them.
+/// The parameters that depend on `varied`. Each comes after those that it reads.
 Result<std::vector<ItemId>> followers_of(const Program& program, std::uint32_t stage,
                                          ItemId varied) {
     const System& system = program.system_of(stage);
@@ -269,8 +269,8 @@ Matrix SteadyProblem::conserved_near(const Vector& state, double parameter) {
     }
     const Linearised at = linearised(other, parameter);
     if (!at.rates.allFinite()) return Matrix(size(), 0);
-    // The sums of each column over the rows of each species. A combination of the species whose
-    // total does not change has weights that are orthogonal to all of them.
+    // Adds up each column over the rows of each species. If the total of a combination of species
+    // does not change, its weights are orthogonal to all these sums.
     Matrix sums = Matrix::Zero(species_count(), size() + 1);
     for (Index column = 0; column < size(); ++column) {
         for (SparseColumns::InnerIterator entry(at.jacobian, column); entry; ++entry) {

@@ -24,15 +24,16 @@ struct Linearised {
     Vector by_parameter;
 };
 
-/// Checks whether a stage can have steady states that this room can compute. Fails with the reason,
-/// the rest of a sentence that begins with the stage. Fails before anything is run.
+/// Checks, before anything is run, whether a stage can have steady states that continuation/ can
+/// compute. If not, fails with the reason, as the rest of a sentence that begins with the stage.
 Result<void> check_steady(const Program& program, std::uint32_t stage);
 
 class SteadyProblem {
 public:
-    /// `varied` is a parameter that is the same in all cells. Parameters that depend on it follow
-    /// it. Fails like check_steady(), and if an expression is not supported. The program must
-    /// outlive the problem. `constants` also gives the planes of a model or of a metric.
+    /// `varied` is a parameter that is the same in all cells. Parameters that depend on it change
+    /// with it. Fails in the same cases as check_steady(), and if an expression is not supported.
+    /// The program must outlive the problem. `constants` also gives the planes of a model or of a
+    /// metric.
     static Result<SteadyProblem> create(const Program& program, std::uint32_t stage,
                                         const DomainCells& cells, ItemId varied,
                                         const ConstantValues& constants);
@@ -40,25 +41,26 @@ public:
     Index size() const { return cell_count() * species_count(); }
     Index cell_count() const { return grid_->cell_count(); }
     Index species_count() const { return static_cast<Index>(species_.size()); }
-    /// The area of each cell, in parts of the mean area.
+    /// The area of each cell, as a multiple of the mean area.
     const Vector& areas() const { return areas_; }
 
     Vector rates(const Vector& state, double parameter);
     Linearised linearised(const Vector& state, double parameter);
 
     /// The totals that no rate changes, one in each column: weights of the unknowns. They are
-    /// totals of species and of sums of species, in which cells count by their areas. Looks at
-    /// another state near the given one, at which no rate has an accidental slope of 0.
+    /// totals of species and of sums of species, in which cells count by their areas. Takes the
+    /// slopes of the rates at a state near the given one, where none is 0 by accident.
     Matrix conserved_near(const Vector& state, double parameter);
     /// The derivatives of a state along the motions that give other steady states. On a model these
-    /// are the rotations of a sphere or torus. On a grid they are translations along the axes ///
-    /// that are periodic and along which no rate depends on the position.
+    /// are the rotations of a sphere or torus. On a grid they are translations along the axes that
+    /// are periodic and along which no rate depends on the position.
     std::vector<Vector> motions(const Vector& state) const;
-    /// The least part of a motion that must differ from the motions before it to count. The motions
-    /// of a model are not exact.
+    /// A motion counts only if more than this fraction of it is orthogonal to the motions before
+    /// it. The fraction is larger on a model, whose motions are not exact.
     double least_part() const { return turns_.empty() ? 0.02 : 0.2; }
     /// Changes of the species that `like` changes most, symmetric about the first cell. For each
-    /// axis one changes all cells at position 0. The last one changes only the first cell.
+    /// axis, one of the changes is in all cells at position 0 of this axis. The last change is only
+    /// in the first cell.
     std::vector<Vector> even_shapes(const Vector& like) const;
 
 private:

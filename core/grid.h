@@ -128,8 +128,9 @@ struct PlaneLayout {
     std::int64_t row_count() const { return height * depth; }
     /// The number of rows in memory from one slice to the next.
     std::int64_t slice_rows() const { return height + 2; }
-    /// Whether memory holds the halo before the first row or slice of the grid, or after the last.
+    /// Whether memory holds the halo before the first row or slice of the grid.
     bool has_first() const { return rows.begin <= 0; }
+    /// Whether memory holds the halo after the last row or slice of the grid.
     bool has_last() const { return rows.end >= row_count(); }
 
     /// The number of elements from cell (0, 0, 0) to the first cell of a row. Rows are numbered

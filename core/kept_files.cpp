@@ -68,8 +68,8 @@ std::string read_own_file(const Descriptor& folder, const std::string& name) {
         if (got <= 0) return {};
         used += static_cast<std::size_t>(got);
     }
-    // The modification time of a file in use is renewed at most once a day. Files unused for
-    // longest are removed first.
+    // The modification time tells when a file was last used, to within a day, because the files
+    // unused for longest are removed first.
     constexpr long day = 24 * 60 * 60;
     if (status.st_mtime + day < ::time(nullptr)) ::futimens(file.number(), nullptr);
     return bytes;

@@ -60,8 +60,7 @@ public:
         std::array<Range, slice_cells> links;
         std::array<std::int64_t, slice_cells> own{};
 
-        /// Selects the cell that has most of the remaining links, and returns these links; null if
-        /// no links remain.
+        /// The remaining links of the cell that has most of them; null if no links remain.
         const Range* longest() const {
             const auto most =
                 std::max_element(links.begin(), links.end(),
@@ -216,8 +215,8 @@ void Links::add_slice(auto slice, const PlacedLinks& links, const PlaneLayout& l
     auto least = static_cast<std::int32_t>(slice.first), most = least;
     for (std::size_t k = 0; k < elements.size(); ++k) {
         const auto cell = static_cast<std::int32_t>(links.neighbours[first + k]);
-        // Truncates to the right row, because half a cell is far more than the product's rounding
-        // error.
+        // Truncation gives the correct row, because half a cell is far more than the product's
+        // rounding error.
         const auto row = static_cast<std::int32_t>((cell + 0.5) * row_of_cell);
         elements[k] = cell + row * beside_row;
         least = std::min(least, elements[k]);

@@ -10,7 +10,7 @@
 namespace cascade {
 
 /// Values count as uniform if their standard deviation is at most this fraction of their largest
-/// magnitude. The fraction is about the relative rounding error of binary32.
+/// magnitude. The fraction is about a hundred times the relative rounding error of binary32.
 inline constexpr double uniform_deviation = 1e-5;
 /// Values also count as uniform if their standard deviation is at most this fraction of the largest
 /// magnitude that they ever had: such small differences are the remains of a pattern that has died

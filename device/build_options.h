@@ -8,8 +8,8 @@
 
 namespace cascade {
 
-/// Options for programs of a target on a device. Never an option that allows other bits, such as
-/// -cl-mad-enable.
+/// Options for programs of a target on a device. They include no option that lets the device change
+/// bits of results, such as -cl-mad-enable.
 inline std::string build_options(const TextTarget& target, const DeviceFacts& facts) {
     std::string options = "-cl-std=CL1.2 -w";
     if (target.flushing == Flushing::by_device) options += " -cl-denorms-are-zero";

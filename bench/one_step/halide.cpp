@@ -91,7 +91,7 @@ int main(int count, char** words) {
     }
     const bool is_tiled = std::string(words[1]) == "tiles";
     const int side = std::atoi(words[2]), steps = std::atoi(words[3]);
-    const int border = is_tiled ? steps_a_tile : 1;  // As many cells as steps are taken at once.
+    const int border = is_tiled ? steps_a_tile : 1;  // Each step in a tile needs one more cell.
     Buffer<float> u = plane_of(side, border), v = plane_of(side, border);
     Buffer<float> next_u = plane_of(side, border), next_v = plane_of(side, border);
     for (int k = 0; k < side; ++k) {

@@ -27,8 +27,7 @@ double start_v(int side, int i, int k) {
            0.05 * std::cos(4 * pi * x) * std::cos(14 * pi * y);
 }
 
-/// Two species, now and after the step. Rows have `border` further cells at both ends, and there
-/// are as many rows above and below.
+/// Two species, before and after the step, in planes with `border` further cells on every side.
 template <typename Number>
 struct Planes {
     Planes(int cells, int border_cells)

@@ -46,7 +46,8 @@ std::vector<HalideSchedule> schedules() {
             {Kind::windows, 16, 1024}, {Kind::windows, 4, 2048}, {Kind::windows, 16, 2048}};
 }
 
-/// A comparison of different computations would be worthless.
+/// Ends the program if the sides compute different values, because then the comparison would be
+/// worthless.
 void check_agreement(Backend& backend, const System& system, HalideProgram& program) {
     constexpr std::int64_t steps = 64;
     const std::int64_t side = std::max(256, program.schedule().width);

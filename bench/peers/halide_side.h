@@ -24,7 +24,7 @@ enum class HalideSystem { turing, gray_scott, stripes };
 struct HalideSchedule {
     enum class Kind {
         rows,  ///< One step per pass through memory, several rows at once.
-        /// Tiles. Around each, earlier steps are computed as far as the last step needs them.
+        /// Tiles. Steps before the last also compute the cells around a tile that later steps read.
         tiles,
         /// Row by row through all steps. Steps before the last compute only the rows that the next
         /// step needs.
@@ -48,7 +48,8 @@ public:
     const HalideSchedule& schedule() const { return schedule_; }
 
     /// Takes as many steps as the schedule has, from `now` to the cells [0, W) × [0, H) of `next`.
-    /// Planes have a halo of most_steps cells. A pass reads as many of these as it has steps.
+    /// Planes have a halo of most_steps cells. A schedule of n steps reads the n halo cells next to
+    /// the grid.
     void run(const std::vector<Halide::Buffer<float>>& now, const Halide::Buffer<float>& varying,
              const Halide::Buffer<std::uint8_t>& frozen,
              const std::vector<Halide::Buffer<float>>& next);
