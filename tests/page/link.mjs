@@ -68,7 +68,7 @@ async function of_an_exported_page() {
     await open(pathToFileURL("spots.html").href);
     await has_stages(2);
     const on_disk = await link();
-    expect(!on_disk.code && on_disk.said.includes("where this file lies"), `on a disk it says: ${on_disk.said}`);
+    expect(!on_disk.code && on_disk.said.includes("where this file is"), `on a disk it says: ${on_disk.said}`);
     await open(on_disk.link);
     await has_stages(2);
 

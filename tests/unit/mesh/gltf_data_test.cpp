@@ -49,7 +49,7 @@ TEST(GltfSparse, OfIntegersCornersAndTargets) {
     EXPECT_THAT(soup->polygon(0), testing::ElementsAre(0, 1, 2));
     expect_points(soup->points, {{0, 0, 0}, {1, 0, -2}, {0, 2, 0}});
     file.accessor(corners).erase("bufferView");
-    EXPECT_THAT(file.fault(), HasSubstr("sparse without a base"));
+    EXPECT_THAT(file.fault(), HasSubstr("sparse values without a base"));
 }
 
 TEST(GltfNodes, MirroredTrianglesAreTurned) {

@@ -97,7 +97,7 @@ TEST(MakeMesh, TwoCubesAtAnEdgeBecomeTwoPieces) {
     EXPECT_DOUBLE_EQ(facts.area, 12);
     EXPECT_EQ(facts.components, 2u);
     EXPECT_EQ(facts.euler_characteristic, 4);
-    EXPECT_THAT(parted.repairs, testing::Contains(HasSubstr("1 edge of more than two faces")));
+    EXPECT_THAT(parted.repairs, testing::Contains(HasSubstr("1 edge with more than two faces")));
 }
 
 TEST(MakeMesh, TwoCubesAtAPointShareNoPoint) {
