@@ -72,7 +72,7 @@ TEST(EarlyErrors, LeaveNoFolders) {
     const auto folder = std::filesystem::temp_directory_path() / "cascade_early" / "saved";
     std::filesystem::remove_all(folder.parent_path());
     const Refusal refusal = refusal_of("attr(\"weight\")", [&](RunRequest& r) { r.save = folder; });
-    expect_early(refusal, "have no 'weight'");
+    expect_early(refusal, "have no attribute 'weight'");
     EXPECT_FALSE(std::filesystem::exists(folder.parent_path()));
 }
 

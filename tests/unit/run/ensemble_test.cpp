@@ -91,10 +91,10 @@ TEST(Ensemble, ACurveNeedsANameWithNumbers) {
     };
     EXPECT_EQ(fault("wavelength", {"ka=1/4,1/2", "solver=euler,rk4", "seed=1,2"}), "");
     EXPECT_EQ(fault("cells", {"seed=1,2", "ka=1,2"}), "");
-    EXPECT_THAT(fault("waves", {"ka=1,2"}), HasSubstr("no curve of 'waves'"));
-    EXPECT_THAT(fault("angle", {"ka=1,2"}), HasSubstr("no curve of 'angle'"));
+    EXPECT_THAT(fault("waves", {"ka=1,2"}), HasSubstr("cannot draw a curve of 'waves'"));
+    EXPECT_THAT(fault("angle", {"ka=1,2"}), HasSubstr("cannot draw a curve of 'angle'"));
     EXPECT_THAT(fault("mean", {"seed=1,2"}), HasSubstr("other than the seed"));
-    EXPECT_THAT(fault("mean", {"solver=euler,rk4"}), HasSubstr("'euler', a value of solver"));
+    EXPECT_THAT(fault("mean", {"solver=euler,rk4"}), HasSubstr("'euler' of solver is not a number"));
 }
 
 TEST(Ensemble, ACurveHasADiscForEachMeanAndABarForEachInterval) {

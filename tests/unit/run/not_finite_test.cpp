@@ -59,11 +59,11 @@ TEST(NotFinite, DoesNotAskAStateThatIsSpoiled) {
     EXPECT_THAT(describe(report).hint,
                 HasSubstr("or the steps are too long; 'solver: rk23' chooses"));
     report.estimate_at_start.largest_speed = 1.5;
-    EXPECT_THAT(describe(report).hint, HasSubstr("the largest stable speed is about 1.5 "));
+    EXPECT_THAT(describe(report).hint, HasSubstr("the largest stable speed is about 1.5,"));
     // The stable speed of a state that has only begun to grow is reported.
     report.largest_before = 20;
     report.estimate_before.largest_speed = 0.5;
-    EXPECT_THAT(describe(report).hint, HasSubstr("the largest stable speed is about 0.5 "));
+    EXPECT_THAT(describe(report).hint, HasSubstr("the largest stable speed is about 0.5,"));
 }
 
 TEST(NotFinite, KnowsThatAnAdaptiveSolverFollowsWhatGrows) {

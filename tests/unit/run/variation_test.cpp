@@ -85,9 +85,9 @@ TEST(Variation, SaysWhatIsWrong) {
     EXPECT_THAT(fault_of("a="), HasSubstr("a value is missing"));
     EXPECT_THAT(fault_of("a=1,,2"), HasSubstr("a value is missing"));
     EXPECT_THAT(fault_of("a=0..1"), HasSubstr("the number of values"));
-    EXPECT_THAT(fault_of("a=x..1:3"), HasSubstr("are numbers"));
-    EXPECT_THAT(fault_of("a=0..1/0:3"), HasSubstr("are numbers"));
-    EXPECT_THAT(fault_of("a=nan..1:3"), HasSubstr("are numbers"));
+    EXPECT_THAT(fault_of("a=x..1:3"), HasSubstr("must be numbers"));
+    EXPECT_THAT(fault_of("a=0..1/0:3"), HasSubstr("must be numbers"));
+    EXPECT_THAT(fault_of("a=nan..1:3"), HasSubstr("must be numbers"));
     for (const char* count : {"", "0", "-1", "2.5", "10001", "99999999999999999999"}) {
         EXPECT_THAT(fault_of(std::string("a=0..1:") + count), HasSubstr("1 to 10000 values"));
     }
