@@ -120,7 +120,8 @@ private:
         return true;
     }
 
-    /// The estimate finds spoiled values, because the error is not finite if a value is not.
+    /// Takes a step and estimates its error. The estimate also finds spoiled values, because the
+    /// error is not finite if a value is not.
     bool take_judged_step() {
         if (!tuner_.take_judged_step([this] { return lengths_.take_judged_step(outcome_); })) {
             return false;

@@ -94,7 +94,7 @@ public:
     /// Stepper::curve() of the last step. An observer may call this.
     std::vector<Field> curve() const;
 
-    /// How the last steps passed through memory; see Stepping.
+    /// How the last steps went through memory; see Stepping.
     Stepping stepping() const;
 
 private:

@@ -59,7 +59,7 @@ bool BatchTuner::take_steps(const StepProblem& problem, std::int64_t count, bool
 }
 
 bool BatchTuner::take_judged_step(const std::function<bool()>& take) {
-    // If the errors of only some steps are estimated, the other steps are measured.
+    // If the errors of only some steps are estimated, only the other steps are measured.
     if (!schedule_.judges_all) return take();
     const StepProblem& problem = stepper_.problem();
     const bool is_native = !problem.is_provisional();
@@ -99,7 +99,7 @@ std::int64_t BatchTuner::sweeps_of_step() const {
     return static_cast<std::int64_t>(stepper_.problem().passes.size());
 }
 
-/// The number of steps taken in one pass through memory, at least 1.
+/// The number of steps taken together while their values are in a cache, at least 1.
 std::int64_t BatchTuner::steps_at_once() const {
     const std::int64_t sweeps = sweeps_of_step();
     return (stepper_.executor().levels() + sweeps - 1) / sweeps;

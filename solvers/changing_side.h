@@ -49,9 +49,9 @@ struct ChangingSide {
 using SpeciesPlanes = std::vector<const Field*>;
 SpeciesPlanes planes_of(std::span<const Field> species);
 
-/// Computes the values at a species' sides for `moment` and stores them in `rules`. Computes only
-/// the values that determine halo cells that depend on `cells`. `present` holds all species at that
-/// moment in these cells. Must run inside a FlushDenormals.
+/// Computes the values at a species' sides for `moment` and stores them in `rules`. Computes values
+/// only for the halo cells that depend on `cells`. `present` holds all species at that moment in
+/// these cells. Must run inside a FlushDenormals.
 void set_side_values(std::span<const ChangingSide> sides, SpeciesId species, SideMoment moment,
                      const SpeciesPlanes& present, const PlaneLayout& layout, const Patch& cells,
                      SideRules& rules);

@@ -13,8 +13,8 @@ namespace cascade {
 namespace {
 
 constexpr std::int64_t cells_of_block = 64;
-/// On a grid of more than `many_cells` cells, only every second, third or fourth band of blocks is
-/// examined. Above `most_cells`, the bands hold about `most_cells` cells in all.
+/// Of the bands of blocks, only every n-th is examined. n is the number of cells divided by
+/// `many_cells`, from 1 to 4, or divided by `most_cells` if that is more.
 constexpr std::int64_t many_cells = std::int64_t{1} << 14, most_cells = std::int64_t{1} << 22;
 /// The limits of correlation, for neighbours on a grid and for linked cells.
 constexpr double grid_limit = 0.5, link_limit = 0.3;

@@ -13,7 +13,7 @@ namespace cascade {
 /// opposite phase do not cancel, and an alternation in a small part of the field is found, too. A
 /// block counts if the correlation of neighbours is below −½, and too low for white noise with the
 /// same number of pairs (by 4.5 standard deviations of Fisher's z). Almost uniform blocks and
-/// fields of fewer than 8 pairs are skipped. On grids of more than 2¹⁵ cells, only bands of blocks
+/// fields of fewer than 8 pairs are skipped. On grids of at least 2¹⁵ cells, only bands of blocks
 /// at equal distances are examined. In a field of linked cells a block is 64 cells adjacent in
 /// memory, and the limit is −0.3, because three mutual neighbours cannot all alternate.
 ///

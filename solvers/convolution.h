@@ -30,8 +30,8 @@ std::int64_t lags_in_box(const Grid& grid, std::optional<double> reach);
 /// The lags up to a distance `reach` in the unit of Grid::spacing, in order of z, y and x. Along an
 /// axis whose sides are not periodic, lags are limited to the extent of the grid. Along a periodic
 /// axis, they wrap around as often as the reach requires. Without a reach, a periodic axis has one
-/// lag for each of its cells: the shortest lag that leads there, and the positive lag if two are
-/// equally short. nullopt if there would be more than most_lags.
+/// lag for each of its cells: the shortest lag that leads to the cell, and the positive lag if two
+/// are equally short. nullopt if there would be more than most_lags.
 std::optional<std::vector<Lag>> lags_within(const Grid& grid, std::optional<double> reach);
 
 /// A weighted sum over the cells at `lags`.

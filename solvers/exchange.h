@@ -7,9 +7,9 @@
 // aggregate in pairs (ir/reduction.h), and the squares of errors row by row
 // (solvers/field_norms.h). So the results equal those of an undivided grid bit for bit.
 //
-// A part may compute several passes between two exchanges. Its halos then have a layer for each
-// pass and row that the pass reaches. Each pass also computes those layers of the halo that the
-// later passes read, so neighbours compute the same values (solvers/part_halos.h).
+// A part may compute several passes between two exchanges. For each of these passes, its halos have
+// as many layers as the pass reaches rows or slices. Each pass also computes those layers of the
+// halo that the later passes read, so neighbours compute the same values (solvers/part_halos.h).
 #pragma once
 
 #include "core/grid.h"

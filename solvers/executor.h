@@ -58,7 +58,7 @@ struct StepPass {
     CopyRoles roles;
 };
 
-/// The error of a species in a step, and its new values.
+/// The error of a species in a step, and the species' new values.
 struct ErrorOfStep {
     /// The root mean squares of the errors and of the values over the cells. Not finite if an error
     /// or a value is not finite.
@@ -119,10 +119,10 @@ public:
     virtual std::vector<Tiling> tilings_to_try() const = 0;
     /// From now on uses this tiling, even if the problem changes.
     virtual void use_tiling(const Tiling& tiling) = 0;
-    /// The largest number of passes that are run in one pass through memory or, in a part of a
-    /// grid, between two exchanges of halos.
+    /// The largest number of passes that run together while their values are in a cache or, in a
+    /// part of a grid, between two exchanges of halos.
     virtual int levels() const = 0;
-    /// How steps pass through memory; see Stepping.
+    /// How steps go through memory; see Stepping.
     virtual Stepping stepping() const = 0;
 };
 

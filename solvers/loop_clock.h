@@ -27,8 +27,8 @@ public:
     bool is_over() const;
     /// Whether the loop has reached the end of the schedule.
     bool is_at_last_step() const { return step >= schedule_.last_step; }
-    /// The number of remaining steps. If the stage has an end time, it follows from the remaining
-    /// time and the present length of steps, otherwise from the schedule.
+    /// The number of remaining steps. If the stage has an end time, the number follows from the
+    /// remaining time and the present length of steps, otherwise from the schedule.
     double steps_left() const;
 
     bool is_judging() const { return schedule_.tolerance > 0; }

@@ -91,8 +91,8 @@ void HaloReads::add(Field* plane, std::int64_t width) {
     if (!is_in(planes_)) planes_.push_back(plane);
 }
 
-/// Some pass reads the plane at neighbours. Scratch registers may be swapped after a step, so the
-/// planes of a species in all of them count as one.
+/// Whether some pass reads the plane at neighbours. Scratch registers may be swapped after a step,
+/// so the planes of a species in all scratch registers count as one.
 bool HaloReads::is_read_at_neighbours(const StepProblem::PlaneRef& ref) const {
     const StepProblem& problem = problem_.get();
     if (!problem.has_halo()) return true;

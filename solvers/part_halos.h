@@ -2,11 +2,11 @@
 // they need for them.
 //
 // A pass reads the layers beside a cell. So a part that is to compute L passes by itself first gets
-// a halo of L layers. The first pass computes its own layers and L − 1 layers of the halo on both
-// sides, the next one L − 2, and the last one only its own layers. Both neighbours compute the
-// layers around their border, from the same values with the same kernels, so their bits are equal.
-// On a periodic axis the layers beyond the grid are copies of layers at its other end. They are
-// computed as those: with the row numbers of the other end, but in the memory of the halo.
+// a halo of L layers. The first pass computes the part's own layers and L − 1 layers of the halo on
+// both sides, the next pass L − 2, and the last pass only the part's own layers. Both neighbours
+// compute the layers around their border, from the same values with the same kernels, so their bits
+// are equal. On a periodic axis the layers beyond the grid are copies of layers at its other end.
+// They are computed as those: with the row numbers of the other end, but in the memory of the halo.
 #pragma once
 
 #include "solvers/exchange.h"
@@ -42,13 +42,14 @@ bool wraps_between_parts(const StepProblem& problem);
 /// before and after the rows or slices of the grid. Parts do not fill them after the last pass.
 void fill_across(const StepProblem& problem, std::span<Field> species);
 
-/// Collects the planes whose halos a number of levels read before they write them.
+/// Collects the planes whose halos must be filled before several levels run, because a level reads
+/// them before any level writes them.
 class HaloReads {
 public:
-    /// `levels` levels follow.
+    /// `levels` is the number of levels that will be added.
     HaloReads(const StepProblem& problem, std::int64_t levels) : problem_(problem), left_(levels) {}
 
-    /// The next level is this pass. `plane_of` gives the memory of a plane.
+    /// Adds a pass as the next level. `plane_of` gives the memory of a plane.
     template <typename PlaneOf>
     void add(std::size_t pass, const PlaneOf& plane_of) {
         --left_;
@@ -64,7 +65,7 @@ public:
 
     /// The planes, each once.
     const std::vector<Field*>& planes() const { return planes_; }
-    /// The widest halo that a level reads, in layers that a pass reaches.
+    /// The widest halo that a level reads. The unit is the number of layers that a pass reaches.
     std::int64_t width() const { return width_; }
 
 private:

@@ -57,9 +57,9 @@ PlaneLayout layout_of(const StepProblem& problem, const Exchange* others);
 class PassRunner {
 public:
     /// Allocates temporaries. `others` are the other parts of the grid, or null if this process
-    /// computes the whole grid. With other parts, all threads begin and end their work together
-    /// with them. Fields and masks that `problem` refers to cover the whole grid. `problem` and
-    /// `others` must outlive the runner.
+    /// computes the whole grid. If there are other parts, all threads begin and end their work
+    /// together with these parts. Fields and masks that `problem` refers to cover the whole grid.
+    /// `problem` and `others` must outlive the runner.
     explicit PassRunner(const StepProblem& problem, Exchange* others = nullptr);
     ~PassRunner();
 

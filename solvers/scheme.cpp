@@ -70,7 +70,7 @@ SweepForm first_legendre_form() {
 }
 
 /// Y_j = ((j − 1)/j (Y_{j−1} − Y_{j−2}) + μ̃ τ L(Y_{j−1})) + Y_{j−1}. This is the paper's sum in
-/// another order, whose factors of Y_{j−1} and Y_{j−2} add up to 1, so a sweep reads no third
+/// another order. The paper's factors of Y_{j−1} and Y_{j−2} add up to 1, so a sweep reads no third
 /// stage. Inputs: Y_{j−1}, Y_{j−2}.
 SweepForm rkl1_form() {
     SweepForm form;

@@ -18,7 +18,7 @@ public:
     virtual ~SharedSteps() = default;
 
     /// Called in all processes before a batch of steps. Returns the decision of the first process.
-    /// If it sets the flag that cancels the run, it does so in all processes.
+    /// If the call sets the flag that cancels the run, it does so in all processes.
     virtual LoopDecision agree(LoopDecision own) = 0;
 };
 

@@ -9,8 +9,9 @@ struct SolveReport {
     /// The norm of the residual, divided by the norm of the constraint with the field 0: the
     /// largest such quotient of all solutions.
     double largest_rest = 0;
-    /// The mean of the constraint if its field is 0, divided by the root mean square. No field can
-    /// balance this mean. Set only for fields to which any constant may be added.
+    /// The mean of the constraint if its field is 0, divided by the constraint's root mean square:
+    /// the largest such quotient of all solutions. No field can balance this mean. Set only for
+    /// fields to which any constant may be added.
     double largest_mean = 0;
 };
 

@@ -37,9 +37,9 @@ public:
     /// Judges the species at time t, later than the last call. Returns true if the stage has
     /// settled. The speed of a species is rms(new − old)/Δt. The speed of its pattern leaves out
     /// the change of the mean. A species has settled if its speed is at most `tolerance` times the
-    /// speed of its pattern at its greatest progress. If its progress never rose, it must also be
-    /// slow relative to its own contrast. The first call only sets the first state. With a mask
-    /// `inside`, only cells where the mask is not 0 count.
+    /// speed that its pattern had at the greatest progress. If the progress never rose, the species
+    /// must also be slow relative to its own contrast. The first call only sets the first state.
+    /// With a mask `inside`, only cells where the mask is not 0 count.
     bool settled(std::span<const Field> species, double t, double tolerance,
                  const Mask* inside = nullptr);
 

@@ -108,8 +108,8 @@ void StencilInverse<Number>::find_factors(const WaveBlock<Number>& block, Number
     }
 }
 
-/// The stencil's weights along a block's axis, summed over the waves of a line, by the distance
-/// along the axis. Weights at equal distances are added.
+/// The stencil's weights by the distance along a block's axis. Weights across the axis are
+/// multiplied by cosines of the waves of a line, and summed. Weights at equal distances are added.
 template <typename Number>
 std::vector<double> StencilInverse<Number>::weights_along(const WaveBlock<Number>& block,
                                                           std::int64_t line) const {

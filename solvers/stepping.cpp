@@ -45,7 +45,7 @@ void describe(const StepProblem& problem, int levels, Stepping& stepping) {
     }
 }
 
-/// The number of passes through memory per step. Some passes of a step need all rows. The passes
+/// The number of times that a step goes through memory. Some passes need all rows. The passes
 /// between two of them are divided into tiles of nearly equal numbers of levels.
 double tiles_of_step(const StepProblem& problem, int levels) {
     const std::size_t passes = problem.passes.size();

@@ -1,4 +1,4 @@
-// Describes how steps pass through memory.
+// Describes how steps go through memory.
 #pragma once
 
 #include "solvers/tiling.h"
@@ -7,11 +7,12 @@
 
 namespace cascade {
 
-/// How steps pass through memory: how many are computed while their values are in a cache.
+/// How steps go through memory: how many are computed while their values are in a cache.
 struct Stepping {
     std::string words;  ///< For users, such as "16 steps a pass".
     std::string why;    ///< The reason, if interesting, such as "all stays in the cache".
-    /// The average number of sweeps (passes of steps) that are computed in one pass through memory.
+    /// The average number of sweeps (passes of steps) that are computed together while their values
+    /// are in a cache.
     double sweeps_at_once = 1;
     double meetings = 1;  ///< The number of barriers of all threads per step.
     /// If several sweeps are computed at once: the bytes of the layers that a thread uses at a

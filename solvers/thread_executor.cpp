@@ -158,14 +158,16 @@ void ThreadExecutor::prepare(const StepProblem& problem) {
     set_tiling(is_tiling_given_ ? tiling_ : best_tiling());
 }
 
-/// In a part of a grid, passes run together if its halo is wide enough.
+/// The tiling that fits the caches. In a part of a grid, it has several levels only if the halo is
+/// wide enough.
 Tiling ThreadExecutor::best_tiling() const {
     if (others_ == nullptr) return choose_tiling(*problem_, reach_, CacheSizes::here());
     if (levels_of_halo_ == 1) return {};
     Grid part = problem_->grid;
     const std::int64_t rows = planes_.layout().rows.count();
     (part.depth > 1 ? part.depth : part.height) = part.depth > 1 ? rows / part.height : rows;
-    // Parts on one machine share its third-level cache, so tiles fit into the second if they can.
+    // Parts on one machine share its third-level cache, so tiles fit into the second-level cache if
+    // they can.
     CacheSizes near = CacheSizes::here();
     near.third = 0;
     Tiling tiling = choose_tiling(*problem_, part, reach_, near);
@@ -323,7 +325,7 @@ void ThreadExecutor::run_tiles(Worker& worker, const Given& given, StepPass& nex
 }
 
 /// Fills the halos that the next `count` passes read. If they run `one_by_one`, each needs a halo
-/// for itself alone. The team has to have met after the last pass.
+/// for itself alone. Before the call, all threads must have completed the last pass.
 void ThreadExecutor::share_reads(Worker& worker, StepPass next, std::size_t count,
                                  bool one_by_one) {
     if (worker.passes.number == 0) {
@@ -343,7 +345,7 @@ void ThreadExecutor::share_reads(Worker& worker, StepPass next, std::size_t coun
 }
 
 /// The number of passes to run together if `left` remain. Divides the passes up to the next pass
-/// that needs all rows into groups of nearly equal size, at most `limit`.
+/// that needs all rows into groups of nearly equal size, with at most `limit` passes each.
 std::size_t ThreadExecutor::passes_together(const StepPass& next, std::size_t left,
                                             int limit) const {
     const auto most = static_cast<std::size_t>(limit);

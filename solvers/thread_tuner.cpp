@@ -34,8 +34,8 @@ void ThreadTuner::took(std::int64_t count, std::chrono::duration<double> duratio
     if (until_trial_ <= 0) begin_trial();
 }
 
-/// The number of threads to try in a turn: near numbers and the extremes, because one thread may be
-/// faster even if half as many threads are not.
+/// The number of threads to try in a turn: half or twice the best number, 1 or all. One thread may
+/// be faster even if half as many threads are not.
 int ThreadTuner::candidate(int turn) const {
     switch (turn % 4) {
         case 0: return std::max(best_ / 2, 1);

@@ -49,10 +49,11 @@ enum class Continuation {
 /// name, or the stage at the same index if it was renamed. Parameters are computed anew unless they
 /// were painted. Species take the values of the species of the same name, or else their starting
 /// values. If the current stage has taken no step, it is restarted and only painted values are
-/// taken over. At most `count` stages are started. Crawling cells also keep their values of
-/// parameters, unless the start would give other values than in `before`, the simulation from which
-/// `state` comes (may be null). Returns the painted names of each started stage. Fails if a stage
-/// cannot be started, if cells lack a value, or if `cancel` becomes true while a stage is started.
+/// taken over. At most `count` stages are started. Crawling cells also keep the values of a
+/// parameter, unless the start now gives it other values than it gave in `before`, the simulation
+/// from which `state` comes (may be null). Returns the painted names of each started stage. Fails
+/// if a stage cannot be started, if cells lack a value, or if `cancel` becomes true while a stage
+/// is started.
 Result<std::vector<PaintedNames>> go_on(Simulation& simulation, const Simulation* before,
                                         const KeptState& state, Continuation how,
                                         const std::atomic<bool>& cancel,

@@ -29,8 +29,8 @@ Accepted<void> LiveRun::go_to(std::uint32_t stage, RunControl& control) {
     auto adopted = adopt(std::move(script), *before.values, Continuation::changed, control, stage);
     if (!adopted) return adopted;
     if (stage > 0) {
-        // Starting the stage cannot be cancelled. The return to the previous moment, which a cancel
-        // requires, would be cancelled, too.
+        // Starting the stage cannot be cancelled, because the same cancellation would also end the
+        // return to the previous moment.
         if (auto started = start_stage(stage, never_cancelled); !started) {
             // The values of the previous stage have not changed.
             const auto back = return_to(before, control);

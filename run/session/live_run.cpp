@@ -270,9 +270,9 @@ Accepted<void> LiveRun::make(const NextStage&, RunControl& control) {
 
 void LiveRun::add_to_log(const Change& change, RunPlace at) {
     // A slider sets the same number many times. If it sets several values at the same step, only
-    // the last one counts and is logged. There are two exceptions. After strokes all are logged,
-    // because a uniform number removes painted values for good. In a stage of crawling cells all
-    // are logged, because a number that changes and changes back replaces the cells' own values.
+    // the last one counts and is logged. Every value is logged in two cases: after strokes, because
+    // a uniform number removes painted values for good, and in a stage of crawling cells, because a
+    // number that changes and changes back replaces the cells' own values.
     const bool has_strokes =
         std::any_of(log_.changes.begin(), log_.changes.end(),
                     [](const auto& logged) { return is_stroke(logged->change); });

@@ -22,7 +22,7 @@ namespace cascade {
 
 /// Functions to be called while steps are taken. They may be empty.
 struct Watching {
-    /// Called at multiples of `every`. See Simulation::advance_stage().
+    /// Called at multiples of `every` steps. See Simulation::advance_stage().
     std::function<void()> observe;
     std::int64_t every = 0;
     std::function<void(std::uint32_t stage)> stage_ended;
@@ -98,8 +98,8 @@ public:
     /// The script at the beginning and all changes up to the present moment.
     SessionLog log() const;
 
-    /// Called after every change, and after every advance() with `is_step` set. Receives the log,
-    /// whose end is outdated, and the present moment.
+    /// Called after every change with `is_step` false, and after every advance() with `is_step`
+    /// true. Receives the log, whose end is outdated, and the present moment.
     using Listener = std::function<void(const SessionLog& log, RunPlace now, bool is_step)>;
     void tell(Listener listener) { listener_ = std::move(listener); }
 

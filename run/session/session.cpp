@@ -54,7 +54,7 @@ void Session::Implementation::work() {
         if (!tasks.empty()) {
             Task task = std::move(tasks.front());
             tasks.pop_front();
-            // A cancellation has ended only earlier work.
+            // The cancellation was meant only for earlier work.
             turns.control().cancel = false;
             lock.unlock();
             obey(std::move(task));

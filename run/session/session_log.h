@@ -28,9 +28,9 @@ struct SessionLog {
 /// Prints the log as text, for parse_session_log().
 std::string print_session_log(const SessionLog& log);
 
-/// The following functions print the parts of that text, from which open_log.h builds a growing
-/// log: the lines before the changes, the changes from number `first` on, and a line with a moment.
-/// `at` is the last moment that was printed, and is updated.
+/// The following functions print parts of that text: the lines before the changes, the changes from
+/// number `first` on, and a line with a moment. open_log.h builds a growing log from these parts.
+/// `at` is the last moment that was printed, and the functions update it.
 std::string print_session_beginning(const SessionLog& log);
 std::string print_logged_changes(const SessionLog& log, std::size_t first,
                                  std::optional<RunPlace>& at);

@@ -96,7 +96,7 @@ private:
     MeshTexture texture_;
 };
 
-/// The first file, which is the model, or all files in one.
+/// The file of a model, or a ZIP file of all files of maps.
 Result<SavedModel> read_back(const WrittenFiles& written, ModelForm form) {
     std::vector<ZipEntry> entries;
     for (const fs::path& path : written.paths) {

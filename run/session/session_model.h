@@ -12,7 +12,7 @@ namespace cascade {
 
 enum class ModelForm {
     model,  ///< A GLB file with colours. For a plane, a rectangle with maps.
-    maps,   ///< A ZIP file with a GLB file that has maps, and each map.
+    maps,   ///< A ZIP file of a GLB file with maps, and of each map by itself.
 };
 
 struct SavedModel {

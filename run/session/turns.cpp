@@ -15,7 +15,8 @@
 namespace cascade {
 namespace {
 
-/// A picture of the cells themselves. A volume is shown as a slice even if its picture is a body.
+/// Requests a picture of the cells themselves. Even if the script's picture shows a volume as a
+/// body, this picture shows a slice.
 PictureRequest cells_of(std::string expression) {
     PictureRequest request = picture_of(std::move(expression));
     request.flat = true;
@@ -26,8 +27,8 @@ using Seconds = std::chrono::duration<double>;
 
 /// The approximate time of a turn.
 constexpr double turn_seconds = 0.015;
-/// A turn takes at least this many steps, unless they take longer than longest_turn_seconds. With
-/// fewer steps, taking several steps in one pass through memory would gain too little.
+/// A turn takes at least this many steps, unless these would take longer than longest_turn_seconds.
+/// With fewer steps, taking several steps in one pass through memory would gain too little.
 constexpr std::int64_t least_steps = 32;
 constexpr double longest_turn_seconds = 0.2;
 /// Limits turns in which steps take no measurable time.
@@ -158,8 +159,8 @@ Canvas Turns::canvas() {
     return painter_->canvas(run_->simulation());
 }
 
-/// Gives a new surface a new number. An unchanged surface keeps its number when numbers or texts
-/// change.
+/// Gives a new surface a new number. A surface that a change of the script leaves as it was keeps
+/// its number.
 void Turns::look_at_surface(std::shared_ptr<const SurfaceMesh> body) {
     const bool is_same_body = (surface_ ? surface_->body : nullptr) == body;
     if (std::exchange(looked_at_, script_number_) == script_number_ && is_same_body) return;

@@ -17,9 +17,9 @@ namespace {
 /// The largest rounding error of a sum of step lengths, as a fraction of one step.
 constexpr double rounding_of_moments = 1e-6;
 
-/// The weights of the values and slopes at both ends of a step in Hermite's cubic, at the fraction
-/// `s` of the step, and the weight of the quartic term, which changes neither values nor slopes at
-/// the ends. Slopes and the quartic term are multiplied by the length of the step.
+/// The weights that give a value at the fraction `s` of a step: the weights of the values and
+/// slopes at both ends in Hermite's cubic, and of the quartic term, which changes neither values
+/// nor slopes at the ends. Slopes and the quartic term are multiplied by the length of the step.
 struct HermiteWeights {
     double before, after, slope_before, slope_after, quartic;
 
@@ -31,9 +31,10 @@ struct HermiteWeights {
           quartic(s * s * (1 - s) * (1 - s)) {}
 };
 
-/// Whether a cubic is smooth within a step over which its value changes by `change`, if it changes
-/// by `at_start` and `at_end` with the slopes at the ends. For a smooth curve, the two differences
-/// from `change` are of second order in the length of the step, and their sum is of third order.
+/// Whether a cubic is smooth within a step. The value changes by `change` over the step. With the
+/// slope at one end, it would change by `at_start` or `at_end`. For a smooth curve, the differences
+/// of these two from `change` are of second order in the length of the step, and the sum of the
+/// differences is of third order.
 bool is_smooth(double change, double at_start, double at_end) {
     const double first = at_start - change, last = at_end - change;
     return std::abs(first + last) <= (std::abs(first) + std::abs(last)) / 2;

@@ -15,18 +15,18 @@
 
 namespace cascade {
 
-/// Between the two ends of a step, each value follows Hermite's cubic curve through the values and
-/// rates at both ends, whose error is of fourth order in the length of the step. A solver may add a
-/// quartic term, with which the error is of fifth order (Scheme::curve). If rates contain random
-/// numbers, values follow straight lines instead. A value also follows a straight line if it
-/// changes so fast at an end of a long step that a cubic would swing far beyond both ends. A value
-/// that is the same at both ends is constant in between.
+/// Between the two ends of a step, each value follows Hermite's cubic curve, which has the values
+/// and rates of both ends. The error of this curve is of fourth order in the length of the step. A
+/// solver may add a quartic term, with which the error is of fifth order (Scheme::curve). If rates
+/// contain random numbers, values follow straight lines instead. A value also follows a straight
+/// line if it changes so fast at an end of a long step that a cubic would swing far beyond both
+/// ends. A value that is the same at both ends is constant in between.
 class BetweenSteps {
 public:
     /// Moments are counted from the present state, which must be a complete step. `view` and
-    /// `state` must outlive this object. `has_long_steps`: whether steps may be longer than the
-    /// fastest change of a value. `curve` returns Stepper::curve() of the step that led to the
-    /// present state.
+    /// `state` must outlive this object. `has_long_steps`: whether a step may be longer than the
+    /// fastest change of a value takes. `curve` returns Stepper::curve() of the step that led to
+    /// the present state.
     BetweenSteps(const StageView& view, StageState& state, bool has_long_steps,
                  std::function<std::vector<Field>()> curve);
 

@@ -42,7 +42,7 @@ struct Ended {
 
 bool took_steps(const Ended& ended) { return ended.state().done && ended.state().steps > 0; }
 
-/// Whether the record of the stage (its course) reaches to its end.
+/// Whether the course of the stage, which records it, reaches to the stage's end.
 bool was_watched(const Ended& ended) {
     const StageState& state = ended.state();
     return state.done && !state.course.empty() && state.course.last().step == state.steps;
@@ -64,7 +64,7 @@ bool is_uniform_in_space(const Stage& stage, const System& system) {
     });
 }
 
-/// The fraction of the cells in which a mask is 1.
+/// The fraction of the cells `inside`, or of all cells if it is null, in which `mask` is not 0.
 double part_of_ones(const Mask& mask, const Mask* inside) {
     double ones = 0, cells = 0;
     for_each_counted(mask.layout(), inside, [&](std::int64_t row, std::int64_t i) {

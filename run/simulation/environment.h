@@ -37,9 +37,9 @@ class Environment : public SimulationDomain {
     TimeAccount unread_;  ///< Receives times if the caller gives no account.
 
 public:
-    /// `plans` are the plans of the program. If `kernel_cache` is not empty, the fastest tilings
-    /// are stored in that folder. Script and account must outlive the environment. The account may
-    /// be null.
+    /// `its_plans` are the plans of the program. If `kernel_cache` is not empty, the fastest
+    /// tilings are stored in that folder. `of` and `times` must outlive the environment. `times`
+    /// may be null.
     Environment(const Script& of, std::shared_ptr<const Program> runs, StagePlans its_plans,
                 const Grid& in, StepTools with, TimeAccount* times = nullptr,
                 const std::filesystem::path& kernel_cache = {});

@@ -11,8 +11,8 @@ namespace cascade {
 
 namespace {
 
-/// The largest value that counts: steps that are too long make values beyond 2^24, which are whole
-/// numbers, too.
+/// The largest value that a cellular automaton is assumed to reach. Steps that are too long make
+/// values beyond 2^24, which are whole numbers, too, in single precision.
 constexpr double largest_state = 1 << 16;
 
 bool holds_whole_numbers(const Field& field, const Mask* inside) {

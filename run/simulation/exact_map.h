@@ -13,8 +13,9 @@ namespace cascade {
 bool knows_its_steps(const Program& program, std::uint32_t stage);
 
 /// Whether a step of this stage computes exactly the next values, as in a cellular automaton with
-/// the rate f - u and steps of 1, or (f - u) / speed. Then its steps are never too long. All values
-/// of a cellular automaton are whole numbers, which no other stage reaches without bounds.
+/// the rate f - u and steps of 1, or with the rate (f - u) / speed. Then its steps are never too
+/// long. All values of a cellular automaton are whole numbers. In another stage, only a bound of a
+/// species can make all values whole numbers.
 bool is_exact_map(const StageView& view);
 
 }  // namespace cascade

@@ -19,7 +19,7 @@ std::array<double, 3> cell_lengths(const Simulation& simulation, std::uint32_t s
 
 std::optional<Failure> shrinks_to_nothing(const SimulationDomain& domain, std::uint32_t stage,
                                           double t, double end, double step) {
-    constexpr int steps = 100;  // Values are checked every 64 steps.
+    constexpr int steps = 100;  // More than the 64 steps from check to check.
     constexpr std::array names{"x", "y", "z"};
     const Stage& its = domain.stage(stage);
     const std::array cells{domain.grid.width, domain.grid.height, domain.grid.depth};

@@ -1,5 +1,5 @@
-// Repeats the dilution of a stage for one number, u' = -r(t) u. The exact result is the ratio of
-// the contents of the domain.
+// Repeats the dilution of a stage for one number, u' = -r(t) u. The exact factor of u is the size
+// of the domain at the start divided by the size at the end.
 #include "run/simulation/growth_doubts.h"
 
 #include "ir/solver.h"
@@ -20,7 +20,7 @@ namespace cascade {
 namespace {
 
 constexpr double noticed_part = 0.01;  ///< Smaller changes are not reported.
-constexpr double kept_part = 0.003;    ///< Suggested steps change amounts by less.
+constexpr double kept_part = 0.003;    ///< Suggested steps change amounts by less than this.
 constexpr std::int64_t most_repeated = 200'000;
 
 double at(const Formula& formula, double t) {

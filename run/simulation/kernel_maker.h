@@ -41,8 +41,8 @@ public:
 
     Compile interpreted() const { return interpreted_on(grid_); }
     Compile interpreted_on(const Grid& grid) const;
-    /// For kernels that run every few steps. They are compiled once interpreting them has taken as
-    /// long as compiling would.
+    /// For kernels that run every few steps. They are compiled as soon as interpreting them has
+    /// taken as long as compiling would.
     Compile often() const;
     /// For kernels that run once. They are interpreted unless that would take longer than
     /// compiling.

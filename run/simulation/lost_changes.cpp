@@ -22,7 +22,7 @@ namespace {
 constexpr double lost_change_threshold = 0.01;
 /// Rounding may move a pattern at rest by this part of its values.
 constexpr double least_noticed = 5e-6;
-/// A change of this part of the differences between cells is noticed.
+/// A change is noticed if it is at least this part of the differences between cells.
 constexpr double part_of_differences = 0.1;
 /// If less than this part of the differences at the start of a stage is left, the pattern is
 /// fading.

@@ -18,8 +18,8 @@ namespace cascade {
 
 namespace {
 
-/// Least fractions for a warning. The lost part must be at least the first fraction of its formula,
-/// and must change values by at least the second fraction during the stage.
+/// A warning is given if the lost part is at least the fraction `least_of_whole` of its formula,
+/// and changes values by at least the fraction `least_of_values` during the stage.
 constexpr double least_of_whole = 1e-3, least_of_values = 0.01;
 /// Smaller values are not examined, because they are about to underflow to 0 in any case.
 constexpr double least_value = 1e-34;

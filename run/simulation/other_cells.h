@@ -19,7 +19,7 @@ struct StagesInOtherCells {
     std::vector<StageState> states;
 };
 
-/// The program of a script on a grid whose cells are `times` as wide as in `fine`. The script
+/// The program of a script on a grid whose cells are `times` times as wide as in `fine`. The script
 /// is checked again, so that everything that depends on lengths is correct. Lengths of stages with
 /// a size are scaled as in `fine`.
 Program coarser_program(const Script& script, const Program& fine, std::int64_t times);
@@ -38,7 +38,7 @@ std::unique_ptr<Environment> on_coarser_grid(const Environment& fine, Program pr
 /// Carries the part of a state that other stages and pictures read: moment, numbers, planes, frozen
 /// cells and sides. `spacing` is the width of the cells to which `carrier` carries.
 StageState carried_state(const StageState& state, const CellCarrier& carrier, double spacing);
-/// Carries the same part of a state to a grid. Its cells are larger or smaller by an integer
+/// Carries the same part of a state to a grid whose cells are larger or smaller by an integer
 /// factor.
 StageState on_grid(const StageState& state, const Grid& from, const Grid& to);
 

@@ -42,9 +42,9 @@ public:
     /// See Simulation::advance_stage().
     virtual Result<StageEnd> advance(std::int64_t last_step, RunControl& control,
                                      const Observation& observation) = 0;
-    /// Whether advance() may be called again. It may not after the end of the stage, a failure or a
-    /// cancellation. It also may not after the search for doubts about the result, which reuses the
-    /// stage's memory.
+    /// Whether advance() may be called again. It must not be called again after the end of the
+    /// stage, a failure or a cancellation, nor after the search for doubts about the result, which
+    /// reuses the stage's memory.
     virtual bool can_go_on() const = 0;
 };
 

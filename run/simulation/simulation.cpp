@@ -29,7 +29,8 @@ struct Simulation::Implementation {
     bool has_expected = false;  ///< Whether `stepper` has been told the kernels of later stages.
     /// The run of the stage that advanced last. Null if it cannot continue.
     std::unique_ptr<RunningStage> run;
-    /// By stage: kernels of ended stages of which it is not yet known whether all can be compiled.
+    /// By stage: the kernels of ended stages, if some of them may still turn out not to be
+    /// compilable.
     std::map<std::uint32_t, StepKernels> unsettled;
 
     /// Everything that all stages share, except for stages on coarser grids.

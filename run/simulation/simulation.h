@@ -99,12 +99,13 @@ public:
     /// Takes steps until `last_step` steps are complete. The first call allocates the memory for
     /// steps. This memory is kept for further calls until the stage ends or states are changed. A
     /// stage with a coarse start first runs on coarser grids, without observation. `observe` is
-    /// called at multiples of `every` steps. If `every` is 0, it is called at the stage's interval
-    /// or, without one, at multiples of its time `every` or at tenths of the duration. If
-    /// `next_moment` is given, `observe` is called at its moments instead, with values interpolated
-    /// between steps (run/simulation/between_steps.h, tissue/tissue_moments.h). In a stage of
-    /// fields this requires a uniform `speed`. If values are not finite, the call fails with stage,
-    /// species, cell, step and the largest stable speed.
+    /// called at multiples of `every` steps. If `every` is 0, it is called at the stage's interval.
+    /// Without an interval, it is called at multiples of the time that the stage's setting `every`
+    /// gives, or else at tenths of the duration. If `next_moment` is given, `observe` is called at
+    /// its moments instead, with values interpolated between steps (run/simulation/between_steps.h,
+    /// tissue/tissue_moments.h). In a stage of fields this requires a uniform `speed`. If values
+    /// are not finite, the call fails and names stage, species, cell, step and the largest stable
+    /// speed.
     Result<StageEnd> advance_stage(std::uint32_t stage, std::int64_t last_step, RunControl& control,
                                    const std::function<void()>& observe, std::int64_t every = 0,
                                    const NextMoment& next_moment = {});

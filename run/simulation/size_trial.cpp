@@ -45,15 +45,16 @@ constexpr TrialShape shapes[3] = {
     {48, 7, 40, 56, 8, square(two_pi) / 24 * 3 / 5},
 };
 
-/// Steps after which a trial is first examined, the smallest number of steps at which it may end,
-/// and the number at which it ends if neither stage nor system gives one. Otherwise it ends with
-/// the larger of the numbers of stage and system.
+/// A trial is first examined after `first_steps`. It may take as many steps as the stage or the
+/// system gives, whichever are more, and never fewer than `least_most_steps`. If the stage gives no
+/// end, it may take `most_steps_without_end`.
 constexpr std::int64_t first_steps = 250, least_most_steps = 1000, most_steps_without_end = 64000;
-/// If a stage has a duration, its trial is examined after the first of these fractions of the
-/// duration, then whenever the time has doubled, up to the second fraction.
+/// If a stage has a duration, its trial is examined after the fraction `first_part` of the
+/// duration, then whenever the time has doubled, up to `last_part` times the duration.
 constexpr double first_part = 0.125, last_part = 4;
-/// The relative changes over a doubling of time below which wavelength and contrast count as
-/// constant, and the change above which a pattern has no definite wavelength.
+/// Over a doubling of time, wavelength and contrast count as constant if their relative changes are
+/// below the first two limits. If the wavelength changes by more than the third, the pattern has no
+/// definite wavelength.
 constexpr double same_wavelength = 0.003, same_contrast = 0.03, other_wavelength = 0.08;
 /// A pattern has a single wavelength if the peak of its spectrum holds at least this fraction of
 /// the variance.
@@ -61,9 +62,8 @@ constexpr double regular_share = 0.3;
 /// Factors to try first, because the pattern may be too large or too small for the cells.
 constexpr double first_factors[] = {1, 1.0 / 4, 3, 1.0 / 16, 1.0 / 64, 1.0 / 256};
 constexpr double fewest_cells = 3, fewest_waves = 4;
-/// Trials are repeated until the relative error of the wavelength is below the first number, at
-/// most `most_rounds` times. Trials with an error above the second number are left out of the
-/// average.
+/// Trials are repeated until the relative error of the wavelength is below `close_enough`, at most
+/// `most_rounds` times. Trials with an error above `near_enough` are left out of the average.
 constexpr double close_enough = 0.01, near_enough = 0.06;
 constexpr std::uint32_t most_rounds = 4;
 
@@ -78,9 +78,9 @@ struct Look {
 };
 
 struct Outcome {
-    Look last, before;  ///< The last measurement, and the one after half of its time.
+    Look last, before;  ///< The last measurement, and the one at half of its time.
     int still = 0;      ///< The number of successive measurements without a change.
-    /// Two are needed, because slow changes add up from one doubling to the next.
+    /// Two such measurements are needed, because slow changes add up from one doubling to the next.
     bool holds_still() const { return still >= 2; }
 };
 

@@ -190,8 +190,8 @@ std::optional<std::size_t> find_alternating(const Doubted& stage) {
     return static_cast<std::size_t>(found - species.begin());
 }
 
-/// "" unless the step is too long or a rate makes differences between neighbours grow, because the
-/// pattern may otherwise be a lattice.
+/// Describes a species that alternates from cell to cell. "" unless the step is too long or a rate
+/// makes differences between neighbours grow, because the pattern may otherwise be a lattice.
 std::string describe_chequerboard(const Doubted& stage, std::size_t species) {
     const StageView& view = stage.view;
     StepInUse use = view.step_in_use();

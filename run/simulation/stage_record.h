@@ -20,8 +20,8 @@ namespace cascade {
 class Simulation;
 struct TissueRecord;
 
-/// Values by the names of their items: all species, and the parameters that cannot be computed from
-/// the start.
+/// Values by the names of their items: all species, and the parameters that the start of the stage
+/// cannot compute again.
 using RecordedFields = std::map<std::string, Field, std::less<>>;
 using RecordedCells = std::shared_ptr<const TissueRecord>;  ///< Never null.
 

@@ -230,8 +230,8 @@ void StageRun::look() {
     state_.course.look(state_.steps, age, state_.species(), view_.environment().counted());
 }
 
-/// Called at complete steps. If moments are observed, they are interpolated since the previous
-/// step.
+/// Called at complete steps. If moments are observed, values are interpolated at the moments since
+/// the previous step.
 void StageRun::observe(const Observation& observation) {
     if (between_) {
         between_->pass(observation.next_moment, observation.observe, control_->cancel);
@@ -265,7 +265,7 @@ Result<StageEnd> StageRun::take_steps(std::int64_t last_step, const Observation&
     const bool is_done = is_good && (outcome.ended || state_.steps >= view_.stage().iterations);
     const bool looks_for_doubts = control_->warn && (is_done || !control_->checks_later);
     can_go_on_ = is_good && !is_done && state_.steps > 0 && !looks_for_doubts;
-    // The checks that follow need the memory.
+    // The checks that follow need the memory of the loop.
     if (!can_go_on_) loop_.reset();
     if (outcome.not_finite || outcome.too_short)
         return tl::unexpected(explain(outcome, view_, state_, control_->cancel));

@@ -26,7 +26,8 @@ namespace cascade {
 
 namespace {
 
-/// The digit at the end must change whenever the way of finding factors changes.
+/// The digit at the end of the second string must change whenever the way of finding factors
+/// changes.
 constexpr KeptFiles::Kind size_files{".size", "CascSiz1", std::uint64_t{1} << 20};
 
 /// Factors by their keys: factors that this or an earlier simulation of the process has found, and
@@ -101,7 +102,7 @@ std::string key_of(const Program& trial, std::uint32_t stage, double cell, doubl
     return fmt::format("{}\n{} cells of {}\n{}", version(), cells, cell, print_program(keyed));
 }
 
-/// The length of one unit on a model, in lengths of scripts.
+/// The length of one unit of a model, in the script's unit of length.
 double unit_in_scripts(const ModelSettings& model, const ModelCells& cells) {
     const double unit = model.unit ? *model.unit : cells.spread().unit;
     return unit / ModelBox(cells.mesh).longest;

@@ -16,8 +16,8 @@ namespace cascade {
 Result<void> find_sizes(Environment& here, Script& script, const SimulationOptions& options,
                         RunControl& control);
 
-/// Gives the crawling cells on a model the radii that the sizes of their stages mean, and notes
-/// them. Throws std::bad_alloc.
+/// Gives the crawling cells on a model the radii that follow from the sizes of their stages, and
+/// reports the radii. Throws std::bad_alloc.
 void size_cells(Environment& here, const ModelCells& cells, RunControl& control);
 
 /// Whether a stage of fields that runs has a size.

@@ -99,9 +99,9 @@ ChangingSide bind_side(const SidePlans& plans, std::uint32_t stage, SpeciesId sp
     return changing;
 }
 
-/// Finds the rules of species and definitions at the sides. Their values are formulas that may read
-/// any starting value. A value that is uniform along its side is stored as a number. Until the
-/// rules are found, the boundary of the domain applies.
+/// Finds the rules of species and definitions at the sides. The values of these rules are formulas
+/// that may read any starting value. A value that is uniform along its side is stored as a number.
+/// Until the rules are found, the boundary of the domain applies.
 class SideFinder {
 public:
     SideFinder(const StageView& view) : view_(view), here_(view.environment()) {}

@@ -23,7 +23,8 @@ namespace cascade {
 namespace {
 
 constexpr std::int64_t fewest_moments = 16;
-/// With this many cells, evaluating a formula at all moments takes a fraction of a second.
+/// The most cells at which a formula is evaluated, summed over all moments. This takes a fraction
+/// of a second.
 constexpr std::int64_t most_cells_of_moments = std::int64_t{1} << 23;
 
 /// The sum of |a − b| over the cells. Differences that are not finite count as 0.

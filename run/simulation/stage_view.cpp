@@ -59,7 +59,7 @@ std::vector<Field> StageView::evaluate(const Formula& formula) const {
 }
 
 StepInvariants StageView::step_invariants(const StepPlan& once) const {
-    // Weights by tensors have three results each, after all others.
+    // Each weight by a tensor has three results, and these follow all other results.
     const std::uint32_t others = once.result_count - 3 * once.tensor_weights;
     StepInvariants found(others + once.tensor_weights);
     if (found.empty()) return found;
@@ -115,7 +115,7 @@ std::vector<Field> StageView::starting_species() const {
 
 StabilityEstimate StageView::stability(std::span<const Field> species, const Compile& compile,
                                        const std::atomic<bool>* cancel) const {
-    // Rates ignore `frozen`, so frozen cells are left out here. They cannot blow up.
+    // Frozen cells cannot blow up. They are left out here, because rates ignore `frozen`.
     const Mask* frozen = state().frozen().empty() ? nullptr : &state().frozen();
     const DomainMask* inside = environment_->inside();
     const Mask still = inside != nullptr ? still_cells(*inside, frozen) : Mask();

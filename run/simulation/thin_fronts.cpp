@@ -9,8 +9,9 @@
 namespace cascade {
 namespace {
 
-/// A front is thinner than a cell if the values of two adjacent cells differ by at least the first
-/// fraction of the range, while the cells beyond them differ by at most the second fraction.
+/// A front between two adjacent cells is thinner than a cell under two conditions. The values of
+/// these cells differ by at least the first fraction of the range. Each of the values differs by at
+/// most the second fraction from the value of the next cell away from the front.
 constexpr double least_jump_of_front = 0.8, most_beside = 0.1;
 /// The fraction of all fronts that must be thin.
 constexpr double mostly_thin = 0.9;

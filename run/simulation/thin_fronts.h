@@ -1,4 +1,4 @@
-// Fronts that are thinner than a cell, which the grid may hold in place.
+// Finds fronts that are thinner than a cell. The grid may hold such fronts in place.
 #pragma once
 
 #include "core/plane.h"
@@ -10,7 +10,7 @@ struct Fronts {
     double all = 0, thin = 0;
     double speed = 0;  ///< The sum of the speeds of thin fronts, in cells per unit of time.
 
-    bool are_thin() const;  ///< Whether almost all of them are thin.
+    bool are_thin() const;  ///< Whether almost all fronts are thin.
 };
 
 /// The fronts of a species with this spread. `rates` give their speed, and may be null.

@@ -47,7 +47,7 @@ private:
     ScriptRules rules_;
     std::optional<TissueLoop> loop_;
     bool can_go_on_ = true;
-    /// Whether a warning that `until` may never become true has been given.
+    /// Whether the run has warned that `until` may never become true.
     bool is_waiting_ = false;
     /// Whether all cells are neighbours of each other. Set to false after a warning about it.
     bool reaches_all_ = false;

@@ -133,7 +133,7 @@ private:
         }
         place(places);
         // All positions are chosen first, and some of them are then left out by chance. So position
-        // k does not depend on the chance.
+        // k does not depend on which positions are left out.
         const auto is_left_out = [&](double chance, std::size_t cell) {
             return !(uniform_of(here_.program->domain.seed, k_, tissue().numbers()[cell]) < chance);
         };

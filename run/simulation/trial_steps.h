@@ -16,7 +16,8 @@ struct EndedStage {
     StageTimer& timer;
 };
 
-/// The number of trial steps, which is also at most a quarter of the steps taken before.
+/// Limits of the number of trial steps. The number is also at most a quarter of the steps taken
+/// before.
 inline constexpr std::int64_t most_trial_steps = 8, least_trial_steps = 4;
 
 /// Whether the species can be copied and the stage has taken so many steps that a few more cost

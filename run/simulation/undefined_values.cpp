@@ -15,8 +15,8 @@ namespace cascade {
 
 namespace {
 
-/// Smaller than the deviation of a picture in which one of 2²⁶ pixels differs by one of 256 grey
-/// levels.
+/// A picture with a smaller deviation has the same grey in all pixels. If only one of 2²⁶ pixels
+/// differs by one of 256 grey levels, the deviation is larger than this.
 constexpr double one_level = 1e-7;
 
 /// Returns the first cell of the domain for which `is_found(value)` is true.

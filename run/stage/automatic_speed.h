@@ -21,10 +21,10 @@ inline constexpr double step_safety = 0.9;
 /// / (bound of the reaction). The error estimate alone would allow longer steps: it is relative to
 /// the whole value, so it does not show that a small perturbation grows too slowly.
 inline constexpr double reaction_part = 1.8;
-/// The reaction_part at another tolerance, proportional to the length of a step that has this
-/// error. It is at most `reaction_part` for partly implicit solvers, because their explicit part
-/// becomes unstable beyond 2 or their equations singular shortly after. For other solvers it is at
-/// most 6.
+/// The value that replaces `reaction_part` at another tolerance. It is proportional to the length
+/// of a step whose error is this tolerance. For partly implicit solvers it is at most
+/// `reaction_part`, because beyond 2 their explicit part becomes unstable or, shortly after, their
+/// equations become singular. For other solvers it is at most 6.
 double reaction_part_at(Solver solver, double tolerance);
 
 /// The number of steps between two computations of the bounds. It is larger if bounds are
@@ -35,9 +35,9 @@ std::int64_t choose_every(Solver solver, bool by_rule);
 /// stages. Steps are at most `step_safety` times the limit of stability. Stabilised and
 /// semi-implicit solvers are stable for diffusion at any length, so only the reaction limits them,
 /// to `part` / (bound of the reaction). A stabilised solver takes a step of that length, or the
-/// longest step of fewer stages if it needs fewer evaluations of the rates for the same time. For a
-/// solver that is implicit in each cell, the bounds cover only growth and the terms that read other
-/// cells. Bounds must be finite. A bound of 0 limits nothing.
+/// longest step of fewer stages if fewer stages need fewer evaluations of the rates for the same
+/// time. For a solver that is implicit in each cell, the bounds cover only growth and the terms
+/// that read other cells. Bounds must be finite. A bound of 0 limits nothing.
 SafeStep safe_step(Solver solver, const RateBounds& bounds, double wanted,
                    double part = reaction_part);
 

@@ -86,7 +86,7 @@ WeightedLags weights_of(const Convolution& convolution, const BindingContext& co
         reach = value > 0 ? value : 0;
     }
     auto lags = lags_within(grid, reach);
-    if (!lags) lack_memory();  // The start of the stage has refused so many lags.
+    if (!lags) lack_memory();  // A stage with too many lags was refused at its start.
     const auto parts = parts_of(*lags, grid.spacing, context.precision);
     const auto count = static_cast<std::int64_t>(lags->size());
     BindingContext at_lags = context;

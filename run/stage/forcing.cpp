@@ -11,12 +11,13 @@ namespace cascade {
 
 namespace {
 
-/// Once a step ends within a pulse, error estimates notice the pulse.
+/// The largest fraction of its range by which a part may change in a step. So a step ends within
+/// each pulse, and the error estimate then notices the pulse.
 constexpr double most_of_range = 0.3;
 /// The longest step, in intervals.
 constexpr std::size_t farthest = Forcing::intervals / 4;
-/// A change within an interval may be a jump if it is at least the first fraction of the range, and
-/// is larger than the changes of the adjacent intervals by at least the second factor.
+/// A change within an interval may be a jump if it is at least the fraction `least_jump` of the
+/// range, and more than `steeper` times as large as the changes of the adjacent intervals.
 constexpr double least_jump = 1e-3, steeper = 4;
 /// Steps end before a jump by this fraction of the duration, which is more than rounding errors.
 constexpr double before_jump = 1e-13;

@@ -67,7 +67,7 @@ std::uint64_t planes_while_running(const Program& program, std::uint32_t k, Stag
         temporaries = std::max(temporaries, plan.temporaries);
         between_passes += planes_between_passes(plan, grid);
     }
-    // Step-invariants stay in memory. Computing them may need more temporaries.
+    // Step-invariants stay in memory. Computing them may need more temporaries than a step does.
     const StepPlan& step_invariants = plans.step_invariants(k);
     temporaries = std::max(temporaries, step_invariants.temporaries) + step_invariants.result_count;
     Schedule schedule;

@@ -17,8 +17,9 @@ namespace {
 /// A value that has reached this magnitude counts as growing without bound.
 constexpr double most_that_is_sane = 1e4;
 
-/// The smaller of the stability limits at both states. Empty if neither state has one. A state that
-/// has grown far beyond the starting values is ignored, because it looks stiff with any reaction.
+/// The smaller of the stability limits at the start and before the failure. Empty if neither state
+/// has a limit. A state that has grown far beyond the starting values is ignored, because it looks
+/// stiff with any reaction.
 std::optional<double> limit(const NotFiniteReport& report) {
     const auto start = longest_step(report.estimate_at_start, report.use);
     const bool is_spoiled =

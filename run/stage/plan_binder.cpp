@@ -70,7 +70,7 @@ void take_sides(StepProblem& problem, const BindingContext& context, const Syste
         problem.changing_sides = fields->changing_sides;
     }
     problem.sides_moment = {context.steps, context.t};
-    // The system is asked for the number of species, because the planes may be lent to the steps.
+    // The number of species comes from the system, because the planes may be lent to the steps.
     problem.species_needs_halo.assign(system.species_count(), false);
 }
 

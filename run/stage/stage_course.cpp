@@ -18,8 +18,8 @@ constexpr std::size_t most_moments = 40;
 constexpr std::int64_t most_cells_seen = 1 << 14;
 
 /// A pattern is growing if deviation and range of every species have risen in each of the last
-/// three tenths of its age, and in the last of these at least by this fraction. Such a pattern
-/// would become at least half as strong again if the stage ran for twice the time. Fronts that fill
+/// three tenths of the stage's age, and in the last tenth at least by this fraction. Such a pattern
+/// would become at least 1.5 times as strong if the stage ran for twice the time. Fronts that fill
 /// a plane and patterns that coarsen keep their range. Waves and pulses do not rise in all species
 /// for that long.
 constexpr double least_growth = 0.05;

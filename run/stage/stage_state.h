@@ -24,7 +24,7 @@ namespace cascade {
 class Tissue;
 class TissueGround;
 
-/// The solutions of constraints, by the numbers of the constraints in Literals.
+/// Reports on the solutions of constraints, by the numbers of the constraints in Literals.
 using SolveReports = std::map<std::uint32_t, std::shared_ptr<SolveReport>>;
 
 /// The progress of a stage, and everything except values that determines its further steps.
@@ -46,7 +46,7 @@ struct FieldState {
     /// everywhere.
     std::vector<SideRules> sides;
     std::vector<ChangingSide> changing_sides;  ///< The sides whose values change during the stage.
-    /// The solutions of the constraints in the stage's steps; never null.
+    /// Reports on the solutions of constraints in the stage's steps; never null.
     std::shared_ptr<SolveReports> constraints = std::make_shared<SolveReports>();
 };
 
@@ -80,7 +80,7 @@ struct StageState : StageMoment {
     /// The surroundings of the cells that crawl. Null for fields.
     std::shared_ptr<const TissueGround> ground() const;
 
-    // For both kinds:
+    // For stages of both kinds:
     /// The species, by SpeciesId. While steps are being taken, the planes may be lent to them.
     std::vector<Field>& species();
     const std::vector<Field>& species() const;

@@ -42,7 +42,8 @@ struct StageTools {
 
 class StageTimer {
 public:
-    /// `state` is the state of the stage. The time of a stage without steps begins here.
+    /// `state` is the state of the stage. If the stage has taken no step or has no stored step
+    /// control, its step control begins anew.
     StageTimer(const Program& program, std::uint32_t stage, StageState& state, StageTools tools);
 
     /// The number of parts into which each step is divided so that it is stable on the cells of a

@@ -48,7 +48,8 @@ private:
     TissueBinding binding_;
     Grid grid_;
     Values rates_, conditions_, along_, restarts_;
-    /// Indices of species, followed by indices of planes that are kept from step to step.
+    /// For each result of `restarts_`: the index of a species, or the number of species plus the
+    /// index of another item, whose plane is kept from step to step.
     std::vector<std::size_t> restarted_;
     struct Step {
         std::unique_ptr<StepProblem> problem;
