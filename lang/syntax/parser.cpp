@@ -22,31 +22,6 @@ bool has_sane_size(SourceId source, const Sources& sources, Diagnostics& diagnos
     return false;
 }
 
-/// The unit of the value that an override replaces, if this value is one number with a unit.
-std::string_view unit_of_overridden(const ast::Script& script, const ast::Override& change) {
-    const ast::Statement& wanted = change.statement;
-    for (const ast::FunctionDefinition& function : script.functions) {
-        const bool is_it = function.is_constant && change.stage.empty() && wanted.side.empty() &&
-                           function.name.text == wanted.name.text;
-        if (is_it) return unit_text_of(script, function.body);
-    }
-    for (const bool is_stage : {true, false}) {
-        for (const ast::Block& block : script.blocks) {
-            const bool is_of_stage =
-                block.kind == ast::BlockKind::stage || block.kind == ast::BlockKind::classic_stage;
-            const bool is_other = !change.stage.empty() && block.name.text != change.stage.text &&
-                                  block.base.text != change.stage.text;
-            if (is_of_stage != is_stage || (is_stage && is_other)) continue;
-            for (const ast::Statement& each : block.statements) {
-                if (each.name.text != wanted.name.text || each.values.empty()) continue;
-                const std::string_view unit = unit_text_of(script, each.values[0]);
-                if (!unit.empty()) return unit;
-            }
-        }
-    }
-    return {};
-}
-
 }  // namespace
 
 ast::Script parse(SourceId source, const Sources& sources, Diagnostics& diagnostics) {
@@ -163,7 +138,10 @@ void ScriptParser::parse_override() {
     }
     change.statement.values.push_back(
         expressions_.parse("the value of '" + shortened(name.text) + "'"));
-    give_unit(script_, change.statement.values[0], unit_of_overridden(script_, change));
+    if (statement.side.empty()) {
+        give_unit(script_, change.statement.values[0],
+                  unit_of_value(script_, change.stage.text, name.text));
+    }
     change.statement.span = join(name.span, cursor_.previous().span);
     report_rest("one value", change.statement.values[0],
                 cursor_.at(TokenKind::comma) ? "--set may be given again, once for each name"

@@ -209,6 +209,29 @@ std::string_view unit_text_of(const ast::Script& script, ast::Expression express
     return is_unit ? text_of_unit_call(call->function.text) : std::string_view();
 }
 
+std::string_view unit_of_value(const ast::Script& script, std::string_view stage,
+                               std::string_view name) {
+    for (const ast::FunctionDefinition& function : script.functions) {
+        const bool is_it = function.is_constant && stage.empty() && function.name.text == name;
+        if (is_it) return unit_text_of(script, function.body);
+    }
+    for (const bool is_stage : {true, false}) {
+        for (const ast::Block& block : script.blocks) {
+            const bool is_of_stage =
+                block.kind == ast::BlockKind::stage || block.kind == ast::BlockKind::classic_stage;
+            const bool is_other =
+                !stage.empty() && block.name.text != stage && block.base.text != stage;
+            if (is_of_stage != is_stage || (is_stage && is_other)) continue;
+            for (const ast::Statement& each : block.statements) {
+                if (each.name.text != name || each.values.empty()) continue;
+                const std::string_view unit = unit_text_of(script, each.values[0]);
+                if (!unit.empty()) return unit;
+            }
+        }
+    }
+    return {};
+}
+
 void give_unit(ast::Script& script, ast::Expression& expression, std::string_view unit) {
     if (unit.empty() || expression.root + 1 != script.expressions.size()) return;
     const auto& node = script.expressions[expression.root].node;

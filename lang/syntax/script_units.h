@@ -57,6 +57,11 @@ ScriptUnits units_of(const ast::Script& script);
 /// for all other expressions.
 std::string_view unit_text_of(const ast::Script& script, ast::Expression expression);
 
+/// The unit of the value that `--set name=…` replaces, or `--set stage.name=…` if `stage` is not
+/// empty. Empty if this value is not one number with a unit.
+std::string_view unit_of_value(const ast::Script& script, std::string_view stage,
+                               std::string_view name);
+
 /// If the expression is the script's last one and is a number without a unit, gives it `unit`.
 void give_unit(ast::Script& script, ast::Expression& expression, std::string_view unit);
 

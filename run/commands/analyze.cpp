@@ -30,8 +30,9 @@ constexpr std::size_t values_along_map = 400;
 
 class Analysis {
 public:
-    Analysis(const Program& program, std::uint32_t stage, const AnalyzeRequest& request)
-        : program_(program), stage_(stage), request_(request) {}
+    Analysis(const ast::Script& tree, const Program& program, std::uint32_t stage,
+             const AnalyzeRequest& request)
+        : tree_(tree), program_(program), stage_(stage), request_(request) {}
 
     Result<AnalyzeReport> run() {
         auto analysis = analyze_stage(program_, stage_);
@@ -55,7 +56,8 @@ private:
         for (const VariedRange& range : request_.varied) {
             auto item = find_parameter(program_, stage_, range.name);
             if (!item) return tl::unexpected(item.error());
-            spans.push_back({*item, range.low, range.high});
+            const double unit = unit_factor(tree_, range.name);
+            spans.push_back({*item, range.low * unit, range.high * unit});
         }
         if (analysis.states.empty()) {
             if (spans.empty()) return {};
@@ -149,6 +151,7 @@ private:
                          {scans_[0].present, scans_[1].present}});
     }
 
+    const ast::Script& tree_;
     const Program& program_;
     std::uint32_t stage_;
     const AnalyzeRequest& request_;
@@ -174,7 +177,7 @@ Result<AnalyzeReport> analyze(Script& script, const AnalyzeRequest& request) {
     const auto stage = find_stage(program, request.stage.empty() ? "1" : request.stage);
     if (!stage) return tl::unexpected(stage.error());
     const Program own = program_of_stage(script, program, *stage);
-    return Analysis(own, *stage, request).run();
+    return Analysis(script.tree, own, *stage, request).run();
 }
 
 }  // namespace cascade

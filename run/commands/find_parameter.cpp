@@ -2,9 +2,11 @@
 #include "run/commands/find_parameter.h"
 
 #include "core/near_name.h"
+#include "lang/syntax/script_units.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -35,6 +37,14 @@ Result<ItemId> find_parameter(const Program& program, std::uint32_t stage, std::
     return failure(fmt::format("stage '{}' has no parameter '{}'", program.stages[stage].name,
                                asked),
                    near.empty() ? "" : fmt::format("did you mean '{}'?", near));
+}
+
+double unit_factor(const ast::Script& script, std::string_view name) {
+    const std::size_t dot = std::min(name.find('.'), name.size());
+    const std::string_view stage = dot < name.size() ? name.substr(0, dot) : std::string_view();
+    if (dot < name.size()) name.remove_prefix(dot + 1);
+    const std::string_view unit = unit_of_value(script, stage, name.substr(0, name.find('[')));
+    return unit.empty() ? 1 : units_of(script).convert(1, unit_of(unit));
 }
 
 }  // namespace cascade

@@ -55,6 +55,8 @@ private:
     RunControl& control_;
     std::uint32_t stage_ = 0;
     ItemId varied_;
+    double unit_ = 1;    ///< See unit_factor().
+    VariedRange range_;  ///< In the script's units.
     std::unique_ptr<Simulation> simulation_;
     SimulationOptions options_;
     Vector areas_;  ///< Of the cells.
@@ -73,6 +75,10 @@ Result<void> BranchRun::find_what_varies() {
     const auto item = find_parameter(program_, stage_, request_.varied->name);
     if (!item) return tl::unexpected(item.error());
     varied_ = *item;
+    range_ = *request_.varied;
+    unit_ = unit_factor(script_.tree, range_.name);
+    range_.low *= unit_;
+    range_.high *= unit_;
     if (!request_.save.empty() && stage_ > 0) {
         return failure("--save keeps states of a first stage only",
                        "the table has the numbers of all states");
@@ -133,7 +139,7 @@ Scales BranchRun::scales_of(const Vector& state) const {
     for (Index k = 0; k < state.size(); ++k) {
         scales.weights[k] = 1 / (squares[k % count] * static_cast<double>(state.size()));
     }
-    const double range = request_.varied->high - request_.varied->low;
+    const double range = range_.high - range_.low;
     scales.parameter = 1 / (range * range);
     return scales;
 }
@@ -146,13 +152,14 @@ Result<std::vector<Branch>> BranchRun::follow() {
     const auto state = first_state(problem->size());
     if (!state) return tl::unexpected(state.error());
     const double parameter = simulation_->state(stage_).numbers[varied_];
-    const VariedRange& range = *request_.varied;
+    const VariedRange& range = range_;
     if (parameter < range.low || parameter > range.high) {
+        const VariedRange& asked = *request_.varied;
         return failure(fmt::format("the run has {} = {:.6g}, which is outside of the range {:.6g} "
                                    "to {:.6g}",
-                                   range.name, parameter, range.low, range.high),
-                       fmt::format("start inside of it with --set {}={:.6g}", range.name,
-                                   (range.low + range.high) / 2));
+                                   asked.name, parameter / unit_, asked.low, asked.high),
+                       fmt::format("start inside of it with --set {}={:.6g}", asked.name,
+                                   (asked.low + asked.high) / 2));
     }
     Corrector corrector(*problem, scales_of(*state));
     corrector.keep_totals(problem->conserved_near(*state, parameter));
@@ -192,8 +199,7 @@ Result<std::vector<Branch>> BranchRun::follow() {
 /// Saves a state as a run that has taken no step.
 Result<void> BranchRun::save(const Point& point, const std::string& name) {
     Overrides overrides = script_.overrides;
-    overrides.sets.push_back(
-        fmt::format("{}={:.17g}", request_.varied->name, point.place.parameter));
+    overrides.sets.push_back(fmt::format("{}={:.17g}", range_.name, point.place.parameter / unit_));
     Script script = load_script(script_.name, script_.text, script_.folder, overrides);
     script.file = script_.file;
     if (!script.program) return failure("the script does not accept the parameter's value");

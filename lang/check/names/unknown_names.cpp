@@ -2,6 +2,7 @@
 // word, from similar names.
 #include "lang/check/names/unknown_names.h"
 
+#include "lang/vocabulary/units.h"
 #include "lang/vocabulary/words_elsewhere.h"
 #include "lang/library/library.h"
 #include "lang/vocabulary/settings.h"
@@ -136,6 +137,9 @@ void report_unknown_own(Workspace& work, const Scope& scope, std::string_view na
         hint = fmt::format("add {}: 0.1, for example", name);
     if (function_named(name)) hint = fmt::format("'{0}' is a function: {0}(…)", name);
     if (name == "steady") hint = "write steady(0.1)";
+    if (!work.units.empty() && unit_named(name)) {
+        hint = "a unit follows its number after one blank and contains none, as in 0.2 /s";
+    }
     if (cell_value_named(name))
         hint = fmt::format("'{}' can be used only by cells that crawl", name);
     std::string note = fmt::format("{} has {}", system.name, names);

@@ -129,7 +129,8 @@ TEST(Shapes, WhatIsNoShapeIsRefused) {
     EXPECT_EQ(fault(sphere_mesh(nan, 0.1)),
               "the radius nan is not a length that a surface can have");
     EXPECT_EQ(fault(sphere_mesh(1, 0)), "the edge 0 is not a length that a surface can have");
-    EXPECT_THAT(fault(sphere_mesh(1, 1e-9)), HasSubstr("triangles, but at most 1.68e+07 are allowed"));
+    EXPECT_THAT(fault(sphere_mesh(1, 1e-9)),
+                HasSubstr("triangles, but at most 1.68e+07 are allowed"));
     EXPECT_THAT(fault(torus_mesh(1, 1, 0.1)), HasSubstr("would cross itself"));
     EXPECT_THAT(fault(torus_mesh(1, nan, 0.1)), HasSubstr("the tube's radius nan"));
     EXPECT_THAT(fault(box_mesh({1, 0, 1}, 0.1)), HasSubstr("the side 0"));

@@ -94,7 +94,8 @@ TEST(Ensemble, ACurveNeedsANameWithNumbers) {
     EXPECT_THAT(fault("waves", {"ka=1,2"}), HasSubstr("cannot draw a curve of 'waves'"));
     EXPECT_THAT(fault("angle", {"ka=1,2"}), HasSubstr("cannot draw a curve of 'angle'"));
     EXPECT_THAT(fault("mean", {"seed=1,2"}), HasSubstr("other than the seed"));
-    EXPECT_THAT(fault("mean", {"solver=euler,rk4"}), HasSubstr("'euler' of solver is not a number"));
+    EXPECT_THAT(fault("mean", {"solver=euler,rk4"}),
+                HasSubstr("'euler' of solver is not a number"));
 }
 
 TEST(Ensemble, ACurveHasADiscForEachMeanAndABarForEachInterval) {

@@ -140,7 +140,8 @@ TEST_F(SavedFolderTest, WhatIsNotASavedRunIsNotReplaced) {
     EXPECT_EQ(names().size(), 1u);
     fs::remove(path("saved/run.json"));
     ASSERT_TRUE(write_file(path("saved/small.b.npy"), "my own"));
-    EXPECT_THAT(why_not_saved(two_stages), HasSubstr("small.b.npy' is not replaced, because it does not belong to the run"));
+    EXPECT_THAT(why_not_saved(two_stages),
+                HasSubstr("small.b.npy' is not replaced, because it does not belong to the run"));
     EXPECT_EQ(bytes("saved/small.b.npy"), "my own");
     fs::remove(path("saved/small.b.npy"));
     fs::create_directory(path("saved/large.a.npy"));
