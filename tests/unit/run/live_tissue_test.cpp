@@ -119,7 +119,7 @@ TEST_F(LiveTissueTest, WhatStartsFromTheStageBeforeMustBeThereAtItsStart) {
                                   "{ c: c;", "{ c: c; d: one.c;");
     while (run->place().stage == 0) advance(*run, 50);
     advance(*run, 10);
-    EXPECT_THAT(refused(*run, SetText{text}), HasSubstr("'d' is new"));
+    EXPECT_THAT(refused(*run, SetText{text}), HasSubstr("'d' cannot be added now"));
     ASSERT_TRUE(run->go_to(1, control_));
     apply(*run, SetText{text});
     EXPECT_EQ(values(*run, "d"), values(*run, "c"));
@@ -165,7 +165,7 @@ TEST_F(LiveTissueTest, WhatCannotBePaintedIsSaid) {
     const auto run = begun(growing);
     EXPECT_THAT(refused(*run, Paint{"p.x", "0"}), HasSubstr("nothing called 'p.x'"));
     EXPECT_THAT(refused(*run, Paint{"side", "0"}), HasSubstr("one number for all cells"));
-    EXPECT_THAT(refused(*run, Paint{"remove", "1"}), HasSubstr("takes all cells"));
+    EXPECT_THAT(refused(*run, Paint{"remove", "1"}), HasSubstr("remove all cells"));
     EXPECT_THAT(refused(*run, Paint{"c", "log(-1 - x)"}), HasSubstr("finite"));
     EXPECT_THAT(refused(*run, Paint{"c", "normal"}), HasSubstr("not a number"));
 }

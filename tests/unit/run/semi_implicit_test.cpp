@@ -227,7 +227,7 @@ TEST(SemiImplicit, SaysWhatItCannotTake) {
     EXPECT_THAT(faults_of("stage one: turing_spots { speed: 0.5 + x }", changes),
                 HasSubstr("1:34: error: with etdrk4 all cells must have the same speed"));
     EXPECT_THAT(faults_of("stage one: turing_spots { frozen: x > 0.5 }", changes),
-                HasSubstr("stage 'one' freezes cells, but etdrk4 cannot"));
+                HasSubstr("stage 'one' freezes cells, but the solver etdrk4 cannot"));
 }
 
 }  // namespace
