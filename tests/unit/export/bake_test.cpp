@@ -368,7 +368,7 @@ TEST(Bake, RefusesWhatCannotBePainted) {
     };
     const auto texture = mesh.texture;
     mesh.texture.clear();
-    EXPECT_THAT(message(), HasSubstr("no texture coordinates to paint by: --unwrap"));
+    EXPECT_THAT(message(), HasSubstr("no texture coordinates to paint by: use --unwrap"));
     mesh.texture.assign(mesh.triangles.size(), {});
     EXPECT_THAT(message(), HasSubstr("have no area in the texture: use --unwrap to make new ones"));
     mesh.texture = texture;
