@@ -10,7 +10,7 @@ namespace cascade::continuation {
 
 namespace {
 
-/// Takes the rows of `first` where `is_first` is 1, and those of `second` where it is 0.
+/// Takes the rows of `first` where `is_first` is 1, and the rows of `second` where it is 0.
 Part chosen(const Values& is_first, const Part& first, const Part& second) {
     Part a = product(Part{is_first, {}}, first);
     return sum(a, product(Part{1 - is_first, {}}, second));

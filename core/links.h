@@ -112,8 +112,8 @@ public:
 
     /// A plane in one row with a number for each link of this table: element k, counted from cell
     /// (0, 0), belongs to the link at k in the arrays of a LinkTable, and is 0 for padding links.
-    /// `numbers` has one for each link of the list given to the constructor. `ends`, `layout` and
-    /// `order` must be the same as in the constructor. Throws std::bad_alloc.
+    /// `numbers` contains a number for each link of the list given to the constructor. `ends`,
+    /// `layout` and `order` must be the same as in the constructor. Throws std::bad_alloc.
     Field numbers_of(std::span<const double> numbers, std::span<const std::size_t> ends,
                      const PlaneLayout& layout, std::span<const std::uint32_t> order = {}) const;
 

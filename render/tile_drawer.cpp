@@ -267,7 +267,7 @@ float TileDrawer::share_around(Light light, Pixel& pixel, int reach) {
         sum += other.all[light];
     });
     if (!pixel.is_partly_hidden[light]) return sum.share();
-    // On a narrow piece of surface, few neighbours count, so the pixel adds tests of its own.
+    // On a narrow piece of surface, few neighbours count, so more tests are made for this pixel.
     Tally& own = pixel.all[light];
     while (sum.asked < enough_tests) {
         const Tally answer = ask_in_turn(light, pixel, own.asked);

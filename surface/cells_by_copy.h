@@ -5,7 +5,7 @@
 
 namespace cascade {
 
-/// Whether there are so many triangles per cell that cells_by_copy() saves time.
+/// Whether the mesh has enough triangles per cell for cells_by_copy() to save time.
 bool is_fine(const SurfaceMesh& mesh, const CellOptions& options);
 
 /// Makes a coarse copy of the surface with a few triangles per cell. Relaxes positions on the copy,

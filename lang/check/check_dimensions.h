@@ -33,7 +33,8 @@ struct ProgramUnits {
 void check_dimensions(const ast::Script& script, const Sources& sources, const Program& program,
                       Diagnostics& diagnostics);
 
-/// The unit of a formula of a stage, such as that of a picture. Empty if it has none.
+/// The unit of a formula in a stage, such as the formula that a picture shows. Empty if the formula
+/// has no unit.
 std::string unit_of_formula(const ast::Script& script, const Program& program, std::uint32_t stage,
                             const Formula& formula);
 

@@ -13,10 +13,11 @@
 
 namespace cascade {
 
-/// One unit for each base quantity. The unit of length is that of the domain's `extent` or
-/// `spacing`, the unit of time that of a `duration`, `every`, `speed` or `largest_step`. If these
-/// settings have no unit, and for all other quantities, the script's first unit that measures the
-/// quantity is taken. If the script has none, the units are m, s, mol, kg, A and K.
+/// The unit in which the script computes each base quantity. Lengths are in the unit of the
+/// domain's `extent` or `spacing`, and times in the unit of a `duration`, `every`, `speed` or
+/// `largest_step`. Every other quantity is in the first unit of the script that measures it, and so
+/// are lengths and times if these settings have no unit. A quantity that no unit of the script
+/// measures is in m, s, mol, kg, A or K.
 class ScriptUnits {
 public:
     ScriptUnits();
