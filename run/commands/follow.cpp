@@ -152,8 +152,7 @@ Result<std::vector<Branch>> BranchRun::follow() {
     const auto state = first_state(problem->size());
     if (!state) return tl::unexpected(state.error());
     const double parameter = simulation_->state(stage_).numbers[varied_];
-    const VariedRange& range = range_;
-    if (parameter < range.low || parameter > range.high) {
+    if (parameter < range_.low || parameter > range_.high) {
         const VariedRange& asked = *request_.varied;
         return failure(fmt::format("the run has {} = {:.6g}, which is outside of the range {:.6g} "
                                    "to {:.6g}",
@@ -175,8 +174,8 @@ Result<std::vector<Branch>> BranchRun::follow() {
                        "with another value of the parameter");
     }
     FollowSettings settings;
-    settings.low = range.low;
-    settings.high = range.high;
+    settings.low = range_.low;
+    settings.high = range_.high;
     settings.step = request_.step;
     settings.most_points = request_.points;
     settings.most_branches = request_.branches;
@@ -185,7 +184,7 @@ Result<std::vector<Branch>> BranchRun::follow() {
         if (!control_.report) return;
         Progress progress;
         progress.doing =
-            fmt::format("branch {}, point {}: {} = {:.4g}", branch + 1, points, range.name, at);
+            fmt::format("branch {}, point {}: {} = {:.4g}", branch + 1, points, range_.name, at);
         control_.report(progress);
     };
     std::vector<Branch> branches = Follower(corrector, settings).follow(*start);
