@@ -41,9 +41,7 @@ public:
     void prepare(const StepProblem& problem) override;
 
     const std::vector<Field>& fetch(int copy) override { return planes_.copy(copy); }
-    const std::vector<Field>& fetch(RegisterId scratch) override {
-        return planes_.scratch(scratch);
-    }
+    const std::vector<Field>& fetch(RegisterId id) override { return planes_.scratch(id); }
     std::vector<Field> take(int copy) override { return planes_.take(copy); }
     void put(int copy, std::vector<Field> species) override {
         planes_.put(copy, std::move(species));
@@ -86,8 +84,7 @@ private:
     struct Given {
         const StageClock& clock;
         const std::atomic<bool>* cancel = nullptr;
-        const RowsWritten* written_by_last =
-            nullptr;  ///< Called for the last pass of a step; may be null.
+        const RowsWritten* written_by_last = nullptr;  ///< May be null.
     };
     /// Sums of squares, one per row.
     struct Squares {
@@ -121,8 +118,8 @@ private:
     Tiling tiling_;
     bool is_tiling_given_ = false;
     std::optional<TileRunner> tiles_;
-    std::vector<Worker> workers_;       ///< One for each thread in use.
-    std::vector<Squares> squares_;      ///< One for each species.
+    std::vector<Worker> workers_;       ///< By thread in use.
+    std::vector<Squares> squares_;      ///< By species.
     std::vector<std::uint8_t> finite_;  ///< By thread: whether its cells are finite.
 };
 

@@ -14,8 +14,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <array>
 #include <span>
 #include <utility>
 #include <variant>
@@ -201,9 +199,6 @@ private:
                        Operand{node.right, factor(node.right, a_power)}},
                       a_product, least);
     }
-    static bool is_raised(std::string_view number) {
-        return superscript_digit(decode_utf8(number, 0).value).has_value();
-    }
     /// A number as its author wrote it, or its value if the program computed it, such as in a
     /// table's function. A computed number may have the source location of a different number.
     std::string digits(Span span, double value) const {
@@ -221,7 +216,8 @@ private:
                                  a_power, least);
         }
         const std::string_view text = sources_.text(script_.expressions[exponent].span);
-        const auto above = is_raised(text) ? std::string(text) : superscript(text);
+        const bool is_raised = superscript_digit(decode_utf8(text, 0).value).has_value();
+        const auto above = is_raised ? std::string(text) : superscript(text);
         if (above && as<ast::Binary>(exponent) == nullptr) {
             return push_operator({Operand{base, an_atom}, *above}, a_power, least);
         }
@@ -339,8 +335,8 @@ private:
     }
     /// Writes a name, or the derivative that it means.
     void write_name(std::string_view name, int least) {
-        const auto parts = derivative_named(name);
-        if (parts) return write_derivative(parts->axes, symbols_.name(parts->of), least);
+        if (const auto parts = derivative_named(name))
+            return write_derivative(parts->axes, symbols_.name(parts->of), least);
         text_ += symbols_.name(name);
     }
     std::optional<SubscriptedName> derivative_named(std::string_view name) const {

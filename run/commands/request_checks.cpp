@@ -21,6 +21,8 @@ namespace {
 constexpr const char* not_a_model = "the domain is not a model";
 constexpr const char* how_to_get_a_model =
     "write mesh: \"FILE\" in the domain, or run with --mesh FILE";
+constexpr const char* no_model_with_maps =
+    "this option writes maps of a model, but no such model is written";
 constexpr const char* shows_every_interval = "--frames FOLDER writes a picture at each interval";
 
 template <typename Which>
@@ -83,10 +85,7 @@ private:
         report("-o", output.string(), message, hint);
     }
 
-    template <typename Is>
-    bool has_output(const Is& is) const {
-        return std::any_of(request_.outputs.begin(), request_.outputs.end(), is);
-    }
+    bool has_output(const auto& is) const { return std::ranges::any_of(request_.outputs, is); }
     bool has_output_of(FormatKind kind) const {
         return has_output([=](const auto& output) { return is_of_kind(output, kind); });
     }
@@ -176,8 +175,7 @@ private:
         refuse({displace}, copies_of_shapes, "use --bake to write the heights as a map");
         refuse({animate}, copies_of_shapes, "use -o NAME.gif for a film of the moving cells");
         refuse({texels_per_cell},
-               "cells that crawl differ in size, so their size in texels "
-               "cannot be set",
+               "cells that crawl differ in size, so their size in texels cannot be set",
                "use --bake N for maps of N x N texels");
     }
 
@@ -231,10 +229,7 @@ private:
         }
         check_levels();
         if (!has_output(is_baked)) {
-            refuse({bake, texels_per_cell},
-                   "this option writes maps of a model, but no such "
-                   "model is written",
-                   how_to_write(FormatTrait::maps));
+            refuse({bake, texels_per_cell}, no_model_with_maps, how_to_write(FormatTrait::maps));
             refuse({exr}, "--exr needs maps, but no maps are written", how_to_write_maps());
         }
         if (!has_texture) {
@@ -285,9 +280,7 @@ private:
         if (!files_.has_maps())
             refuse({exr}, "--exr needs maps, but no maps are written", how_to_write_maps());
         if (!has_model) {
-            refuse({bake, texels_per_cell},
-                   "this option writes maps of a model, but no such "
-                   "model is written",
+            refuse({bake, texels_per_cell}, no_model_with_maps,
                    output_of(FormatTrait::maps) + " writes a rectangle with them");
         }
     }
@@ -352,21 +345,17 @@ private:
     void check_detail() {
         if (request_.picture.detail == 1) return;
         const auto& model = domain_.model;
-        const auto& mask = domain_.mask;
         refuse_if(has_cells(script_), detail, "cells that crawl cannot be divided into finer cells",
                   "use --size for a larger picture");
         refuse_if(model && model->cells != ModelCellKind::spread, detail,
                   "cells that are faces or points of a model cannot be divided",
                   "use --cells 20000 to spread cells that can be divided");
-        refuse_if(mask && std::any_of(mask->formula.nodes.begin(), mask->formula.nodes.end(),
-                                      is_draw_in_cell),
+        refuse_if(domain_.mask && std::ranges::any_of(domain_.mask->formula.nodes, is_draw_in_cell),
                   detail,
-                  "--detail cannot keep this mask, which draws a random number in each "
-                  "cell",
+                  "--detail cannot keep this mask, which draws a random number in each cell",
                   "use noise(…), whose outlines stay the same in finer cells");
         refuse_if(writes_one_moment(request_), detail,
-                  "the end of a session cannot be carried "
-                  "to finer cells",
+                  "the end of a session cannot be carried to finer cells",
                   "use -o tile.glb --bake 2048 for smooth maps of a plane");
         const std::string message =
             "this output shows the whole run, but --detail computes finer cells only at the end";

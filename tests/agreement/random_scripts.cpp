@@ -231,10 +231,7 @@ private:
         // Functions that are allowed in fluxes only, or with constant points only.
         static constexpr std::array<std::string_view, 9> only_elsewhere = {
             "grad", "vector", "tensor", "symmetric", "cross", "unit", "curl", "distance", "keys"};
-        if (std::find(only_elsewhere.begin(), only_elsewhere.end(), row.spelling) !=
-            only_elsewhere.end()) {
-            return false;
-        }
+        if (std::ranges::find(only_elsewhere, row.spelling) != only_elsewhere.end()) return false;
         switch (row.places) {
             case Contexts::any:
             case Contexts::cells: return true;

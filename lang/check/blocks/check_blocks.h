@@ -61,10 +61,6 @@ bool is_side_word(std::string_view word);
 const ast::Block* find_block(Workspace& work, const ast::Script& script, ast::BlockKind kind,
                              std::string_view name);
 
-/// The advice with the number `value` in place of the example's number: "write 'speed: 0.5'" for
-/// `dt: 0.5`.
-std::string with_number(std::string advice, const ast::Expr& value);
-
 /// Reports rules for the sides of single species in a block that cannot contain them.
 void report_sides(Workspace& work, const ast::Block& block);
 

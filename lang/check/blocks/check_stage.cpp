@@ -366,16 +366,6 @@ void StageChecker::find_uniform() {
 
 }  // namespace
 
-std::string with_number(std::string advice, const ast::Expr& value) {
-    const auto* const number = std::get_if<ast::Number>(&value.node);
-    const std::size_t colon = advice.rfind(": ");
-    if (number == nullptr || colon == advice.npos) return advice;
-    const std::size_t begin = colon + 2, end = advice.find_first_not_of("0123456789.", begin);
-    const std::string_view rest = std::string_view(advice).substr(std::min(end, advice.size()));
-    if (end == begin || (!rest.starts_with("'") && !rest.starts_with(" }'"))) return advice;
-    return advice.replace(begin, end - begin, fmt::format("{}", number->value));
-}
-
 void check_stages(Workspace& work, const ast::Script& script) {
     const std::vector<const ast::Block*> blocks = stage_blocks(script);
     find_systems_of_stages(work, script, true);

@@ -172,6 +172,10 @@ std::string did_you_mean(Workspace& work, std::string_view name,
 std::string hint_about(Workspace& work, std::string_view word, WordContext context,
                        const std::vector<std::string>& candidates);
 
+/// The advice with the number `value` in place of the example's number: "write 'speed: 0.5'" for
+/// `dt: 0.5`.
+std::string with_number(std::string advice, const ast::Expr& value);
+
 /// Whether the system has a family called `name`, such as u for u[1], u[2], …
 bool has_family(const System& system, std::string_view name);
 
