@@ -40,11 +40,11 @@ public:
         const auto rows = static_cast<std::int32_t>(layout_.height);
         run.set(planes, Word{0}, std::int32_t{0}, rows);
         device_.launch(run, columns, static_cast<std::size_t>(rows), 16);
-        const std::vector<Plane<Number>> expected = interpreted(given);
+        const std::vector<Plane<Number>> expected = interpreted();
         for (std::size_t k = 0; k < expected.size(); ++k) {
             Plane<Number> found(layout_);
             device_.read(planes, bytes * (given.size() + k), memory_of(found), bytes);
-            const std::string fault = difference(k, expected[k], found);
+            const std::string fault = probed_.difference(k, expected[k], found);
             if (!fault.empty()) return fault;
         }
         return "";
@@ -72,45 +72,15 @@ private:
                "}\n";
     }
 
-    std::vector<Plane<Number>> interpreted(std::vector<Plane<Number>>& given) const {
-        std::vector<Plane<Number>> results;
-        std::vector<const Number*> fields;
-        std::vector<Number*> targets;
-        for (const Plane<Number>& plane : given) fields.push_back(plane.origin());
-        results.reserve(kernel_.results.size());
-        for (std::size_t k = 0; k < kernel_.results.size(); ++k) {
-            targets.push_back(results.emplace_back(layout_).origin());
-        }
+    std::vector<Plane<Number>> interpreted() const {
         const FlushDenormals environment;
-        const auto interpreter = make_interpreter();
-        const KernelPointer kernel = interpreter->find(kernel_, grid_.stencil());
-        kernel->run(KernelArgumentsOf<Number>{fields, {}, {}, targets, layout_},
-                    Patch{{0, layout_.height}});
-        return results;
-    }
-
-    std::string difference(std::size_t result, const Plane<Number>& expected,
-                           const Plane<Number>& found) const {
-        constexpr WordFormat format = format_of(precision_of<Number>);
-        for (std::int64_t j = 0; j < layout_.height; ++j) {
-            for (std::int64_t i = 0; i < layout_.width; ++i) {
-                const Word right = std::bit_cast<Word>(expected.row(j)[i]);
-                const Word word = std::bit_cast<Word>(found.row(j)[i]);
-                if (right == word || (format.is_nan(right) && format.is_nan(word))) continue;
-                return fmt::format("{} of the words {:#x} and {:#x} is {:#x} instead of {:#x}",
-                                   kernel_.result_names[result],
-                                   words_[static_cast<std::size_t>(i)],
-                                   words_[static_cast<std::size_t>(j)], word, right);
-            }
-        }
-        return "";
+        return probed_.results_of(*make_interpreter()->find(kernel_, grid_.stencil()));
     }
 
     OpenDevice& device_;
     TextTarget target_;
     ProbedKernel<Number> probed_;
     const CellKernel& kernel_ = probed_.kernel;
-    const std::vector<Word>& words_ = probed_.words;
     const Grid& grid_ = probed_.grid;
     PlaneLayout layout_;
 };

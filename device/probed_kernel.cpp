@@ -4,6 +4,8 @@
 #include "ir/builder.h"
 #include "ir/multiply_add.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <bit>
 #include <string>
@@ -88,6 +90,41 @@ std::vector<Plane<Number>> ProbedKernel<Number>::arguments() const {
         }
     }
     return planes;
+}
+
+template <typename Number>
+std::vector<Plane<Number>> ProbedKernel<Number>::results_of(const Kernel& compiled) const {
+    const PlaneLayout layout(grid);
+    const std::vector<Plane<Number>> given = arguments();
+    std::vector<Plane<Number>> results;
+    std::vector<const Number*> fields;
+    std::vector<Number*> targets;
+    for (const Plane<Number>& plane : given) fields.push_back(plane.origin());
+    results.reserve(kernel.results.size());
+    for (std::size_t k = 0; k < kernel.results.size(); ++k) {
+        targets.push_back(results.emplace_back(layout).origin());
+    }
+    compiled.run(KernelArgumentsOf<Number>{fields, {}, {}, targets, layout},
+                 Patch{{0, layout.height}});
+    return results;
+}
+
+template <typename Number>
+std::string ProbedKernel<Number>::difference(std::size_t result, const Plane<Number>& expected,
+                                             const Plane<Number>& found) const {
+    using Word = WordOf<Number>;
+    constexpr WordFormat format = format_of(precision_of<Number>);
+    for (std::int64_t j = 0; j < grid.height; ++j) {
+        for (std::int64_t i = 0; i < grid.width; ++i) {
+            const Word right = std::bit_cast<Word>(expected.row(j)[i]);
+            const Word word = std::bit_cast<Word>(found.row(j)[i]);
+            if (right == word || (format.is_nan(right) && format.is_nan(word))) continue;
+            return fmt::format("{} of the words {:#x} and {:#x} is {:#x} instead of {:#x}",
+                               kernel.result_names[result], words[static_cast<std::size_t>(i)],
+                               words[static_cast<std::size_t>(j)], word, right);
+        }
+    }
+    return "";
 }
 
 template struct ProbedKernel<float>;

@@ -3,8 +3,11 @@
 
 #include "core/grid.h"
 #include "core/plane.h"
+#include "ir/backend.h"
 #include "ir/cell_kernel.h"
 
+#include <cstddef>
+#include <string>
 #include <vector>
 
 namespace cascade {
@@ -20,6 +23,12 @@ struct ProbedKernel {
     ProbedKernel();
     /// The planes of a and b.
     std::vector<Plane<Number>> arguments() const;
+    /// Computes the planes of the results by a compiled form of the kernel.
+    std::vector<Plane<Number>> results_of(const Kernel& compiled) const;
+    /// Describes the first word of a result that differs; empty if there is none. All NaN count as
+    /// equal.
+    std::string difference(std::size_t result, const Plane<Number>& expected,
+                           const Plane<Number>& found) const;
 };
 
 }  // namespace cascade

@@ -30,6 +30,14 @@ void append_numbers(std::vector<std::uint32_t>& words, const std::vector<double>
 
 }  // namespace
 
+WgslCall call_of_plane(const PlaneLayout& layout) {
+    WgslCall call;
+    call.words = {0, 0, static_cast<std::uint32_t>(layout.row_count()), 0};
+    call.groups_x = group_count(layout.width, wgsl_group_width);
+    call.groups_y = group_count(layout.row_count(), wgsl_group_height);
+    return call;
+}
+
 std::string reason_against_wgsl(const StepProblem& problem) {
     if (problem.precision == Precision::binary64) return "WebGPU has no double precision";
     if (problem.aggregates > 0 || problem.error_register.has_value()) {
@@ -108,9 +116,8 @@ std::vector<std::uint32_t> WgslSteps::links() const {
 void WgslSteps::add(std::size_t pass, CopyRoles roles, const StepMoment& moment,
                     std::vector<WgslCall>& calls, std::vector<std::uint32_t>& sides) const {
     const StepProblem::Pass& bound = problem_.passes[pass];
-    WgslCall call;
+    WgslCall call = call_of_plane(layout_);
     call.kernel = kernel_name(pass);
-    call.words = {0, 0, static_cast<std::uint32_t>(layout_.row_count()), 0};
     if (problem_.links != nullptr) {
         const WgslLinks links(problem_.links->table<float>(), layout_);
         call.words.insert(call.words.end(), links.places.begin(), links.places.end());
@@ -125,8 +132,6 @@ void WgslSteps::add(std::size_t pass, CopyRoles roles, const StepMoment& moment,
         call.words.push_back(std::bit_cast<std::uint32_t>(passed_value<float>(uniform, moment)));
     }
     call.words.resize(wgsl_call_words(problem_));
-    call.groups_x = group_count(layout_.width, wgsl_group_width);
-    call.groups_y = group_count(layout_.row_count(), wgsl_group_height);
     calls.push_back(std::move(call));
 
     if (!problem_.has_halo()) return;

@@ -24,6 +24,9 @@ struct WgslCall {
     std::uint32_t groups_x = 1, groups_y = 1;  ///< The number of work-groups.
 };
 
+/// A call of a kernel that computes all cells of a plane. Has no name and only the first words.
+WgslCall call_of_plane(const PlaneLayout& layout);
+
 /// The reason why WebGPU cannot take the steps of a problem, as the end of a sentence. Empty if it
 /// can.
 std::string reason_against_wgsl(const StepProblem& problem);
@@ -42,6 +45,8 @@ public:
     std::size_t plane_words() const;
     /// The place in c_planes at which the memory of a species' plane begins, halo included.
     std::size_t place_of(int copy, std::size_t species) const;
+    /// The place at which the memory of the first species of a register begins.
+    std::size_t place_of(RegisterId id, CopyRoles roles) const;
     /// The words of a constant plane, and its place.
     struct ConstantPlane {
         std::size_t place;
@@ -59,7 +64,6 @@ public:
              std::vector<WgslCall>& calls, std::vector<std::uint32_t>& sides) const;
 
 private:
-    std::size_t place_of(RegisterId id, CopyRoles roles) const;
     std::size_t temporaries() const;
     std::size_t constants() const;
     void add_halo(const std::vector<std::size_t>& origins, const std::vector<SideRules>& rules,

@@ -19,6 +19,7 @@ list(APPEND CASCADE_WITHOUT
   core/cache_sizes core/descriptor core/file core/floating_point core/granted_files core/growing_file
   core/kept_files core/late_library core/link_target core/open_below core/own_folder core/parallel core/shared_files
   core/plane_memory core/read_file core/temporary_file core/transform_planner
+  device/device.* device/no_opencl device/opencl_.* device/plane_kernels device/probe
   ir/tiered_backend
   atlas/flatten atlas/join_charts atlas/unwrap
   mesh/coarse_copy mesh/collapse_edges mesh/flat_triangles mesh/gltf_.* mesh/half_edges mesh/isotropic_remesh
@@ -44,7 +45,7 @@ cascade_room(core)
 target_compile_definitions(cascade_core PRIVATE CASCADE_VERSION="${PROJECT_VERSION}")
 cascade_room(ir)
 include(cmake/no_jit.cmake)
-foreach(room lang wasm solvers picture measure mesh surface atlas tissue render export run view)
+foreach(room lang wasm solvers device picture measure mesh surface atlas tissue render export run view)
   cascade_room(${room})
 endforeach()
 include(lang/systems/embed.cmake)
@@ -55,7 +56,7 @@ endforeach()
 
 file(GLOB tab_sources CONFIGURE_DEPENDS tab/*.cpp tab/substitutes/*.cpp)
 add_executable(engine ${tab_sources})
-target_link_libraries(engine PRIVATE cascade_view cascade_wasm)
+target_link_libraries(engine PRIVATE cascade_view cascade_wasm cascade_device)
 target_link_options(engine PRIVATE -mexec-model=reactor -Wl,--export-table,--growable-table
   -Wl,-z,stack-size=4194304 -Wl,--strip-all)
 set_target_properties(engine PROPERTIES SUFFIX .wasm RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})

@@ -1,7 +1,8 @@
 // The engine of a page without a server: it runs a session and answers the messages of
 // spec/page.md.
 //
-// Exported functions. All must be called by the one thread of a browser's worker:
+// Exported functions. All must be called by the one thread of a browser's worker. begin(),
+// receive() and turn() may wait for a GPU (tab/host.h). While one waits, no other may be called:
 //
 // - allocate(size): returns memory for bytes that the next call takes and frees.
 // - carry(name, name_size, bytes, size): adds a file that the script may read.
@@ -19,6 +20,7 @@
 #include "run/session/kept_state.h"
 #include "run/session/turns.h"
 #include "tab/files.h"
+#include "tab/gpu_executor.h"
 #include "tab/host.h"
 #include "tab/module_backend.h"
 #include "view/carried.h"
@@ -54,6 +56,7 @@ public:
 
 private:
     void send_surface();
+    void tell_engine(const EngineOfSteps& engine);
     void tell_script() { send_text(print_script(turns_->run())); }
 
     std::optional<Turns> turns_;
@@ -61,6 +64,7 @@ private:
     bool wants_snapshot_ = false;
     bool has_library_ = false;  ///< Whether the page has the library.
     std::uint64_t told_script_ = 0;
+    std::optional<EngineOfSteps> told_engine_;
 };
 
 bool Engine::begin(const std::string& name, const std::string& text, const std::string& stored,
@@ -79,6 +83,7 @@ bool Engine::begin(const std::string& name, const std::string& text, const std::
     options.threads = 1;
     if (is_exact) make_modules_exact();
     options.stepper = std::make_shared<TieredBackend>(make_module_backend());
+    options.executor = on_gpu([this](const EngineOfSteps& engine) { tell_engine(engine); });
     RunControl control;
     control.report = tell_progress;
     if (turns_) {
@@ -136,8 +141,20 @@ void Engine::send_surface() {
     send_frame(print_surface(shown_surface(*newest_->surface, team), newest_->surface_number));
 }
 
+void Engine::tell_engine(const EngineOfSteps& engine) {
+    if (told_engine_ == engine) return;
+    told_engine_ = engine;
+    send_text(print_engine(engine.is_gpu ? "WebGPU" : "WebAssembly", engine.about));
+}
+
 bool Engine::turn() {
-    if (turns_->is_going_on()) turns_->take();
+    if (turns_->is_going_on()) {
+        const LiveRun& run = turns_->run();
+        if (run.script().program->system_of(run.place().stage).cells) {
+            tell_engine({false, "the GPU does not move cells that crawl"});
+        }
+        turns_->take();
+    }
     if (wants_snapshot_ && turns_->has_changed() && turns_->is_snapshot_due()) {
         newest_ = turns_->snapshot();
         if (const auto version = version_of_script(*newest_); version != told_script_) {

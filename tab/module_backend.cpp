@@ -96,10 +96,12 @@ private:
 
 class ModuleBackend final : public Backend {
 public:
+    explicit ModuleBackend(bool is_exact = false) : is_exact_(is_exact) {}
+
     std::string_view name() const override { return "wasm"; }
 
     Result<KernelPointer> compile(const CellKernel& kernel, Stencil stencil) override {
-        auto module = wasm_module(kernel, stencil, {are_modules_exact});
+        auto module = wasm_module(kernel, stencil, {is_exact_ || are_modules_exact});
         if (!module) return tl::unexpected(module.error());
         if (kernels_.size() >= most_kept) {
             std::erase_if(kernels_,
@@ -130,6 +132,7 @@ private:
         return stencil.x + 2 * stencil.y + 4 * stencil.z + 8 * stencil.links;
     }
 
+    bool is_exact_;
     std::map<std::pair<std::string, int>, KernelPointer> kernels_;
     KernelCounts counts_;
 };
@@ -139,6 +142,8 @@ private:
 void make_modules_exact() { are_modules_exact = true; }
 
 std::unique_ptr<Backend> make_module_backend() { return std::make_unique<ModuleBackend>(); }
+
+std::unique_ptr<Backend> make_exact_backend() { return std::make_unique<ModuleBackend>(true); }
 
 std::unique_ptr<Backend> make_starting_backend() {
     return are_modules_exact ? make_module_backend() : make_interpreter();

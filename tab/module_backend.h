@@ -13,6 +13,8 @@ namespace cascade {
 void make_modules_exact();
 
 std::unique_ptr<Backend> make_module_backend();
+/// A backend whose modules flush denormal numbers even if make_modules_exact() was not called.
+std::unique_ptr<Backend> make_exact_backend();
 
 /// A backend for kernels that run once. This is the interpreter or, after make_modules_exact(), a
 /// backend that makes modules, because in a tab the interpreter flushes only results.

@@ -278,6 +278,10 @@ std::string print_failure(std::uint64_t id, const Failure& failure) {
                   {"messages", Json::array({print_failure(failure)})}});
 }
 
+std::string print_engine(std::string_view name, std::string_view about) {
+    return print(Json{{"kind", "engine"}, {"name", name}, {"about", about}});
+}
+
 std::string print_progress(const Progress& progress) {
     Json json = {{"kind", "progress"}, {"doing", progress.doing}};
     if (progress.steps > 0) {

@@ -37,6 +37,10 @@ std::string print_answer(std::uint64_t id, const Accepted<void>& result, std::st
 /// The answer to a message that could not be read or carried out.
 std::string print_failure(std::uint64_t id, const Failure& failure);
 
+/// The engine that takes the steps of a page without the program: "WebGPU" or "WebAssembly".
+/// `about` is the name of the GPU, or the reason why the engine is not WebGPU.
+std::string print_engine(std::string_view name, std::string_view about);
+
 /// Describes the slow operation in progress. Empty when it has ended.
 std::string print_progress(const Progress& progress);
 

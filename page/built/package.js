@@ -1,7 +1,11 @@
 // src/engine.ts
+function imports_of(engine, module, known, otherwise) {
+  const names = WebAssembly.Module.imports(engine).filter((each) => each.module === module);
+  return Object.fromEntries(names.map(({ name }) => [name, known[name] ?? (() => otherwise)]));
+}
 var Engine = class {
   ///< The beginning of a line that the engine is printing.
-  constructor(module, host) {
+  constructor(module, host, gpu) {
     this.host = host;
     const copy = (at, size) => this.bytes.slice(at, at + size);
     const text = (at, size) => new TextDecoder().decode(copy(at, size));
@@ -11,7 +15,9 @@ var Engine = class {
       add_kernel: (at, size) => this.add_kernel(copy(at, size)),
       drop_kernel: (place) => this.exports.__indirect_function_table.set(place, null)
     };
-    this.exports = new WebAssembly.Instance(module, { page, wasi_snapshot_preview1: this.system(module) }).exports;
+    const of_gpu = gpu?.imports(() => this.exports.memory) ?? imports_of(module, "gpu", {}, 0);
+    const exports = new WebAssembly.Instance(module, { page, gpu: of_gpu, wasi_snapshot_preview1: this.system(module) }).exports;
+    this.exports = gpu?.waiting(exports, ["begin", "receive", "turn"]) ?? exports;
     this.exports._initialize();
   }
   host;
@@ -20,16 +26,16 @@ var Engine = class {
   carry([name, bytes]) {
     this.exports.carry(...this.put(name), ...this.put(bytes));
   }
-  /// Starts a run. If this fails, the page gets the reason, and the previous run continues.
+  /// Starts a run. If this fails, which 0 says, the page gets the reason, and the previous run continues.
   begin({ name, text, overrides, is_exact }) {
-    return this.exports.begin(...this.put(name), ...this.put(text), ...this.put(overrides), Number(is_exact)) !== 0;
+    return this.exports.begin(...this.put(name), ...this.put(text), ...this.put(overrides), Number(is_exact));
   }
   receive(message) {
-    this.exports.receive(...this.put(message));
+    return this.exports.receive(...this.put(message));
   }
-  /// Takes a turn. Returns whether there is more to do before the next message.
+  /// Takes a turn. The answer is not 0 if there is more to do before the next message.
   turn() {
-    return this.exports.turn() !== 0;
+    return this.exports.turn();
   }
   // When the memory grows, earlier views of it become invalid.
   get bytes() {
@@ -78,8 +84,7 @@ var Engine = class {
       }
     };
     const unsupported = 52;
-    const names = WebAssembly.Module.imports(module).filter((each) => each.module === "wasi_snapshot_preview1");
-    return Object.fromEntries(names.map(({ name }) => [name, known[name] ?? (() => unsupported)]));
+    return imports_of(module, "wasi_snapshot_preview1", known, unsupported);
   }
 };
 

@@ -54,6 +54,7 @@ export interface Listener {
     script(script: Script): void;
     snapshot(snapshot: Snapshot): void;
     surface(surface: Surface): void;
+    engine(name: string, about: string): void;  ///< The engine of a page without the program.
     progress(doing: string, part?: number): void;  ///< A long task; empty after the task.
     lost(reason: string): void;
     refused(why: Message): void;  ///< An error without a request, or about one that could not be read.
@@ -160,6 +161,7 @@ export class Connection {
         const message = JSON.parse(data);
         if (message.kind === "palettes") this.listener.palettes(message.palettes);
         else if (message.kind === "systems") this.listener.systems(message.systems);
+        else if (message.kind === "engine") this.listener.engine(message.name, message.about);
         else if (message.kind === "progress") this.listener.progress(message.doing, message.part);
         else if (message.kind === "script") this.listener.script(message);
         else if (message.id === 0) this.listener.refused(message.messages.find(({ is_error }: Message) => is_error));

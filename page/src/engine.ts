@@ -1,5 +1,7 @@
 // Runs engine.wasm: provides its imports, calls its exports (tab/engine.cpp) and takes its turns.
 
+import type { Gpu } from "./gpu";
+
 /// The script with its options and files in an exported page.
 export interface Carried {
     name: string;
@@ -18,6 +20,7 @@ interface Exports {
     begin(...texts_and_flag: number[]): number;
     receive(message: number, size: number): void;
     turn(): number;
+    [name: string]: unknown;
 }
 
 export interface Host {
@@ -25,11 +28,21 @@ export interface Host {
     send_frame(bytes: ArrayBuffer): void;
 }
 
+type Functions = Record<string, (...numbers: number[]) => number>;
+
+/// The functions that an engine imports from a module. Functions that are not known return `otherwise`.
+function imports_of(engine: WebAssembly.Module, module: string, known: Functions, otherwise: number): WebAssembly.ModuleImports {
+    const names = WebAssembly.Module.imports(engine).filter((each) => each.module === module);
+    return Object.fromEntries(names.map(({ name }) => [name, known[name] ?? (() => otherwise)]));
+}
+
+/// The calls begin(), receive() and turn() return promises if the engine may wait for `gpu`. Then only one call may be made
+/// at a time.
 export class Engine {
     private exports!: Exports;
     private words = "";  ///< The beginning of a line that the engine is printing.
 
-    constructor(module: WebAssembly.Module, private readonly host: Host) {
+    constructor(module: WebAssembly.Module, private readonly host: Host, gpu?: Gpu) {
         const copy = (at: number, size: number) => this.bytes.slice(at, at + size);
         const text = (at: number, size: number) => new TextDecoder().decode(copy(at, size));
         const page = {
@@ -38,22 +51,23 @@ export class Engine {
             add_kernel: (at: number, size: number) => this.add_kernel(copy(at, size)),
             drop_kernel: (place: number) => this.exports.__indirect_function_table.set(place, null),
         };
-        this.exports = new WebAssembly.Instance(module, { page, wasi_snapshot_preview1: this.system(module) })
-            .exports as unknown as Exports;
+        const of_gpu = gpu?.imports(() => this.exports.memory) ?? imports_of(module, "gpu", {}, 0);
+        const exports = new WebAssembly.Instance(module, { page, gpu: of_gpu, wasi_snapshot_preview1: this.system(module) }).exports as unknown as Exports;
+        this.exports = gpu?.waiting(exports, ["begin", "receive", "turn"]) ?? exports;
         this.exports._initialize();
     }
 
     carry([name, bytes]: [string, Uint8Array]) { this.exports.carry(...this.put(name), ...this.put(bytes)); }
 
-    /// Starts a run. If this fails, the page gets the reason, and the previous run continues.
-    begin({ name, text, overrides, is_exact }: Carried): boolean {
-        return this.exports.begin(...this.put(name), ...this.put(text), ...this.put(overrides), Number(is_exact)) !== 0;
+    /// Starts a run. If this fails, which 0 says, the page gets the reason, and the previous run continues.
+    begin({ name, text, overrides, is_exact }: Carried) {
+        return this.exports.begin(...this.put(name), ...this.put(text), ...this.put(overrides), Number(is_exact));
     }
 
-    receive(message: string) { this.exports.receive(...this.put(message)); }
+    receive(message: string) { return this.exports.receive(...this.put(message)); }
 
-    /// Takes a turn. Returns whether there is more to do before the next message.
-    turn(): boolean { return this.exports.turn() !== 0; }
+    /// Takes a turn. The answer is not 0 if there is more to do before the next message.
+    turn() { return this.exports.turn(); }
 
     // When the memory grows, earlier views of it become invalid.
     private get bytes() { return new Uint8Array(this.exports.memory.buffer); }
@@ -80,7 +94,7 @@ export class Engine {
     /// The system calls of the C library: time, and output of error messages.
     private system(module: WebAssembly.Module): WebAssembly.ModuleImports {
         const view = () => new DataView(this.exports.memory.buffer);
-        const known: Record<string, (...numbers: number[]) => number> = {
+        const known: Functions = {
             clock_time_get: (_clock, _precision, at) => {
                 view().setBigUint64(at, BigInt(Math.round(performance.now() * 1e6)), true);
                 return 0;
@@ -101,7 +115,6 @@ export class Engine {
             proc_exit: () => { throw new Error("it has left"); },
         };
         const unsupported = 52;  // ENOSYS of WASI.
-        const names = WebAssembly.Module.imports(module).filter((each) => each.module === "wasi_snapshot_preview1");
-        return Object.fromEntries(names.map(({ name }) => [name, known[name] ?? (() => unsupported)]));
+        return imports_of(module, "wasi_snapshot_preview1", known, unsupported);
     }
 }

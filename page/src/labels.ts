@@ -134,6 +134,8 @@ export const labels: Record<string, [de: string, fr: string, es: string, zh: str
     "Below the pattern: %": ["Unter dem Muster: %", "Sous le motif : %", "Debajo del patrón: %", "图案下方：%"],
     "# of #": ["# von #", "# sur #", "# de #", "# / #"],
     // Messages
+    "computes with WebGPU on %": ["rechnet mit WebGPU auf %", "calcule avec WebGPU sur %", "calcula con WebGPU en %", "用 WebGPU 在 % 上计算"],
+    "computes with WebAssembly, because %": ["rechnet mit WebAssembly, denn: %", "calcule avec WebAssembly, car : %", "calcula con WebAssembly, porque: %", "用 WebAssembly 计算，因为：%"],
     "paused": ["angehalten", "suspendu", "en pausa", "已暂停"],
     "step %": ["Schritt %", "pas %", "paso %", "第 % 步"],
     "step # of #": ["Schritt # von #", "pas # sur #", "paso # de #", "第 # 步，共 # 步"],

@@ -5,6 +5,7 @@ import { Answer, Connection, Explanation, KnownName, Message, Palette, Script, S
 import { download } from "./download";
 import { Editor } from "./editor";
 import type { NameUses } from "./editor_names";
+import { show_engine } from "./engine_line";
 import { Failure } from "./failure";
 import { Help } from "./help";
 import { obey_keys } from "./keys";
@@ -117,6 +118,7 @@ const connection = new Connection({
         solid.take(surface);
         pattern.draw();
     },
+    engine: show_engine,
     progress: (doing, part) => preparing.tell(doing, part),
     lost(reason) {
         preparing.tell("");
@@ -354,7 +356,6 @@ const actions: Record<string, () => void> = {
     },
 };
 for (const [id, act] of Object.entries(actions)) document.querySelector(`button#${id}`)?.addEventListener("click", act);
-
 element("help_button").addEventListener("click", actions.help);
 
 async function load_model(file?: File) {
@@ -372,7 +373,6 @@ model_file.addEventListener("change", () => {
 });
 button("load").hidden = EngineLine.is_carried;
 take_drops(load_model);
-
 obey_keys(actions);
 close_popups(["look", "save"]);
 

@@ -1,6 +1,7 @@
 // The worker of an exported page. Its first message contains the compiled engine and the script of the page. All
 // further messages, in both directions, are described in spec/page.md.
 import { type Carried, Engine } from "./engine";
+import { Gpu } from "./gpu";
 
 /// A linked script replaces the script of the page if it has no errors.
 export interface Beginning { engine: WebAssembly.Module; carried: Carried; linked?: Carried }
@@ -17,24 +18,30 @@ function go_on() {
     turns.port2.postMessage(null);
 }
 
-turns.port1.onmessage = () => {
-    is_turning = false;
-    if (engine!.turn()) go_on();
-};
+/// The engine takes one call at a time. A call may wait for the GPU.
+let calls: Promise<unknown> = Promise.resolve();
+function call(work: () => Promise<unknown>) {
+    calls = calls.then(work).catch((error) => queueMicrotask(() => { throw error; }));
+}
 
-page.onmessage = ({ data }: MessageEvent<Beginning | string>) => {
+turns.port1.onmessage = () => call(async () => {
+    is_turning = false;
+    if (await engine!.turn()) go_on();
+});
+
+page.onmessage = ({ data }: MessageEvent<Beginning | string>) => call(async () => {
     if (typeof data === "string") {
         // The engine could not start, and the page already knows why.
         if (!engine) return;
-        engine.receive(data);
+        await engine.receive(data);
         return go_on();
     }
     const begun = new Engine(data.engine, {
         send_text: (text) => page.postMessage(text),
         send_frame: (bytes) => page.postMessage(bytes, [bytes]),
-    });
+    }, new Gpu());
     data.carried.files.forEach((file) => begun.carry(file));
-    if (!begun.begin(data.carried)) return;
-    if (data.linked) begun.begin(data.linked);
+    if (!await begun.begin(data.carried)) return;
+    if (data.linked) await begun.begin(data.linked);
     engine = begun;
-};
+});

@@ -48,13 +48,13 @@ export async function serve(program, ...words) {
 }
 
 export class Browser {
-    static async start(command, profile) {
+    static async start(command, profile, options = []) {
         const browser = new Browser();
         // No sandbox, because it does not work for root, as whom tests run in containers.
         browser.shell = spawn(command, [
             "--headless", "--no-sandbox", "--disable-dev-shm-usage", "--use-angle=swiftshader",
             "--enable-unsafe-swiftshader", "--no-first-run", "--disable-background-networking",
-            "--remote-debugging-pipe", `--user-data-dir=${profile}`, "about:blank",
+            "--remote-debugging-pipe", `--user-data-dir=${profile}`, ...options, "about:blank",
         ], { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"], detached: true });
         browser.waiting = new Map();
         browser.heard = [];  // Messages in the page's console, and violations of its policy.

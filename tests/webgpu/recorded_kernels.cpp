@@ -92,19 +92,12 @@ private:
     std::string name_;
 };
 
-std::uint32_t groups(std::int64_t items, std::int64_t group) {
-    return static_cast<std::uint32_t>((items + group - 1) / group);
-}
-
 void add_call(WebgpuCase& made, std::size_t number, const PlaneLayout& layout,
               const std::vector<std::uint32_t>& links) {
-    WgslCall call;
+    WgslCall call = call_of_plane(layout);
     call.kernel = fmt::format("c_kernel_{}", number);
-    call.words = {0, 0, static_cast<std::uint32_t>(layout.row_count()), 0};
     call.words.insert(call.words.end(), links.begin(), links.end());
     call.words.resize(first_call_word);
-    call.groups_x = groups(layout.width, wgsl_group_width);
-    call.groups_y = groups(layout.row_count(), wgsl_group_height);
     made.calls.push_back(std::move(call));
 }
 
@@ -143,18 +136,9 @@ WebgpuCase probing_case(Flushing flushing) {
     const auto interpreter = make_interpreter();
     const RecordedForWebgpu recorded(interpreter->find(probed.kernel, probed.grid.stencil()), made,
                                      bytes, "hard words");
-    const std::vector<Plane<float>> given = probed.arguments();
-    std::vector<const float*> fields;
-    for (const Plane<float>& plane : given) fields.push_back(plane.origin());
-    const PlaneLayout layout(probed.grid);
-    std::vector<Plane<float>> results;
-    std::vector<float*> targets;
-    for (std::size_t k = 0; k < probed.kernel.results.size(); ++k) results.emplace_back(layout);
-    for (Plane<float>& plane : results) targets.push_back(plane.origin());
     const FlushDenormals environment;
-    recorded.run(KernelArgumentsOf<float>{fields, {}, {}, targets, layout},
-                 Patch{{0, layout.height}});
-    add_call(made, 0, layout, {});
+    probed.results_of(recorded);
+    add_call(made, 0, PlaneLayout(probed.grid), {});
     made.name = "numbers that are difficult to round";
     return made;
 }
