@@ -36,6 +36,9 @@ void run(CLI::App& command, Options& options) {
     groups::add_files(command, options.run);
     groups::add_picture_options(command, options.picture);
     groups::add_run_options(command, options.run, RunOption::log, RunOption::features);
+    groups::add_seeds(command, options, "Numbers",
+                      "Run with each of these seeds, or of a list 3,7,12, and write\nmeans with "
+                      "their 95 % intervals: the same as cascade sweep\nwith this option");
     groups::add_overrides(command, options.overrides);
     groups::add_simulation(command, options, "Threads; by default all cores");
     groups::add_run_options(command, options.run, RunOption::stop_at, RunOption::stop_at);
@@ -52,6 +55,10 @@ void sweep(CLI::App& command, Options& options) {
     groups::add_script(command, options, "A script, or a picture that Cascade drew");
     groups::add_sweep(command, options);
     groups::add_picture_options(command, options.picture, true);
+    groups::add_run_options(command, options.run, RunOption::log, RunOption::log_every);
+    for (const char* moments : {"--at", "--every"}) {
+        command.get_option(moments)->needs(command.get_option("--log"));
+    }
     groups::add_overrides(command, options.overrides);
     groups::add_simulation(command, options,
                            "Runs at once, each on one thread; by default as many\n"

@@ -56,6 +56,7 @@ constexpr NeedlessOption needless_options[] = {
     {"bind", "--no-browser", "leave it out: only browsers of this machine can open the page"},
     {"open", "--no-browser", "leave it out: the browser opens by itself"},
     {"browser", "--no-browser", "leave it out: the browser opens by itself"},
+    {"features", "--tile", "leave it out: features.csv has the features of every run"},
     {"dpi", "--size", "write --size 1920x1080 for the pixels of a picture"},
     {"i", "--unicode", "leave it out: the files themselves are changed"},
     {"write", "--unicode", "leave it out: the files themselves are changed"},

@@ -41,6 +41,7 @@ void add_bench(CLI::App& app, Options& options);
 void add_compile(CLI::App& app, Options& options);
 void add_export(CLI::App& app, Options& options);
 void add_sweep(CLI::App& app, Options& options);
+void add_seeds(CLI::App& app, Options& options, const std::string& group, const std::string& help);
 void add_follow(CLI::App& app, Options& options);
 
 }  // namespace cascade::option_groups

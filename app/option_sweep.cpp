@@ -29,11 +29,9 @@ void add_varied(CLI::App& app, Options& options) {
         "A table of parameter sets: names in its first line, and a\nrow of numbers for each run",
         any_text, [&](auto path) { options.sweep_sets = path; })
         ->group(varied);
-    add_value(app, "--seeds", "FIRST..LAST",
+    add_seeds(app, options, varied,
               "Repeat every run with these seeds, or with a list 3,7,12;\nensembles.csv has means "
-              "with their 95 % intervals",
-              parse_seeds, [&](auto seeds) { options.sweep_seeds = std::move(seeds); })
-        ->group(varied);
+              "with their 95 % intervals");
 }
 
 void add_sweep_files(CLI::App& app, Options& options) {
@@ -87,6 +85,12 @@ void add_sweep_processes(CLI::App& app, SweepRequest& sweep) {
 }
 
 }  // namespace
+
+void add_seeds(CLI::App& app, Options& options, const std::string& group, const std::string& help) {
+    add_value(app, "--seeds", "FIRST..LAST", help, parse_seeds, [&](auto seeds) {
+        options.sweep_seeds = std::move(seeds);
+    })->group(group);
+}
 
 void add_sweep(CLI::App& app, Options& options) {
     add_varied(app, options);

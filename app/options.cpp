@@ -267,6 +267,17 @@ std::vector<std::string> without_terminator(std::vector<std::string> arguments) 
     return arguments;
 }
 
+/// With --seeds, `run` means `sweep`. A word after -- is no option.
+std::vector<std::string> with_sweep_for_seeds(std::vector<std::string> words) {
+    if (words.empty() || words.front() != "run") return words;
+    const auto end = std::find(words.begin(), words.end(), "--");
+    const bool has_seeds = std::any_of(words.begin(), end, [](const std::string& word) {
+        return word == "--seeds" || word.starts_with("--seeds=");
+    });
+    if (has_seeds) words.front() = "sweep";
+    return words;
+}
+
 /// The options of a command that --help shows or, if `arguments` is true, its arguments.
 std::vector<ManualOption> describe(const CLI::App& app, bool arguments) {
     std::vector<ManualOption> all;
@@ -310,9 +321,10 @@ PictureRequest apply(const PictureChanges& changes, PictureRequest request) {
 
 std::variant<Options, Leave> parse_options(const std::string& program,
                                            const std::vector<std::string>& arguments) {
-    Parser parser(program, arguments);
+    const std::vector<std::string> typed = with_sweep_for_seeds(arguments);
+    Parser parser(program, typed);
     try {
-        std::vector<std::string> words = without_terminator(arguments);
+        std::vector<std::string> words = without_terminator(typed);
         std::reverse(words.begin(), words.end());  // CLI11 expects the arguments in reverse order.
         parser.app.parse(std::move(words));
     } catch (const CLI::CallForHelp&) {

@@ -123,6 +123,67 @@ says err "'seed' is varied twice"
 run 3 sweep spots.cascade --seeds 1..2 --curve wavelength -o wrong
 says err 'a curve needs a varied name other than the seed'
 
+# Numbers over time in every run, and their means: the rows of a run are those of `cascade run --log`.
+cat >decays.cascade <<'END4'
+system decays { u: random(1, 2); k: 0.1; u' = -k * u }
+domain { grid: 16, 16 }
+stage first: decays { solver: rk4; speed: 0.5; iterations: 20; interval: 10 }
+stage second: decays { u: u; solver: rk4; speed: 0.5; iterations: 10; interval: 10 }
+END4
+logs=(--log 'm=mean(u over domain)' --log deviation)
+run 0 sweep decays.cascade --vary k=0.1,0.2 --seeds 1..4 "${logs[@]}" -q -o logged
+for k in 0.1 0.2; do
+    for seed in 1 4; do
+        run 0 run decays.cascade --set k=$k --seed $seed "${logs[@]}" --log-file one.csv -q
+        [ "$(grep "^$k,$seed," logged/logs.csv)" = "$(sed "1d; s/^/$k,$seed,/" one.csv)" ] || fail "a log of other rows in a sweep"
+    done
+done
+python3 - logged <<'END4' || fail "the means of logs are not those of the runs"
+import csv, math, statistics, sys
+rows = list(csv.DictReader(open(sys.argv[1] + "/logs.csv")))
+means = list(csv.DictReader(open(sys.argv[1] + "/log_ensembles.csv")))
+assert len(rows) == 2 * 4 * 5 and len(means) == 2 * 2 * 5, (len(rows), len(means))
+for row in means:
+    at = ("k", "stage", "step", "t")
+    values = [float(r[row["number"]]) for r in rows if all(r[name] == row[name] for name in at)]
+    assert int(row["runs"]) == len(values) == 4
+    half = 3.182446 * statistics.stdev(values) / 2
+    assert math.isclose(float(row["mean"]), statistics.mean(values), rel_tol=1e-6)
+    assert math.isclose(float(row["high"]), statistics.mean(values) + half, rel_tol=1e-6)
+# Theory: the mean of u decays with the rate k.
+first = [row for row in means if row["number"] == "m" and row["stage"] == "first"]
+for k in ("0.1", "0.2"):
+    start, end = [float(row["mean"]) for row in first if row["k"] == k][::2]
+    assert abs(math.log(start / end) - 10 * float(k)) < 1e-5, (start, end)
+END4
+run 0 sweep decays.cascade --vary k=0.1,0.2 --seeds 1..4 "${logs[@]}" -o logged
+says err '8 runs (8 done before)'
+run 0 sweep decays.cascade --vary k=0.1,0.2 --seeds 1..4 --log 'm=mean(u over domain)' --every 4 -o logged
+says err '8 runs, '
+cut -d, -f2,4 logged/log_ensembles.csv | sort -u >times
+for t in 0 4 8 10; do grep -qx "first,$t" times || fail "no row at t = $t"; done
+run 0 sweep decays.cascade --vary k=0.1,0.2 --seeds 1..4 --log 'm=mean(u over domain)' --every 4 -q --force --threads 1 -o logged_again
+cmp logged/log_ensembles.csv logged_again/log_ensembles.csv || fail "one thread, other means of logs"
+run 2 sweep decays.cascade --vary k=0.1 --log u -o wrong
+says err 'this value differs from cell to cell'
+run 64 sweep decays.cascade --vary k=0.1 --every 2 -o wrong
+says err '--log'
+[ ! -e wrong ] || fail "a wrong log has written"
+
+# A run with many seeds is a sweep.
+run 0 run decays.cascade --seeds 1..4 "${logs[@]}" -o seeds
+says out 'wrote seeds/log_ensembles.csv'
+run 0 sweep decays.cascade --seeds=1..4 "${logs[@]}" -q -o seeds_again
+for file in features.csv logs.csv ensembles.csv log_ensembles.csv sheet.png; do
+    cmp seeds/$file seeds_again/$file || fail "run --seeds writes another $file"
+done
+run 64 run decays.cascade --seeds 1..4 --series a.npy
+says err 'cascade sweep: there is no option --series'
+run 64 run decays.cascade --seeds 1..4 --features
+says err 'features.csv has the features of every run'
+run 64 run decays.cascade --seeds 1..4 -o picture.png
+says err "this option writes a folder"
+
 # A blow-up: an empty picture in the sheet, a row with the reason, and status 3.
 run 3 sweep grows.cascade --vary r=0.01,0.05,2
 says err '1 of 3 runs failed: stage '

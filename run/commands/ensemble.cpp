@@ -21,11 +21,6 @@ constexpr std::array cell_counts = {std::pair{std::string_view("cells"), &CellCo
                                     std::pair{std::string_view("births"), &CellCounts::births},
                                     std::pair{std::string_view("deaths"), &CellCounts::deaths}};
 
-struct Ensemble {
-    std::vector<std::string> values;  ///< One for each varied name except `seed`.
-    std::vector<std::size_t> runs;    ///< The indices of its runs.
-};
-
 std::vector<std::string> without_seed(std::vector<std::string> cells,
                                       std::span<const std::string> names) {
     const auto seed = std::ranges::find(names, "seed");
@@ -33,28 +28,9 @@ std::vector<std::string> without_seed(std::vector<std::string> cells,
     return cells;
 }
 
-std::vector<std::string> names_but_seed(std::span<const Variation> varied) {
-    const std::vector<std::string> names = names_of(varied);
-    return without_seed(names, names);
-}
-
 /// Whether a mean over runs has a meaning. Angles begin again after half a turn, so their mean
 /// would depend on where the half turn begins.
 bool has_mean(std::string_view number) { return number != "angle"; }
-
-/// The ensembles in the order of their first runs.
-std::vector<Ensemble> ensembles_of(std::size_t runs, std::span<const Variation> varied) {
-    const std::vector<std::string> names = names_of(varied);
-    std::vector<Ensemble> ensembles;
-    std::map<std::vector<std::string>, std::size_t> known;
-    for (std::size_t run = 0; run < runs; ++run) {
-        auto values = without_seed(values_of_run(varied, run), names);
-        const auto [at, is_new] = known.emplace(values, ensembles.size());
-        if (is_new) ensembles.push_back({std::move(values), {}});
-        ensembles[at->second].runs.push_back(run);
-    }
-    return ensembles;
-}
 
 Statistics statistics_in(const Ensemble& ensemble, std::string_view number, SweepResults results) {
     std::vector<double> values;
@@ -181,6 +157,29 @@ private:
 
 }  // namespace
 
+std::vector<std::string> names_but_seed(std::span<const Variation> varied) {
+    const std::vector<std::string> names = names_of(varied);
+    return without_seed(names, names);
+}
+
+std::vector<Ensemble> ensembles_of(std::size_t runs, std::span<const Variation> varied) {
+    const std::vector<std::string> names = names_of(varied);
+    std::vector<Ensemble> ensembles;
+    std::map<std::vector<std::string>, std::size_t> known;
+    for (std::size_t run = 0; run < runs; ++run) {
+        auto values = without_seed(values_of_run(varied, run), names);
+        const auto [at, is_new] = known.emplace(values, ensembles.size());
+        if (is_new) ensembles.push_back({std::move(values), {}});
+        ensembles[at->second].runs.push_back(run);
+    }
+    return ensembles;
+}
+
+void add_cells(std::vector<std::string>& row, const Statistics& all) {
+    row.insert(row.end(), {fmt::format("{}", all.count), csv_number(all.mean),
+                           csv_number(all.deviation), csv_number(all.low), csv_number(all.high)});
+}
+
 std::vector<std::string> measured_names(SweepResults results) {
     std::vector<std::string> names;
     for (const std::string_view name : measure::feature_names()) names.emplace_back(name);
@@ -212,17 +211,16 @@ bool has_ensembles(std::span<const Variation> varied) {
 
 std::string ensemble_table(SweepResults results, std::span<const Variation> varied) {
     std::vector<std::string> row = names_but_seed(varied);
-    row.insert(row.end(), {"number", "runs", "mean", "deviation", "low", "high"});
+    row.emplace_back("number");
+    row.insert(row.end(), statistics_header.begin(), statistics_header.end());
     std::string table = csv_row(row);
     const std::vector<std::string> measured = measured_names(results);
     for (const Ensemble& each : ensembles_of(results.size(), varied)) {
         for (const std::string& number : measured) {
             if (!has_mean(number)) continue;
-            const Statistics all = statistics_in(each, number, results);
             row = each.values;
-            row.insert(row.end(),
-                       {number, fmt::format("{}", all.count), csv_number(all.mean),
-                        csv_number(all.deviation), csv_number(all.low), csv_number(all.high)});
+            row.push_back(number);
+            add_cells(row, statistics_in(each, number, results));
             table += csv_row(row);
         }
     }

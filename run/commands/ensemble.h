@@ -6,6 +6,8 @@
 #include "run/commands/sweep_result.h"
 #include "run/commands/variation.h"
 
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
@@ -25,6 +27,19 @@ double measured_number(const std::optional<SweepResult>& result, std::string_vie
 
 /// Whether the seed is varied and has several values.
 bool has_ensembles(std::span<const Variation> varied);
+
+struct Ensemble {
+    std::vector<std::string> values;  ///< One for each varied name except `seed`.
+    std::vector<std::size_t> runs;    ///< The indices of its runs.
+};
+
+/// The ensembles of a sweep, in the order of their first runs.
+std::vector<Ensemble> ensembles_of(std::size_t runs, std::span<const Variation> varied);
+std::vector<std::string> names_but_seed(std::span<const Variation> varied);
+
+/// The columns of statistics in tables of ensembles, which add_cells() fills in.
+inline constexpr std::array statistics_header = {"runs", "mean", "deviation", "low", "high"};
+void add_cells(std::vector<std::string>& row, const Statistics& all);
 
 /// A table with a row for each combination of the values other than the seed, and for each measured
 /// number except `angle`, whose mean would depend on where its circle begins. A row has the

@@ -24,6 +24,14 @@ double next_moment(const MomentsRequest& moments, double start, double t) {
     return next;
 }
 
+NextMoment moments_of(const MomentsRequest& moments, const Simulation& simulation,
+                      std::uint32_t stage) {
+    if (!moments.any()) return {};
+    double start = 0;
+    for (std::uint32_t k = 0; k < stage; ++k) start += time_of(simulation, k);
+    return [&moments, start](double t) { return next_moment(moments, start, t); };
+}
+
 void check_moments(Script& script, const RunRequest& request) {
     if (!request.moments.any()) return;
     const std::string option =

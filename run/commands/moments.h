@@ -3,7 +3,9 @@
 
 #include "core/result.h"
 #include "run/script/script.h"
+#include "run/simulation/simulation.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace cascade {
@@ -21,6 +23,11 @@ struct MomentsRequest {
 /// The first moment after `t`, for a stage that begins at time `start` of the run. `t` and the
 /// result are times since the start of the stage. Infinity if there is no such moment.
 double next_moment(const MomentsRequest& moments, double start, double t);
+
+/// The moments of a stage that follows the present states of the stages before it. Empty if none
+/// are requested. `moments` must outlive the result.
+NextMoment moments_of(const MomentsRequest& moments, const Simulation& simulation,
+                      std::uint32_t stage);
 
 /// Adds an error to `script.diagnostics` if no output of the run uses the moments, or if the cells
 /// of a stage have no common time, because its `speed` varies.

@@ -43,7 +43,7 @@ Result<StageEnd> Runner::run_stage(std::uint32_t k) {
     const auto start = Clock::now();
     auto end = simulation_->advance_stage(
         k, std::max(last, before), control_, [&] { observe(k); }, observation_interval(stage),
-        moments_of(k));
+        moments_of(request_.moments, *simulation_, k));
     report_.seconds += std::chrono::duration<double>(Clock::now() - start).count();
     report_.steps += simulation_->state(k).steps - before;
     if (log_) log_->record(*simulation_, k);
@@ -175,14 +175,6 @@ void Runner::add_to_series(std::uint32_t stage) {
     if (last_in_series_ == moment) return;
     last_in_series_ = moment;
     series_->add(*simulation_);
-}
-
-/// The moments of --at and --every in a stage. Empty if neither option is given.
-NextMoment Runner::moments_of(std::uint32_t stage) const {
-    if (!request_.moments.any()) return {};
-    double start = 0;
-    for (std::uint32_t k = 0; k < stage; ++k) start += time_of(*simulation_, k);
-    return [this, start](double t) { return next_moment(request_.moments, start, t); };
 }
 
 /// Adds remarks on times of --at that are later than the end of the run.

@@ -119,7 +119,7 @@ void RunLog::record(const Simulation& simulation, std::uint32_t stage) {
     }
 }
 
-Result<void> RunLog::write(const std::filesystem::path& path) const {
+std::string RunLog::table() const {
     std::vector<std::string> cells = {"stage", "step", "t"};
     for (const Column& column : columns_) cells.push_back(column.name);
     std::string table = csv_row(cells);
@@ -131,7 +131,11 @@ Result<void> RunLog::write(const std::filesystem::path& path) const {
         }
         table += csv_row(cells);
     }
-    return write_file(path, table);
+    return table;
+}
+
+Result<void> RunLog::write(const std::filesystem::path& path) const {
+    return write_file(path, table());
 }
 
 }  // namespace cascade

@@ -45,6 +45,8 @@ public:
     }
     /// Adds a row for the present state of a started stage, unless the table already has it.
     void record(const Simulation& simulation, std::uint32_t stage);
+    /// The rows so far as comma-separated values, with the names of the columns first.
+    std::string table() const;
     Result<void> write(const std::filesystem::path& path) const;
 
 private:

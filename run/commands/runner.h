@@ -56,7 +56,6 @@ private:
     void look();
     void add_to_series(std::uint32_t stage);
     void observe(std::uint32_t stage);
-    NextMoment moments_of(std::uint32_t stage) const;
     void remark_on_moments();
     bool frame_is_due(std::uint32_t stage);
     double marks_done(std::uint32_t stage) const;

@@ -5,15 +5,12 @@
 
 #include "core/hash.h"
 #include "core/parallel.h"
-#include "run/commands/run.h"
 #include "run/commands/sweep_folder.h"
 #include "run/commands/sweep_plan.h"
 #include "run/commands/sweep_queue.h"
+#include "run/commands/sweep_run.h"
 #include "run/domain/free_memory.h"
-#include "run/pictures/measured.h"
-#include "run/pictures/picture_remarks.h"
 #include "run/script/embedded_script.h"
-#include "run/simulation/end_remarks.h"
 #include "run/stage/memory.h"
 #include "run/stage/time_account.h"
 
@@ -36,17 +33,6 @@ using Clock = std::chrono::steady_clock;
 constexpr auto between_reports = std::chrono::milliseconds(100);
 constexpr auto between_messages = std::chrono::milliseconds(1);
 
-/// Joins the lines of a text, so that it fits into a cell of the table.
-std::string one_line(std::string text) {
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text;
-}
-
-void add_remark(SweepResult& result, const std::string& words) {
-    if (words.empty()) return;
-    result.remark += (result.remark.empty() ? "" : "; ") + one_line(words);
-}
-
 class Sweeper {
 public:
     Sweeper(const Script& script, const SweepRequest& request, SweepControl& control)
@@ -61,8 +47,6 @@ private:
     void run_all();
     void work(RunControl& control);
     void take(std::size_t number, RunControl& control);
-    Result<void> run_stages(Script& script, Simulation& simulation, RunControl& control,
-                            SweepResult& result);
     void watch();
     void tend();
     void report();
@@ -122,57 +106,10 @@ Result<void> Sweeper::choose_workers(std::size_t waiting) {
     return {};
 }
 
-Result<void> Sweeper::run_stages(Script& script, Simulation& simulation, RunControl& control,
-                                 SweepResult& result) {
-    for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
-        if (auto started = simulation.start_stage(k, control.cancel); !started) {
-            return control.cancel ? Result<void>() : started;
-        }
-        auto end = simulation.advance_stage(k, script.program->stages[k].iterations, control, {});
-        result.steps += simulation.state(k).steps;
-        if (!end) return tl::unexpected(end.error());
-        if (*end == StageEnd::cancelled) return {};
-        add_remark(result, remark_on(simulation, k));
-    }
-    return {};
-}
-
 void Sweeper::take(std::size_t number, RunControl& control) {
-    const PlannedRun& run = plan_.runs[number];
-    Script script = load(script_, run);
-    auto painter = Painter::create(script, request_.picture);
-    auto simulation = Simulation::create(script, simulation_);
-    if (!painter) return give_up({painter.error()});
-    if (!simulation) {
-        const Failure why = simulation.error();
-        // Errors in files that a script reads are reported at their names in the script.
-        if (!script.diagnostics.has_errors()) return give_up({why});
-        return give_up({why, std::move(script)});
-    }
-    SweepResult result;
-    control.warn = [&](const std::string& warning) { add_remark(result, warning); };
-    const auto done = run_stages(script, **simulation, control, result);
-    control.warn = {};
-    if (control.cancel) return;
-    if (!done) {
-        result.remark = one_line(done.error().message);
-        return keep(number, std::move(result));
-    }
-    Canvas canvas = painter->canvas(**simulation);
-    add_remark(result, remark_on_picture(*painter, **simulation, canvas));
-    result.features = measure_shown(*painter, **simulation);
-    result.cells = counts_of_cells((*simulation)->state(shown_stage(**simulation)));
-    // Crawling cells have no rows and columns to be averaged, so their tile is a picture.
-    painter->set_width(request_.tile_side);
-    if (canvas.cells || (*simulation)->domain().model) canvas = canvas_of(painter->image(canvas));
-    result.tile = shrink(canvas, request_.tile_side);
-    if (request_.fields) {
-        const auto folder = folder_ / "fields" / folder_name(request_.varied, run.values);
-        if (auto saved = save_run(folder, script, **simulation); !saved) {
-            return give_up({saved.error()});
-        }
-    }
-    keep(number, std::move(result));
+    auto result = take_run(script_, plan_.runs[number], request_, simulation_, folder_, control);
+    if (!result) return give_up(std::move(result.error()));
+    if (*result) keep(number, **std::move(result));
 }
 
 void Sweeper::keep(std::size_t number, SweepResult result) {

@@ -6,7 +6,9 @@
 #include "core/run_control.h"
 #include "ranks/messenger.h"
 #include "run/commands/film_request.h"
+#include "run/commands/moments.h"
 #include "run/commands/parameter_sets.h"
+#include "run/commands/run_log.h"
 #include "run/commands/sweep_result.h"
 #include "run/commands/variation.h"
 #include "run/script/picture_request.h"
@@ -47,6 +49,8 @@ struct SweepRequest {
     FilmRequest pace;
     /// Numbers to draw over the first varied name other than the seed, each as NUMBER.svg.
     std::vector<std::string> curves;
+    LogRequest log;          ///< What every run logs. Its member `file` is ignored.
+    MomentsRequest moments;  ///< When every run logs.
     PictureRequest picture;  ///< Says which values to show and measure. `scale` is ignored.
     int tile_side = 160;     ///< In pixels. Larger pictures are reduced to this size by averaging.
     bool fields = false;     ///< Whether the fields of every run are saved, to be read or resumed.
@@ -111,9 +115,9 @@ Image draw_sweep(const std::vector<std::optional<SweepResult>>& results,
                  const std::vector<Variation>& varied, const PictureRequest& picture,
                  bool has_mask);
 
-/// Writes sheet.png, features.csv, and the requested curves and film to the folder. If the seed is
-/// varied, also writes ensembles.csv (ensemble.h). Returns the paths of the files. `cancel` stops
-/// only the film.
+/// Writes sheet.png, features.csv, and the requested curves, logs and film to the folder. If the
+/// seed is varied, also writes tables of ensembles (ensemble.h, sweep_logs.h). Returns the paths of
+/// the files. `cancel` stops only the film.
 Result<std::vector<std::filesystem::path>> write_sweep(
     const Script& script, const SweepRequest& request, const std::filesystem::path& folder,
     const std::vector<std::optional<SweepResult>>& results, const std::atomic<bool>& cancel);

@@ -8,6 +8,7 @@
 #include "run/commands/ensemble.h"
 #include "run/commands/film_crew.h"
 #include "run/commands/sweep.h"
+#include "run/commands/sweep_logs.h"
 #include "run/script/embedded_script.h"
 #include "run/stage/stage_state.h"
 
@@ -153,9 +154,16 @@ Result<std::vector<std::filesystem::path>> write_sweep(
     Result<void> done = write_png(sheet, draw_sweep(results, request.varied, picture, has_mask),
                                   picture.png_depth(), embed_sweep(script, picture, varied));
     if (done) done = write_file(table, sweep_table(results, request.varied));
-    if (done && has_ensembles(request.varied)) {
-        written.push_back(folder / "ensembles.csv");
-        done = write_file(written.back(), ensemble_table(results, request.varied));
+    const auto add_table = [&](const char* name, const std::string& text) {
+        if (!done) return;
+        written.push_back(folder / name);
+        done = write_file(written.back(), text);
+    };
+    const bool has_logs = !request.log.expressions.empty();
+    if (has_logs) add_table("logs.csv", logs_table(results, request.varied));
+    if (has_ensembles(request.varied)) {
+        add_table("ensembles.csv", ensemble_table(results, request.varied));
+        if (has_logs) add_table("log_ensembles.csv", log_ensemble_table(results, request.varied));
     }
     for (const std::string& number : request.curves) {
         if (!done) break;

@@ -2,6 +2,7 @@
 #include "run/commands/sweep_plan.h"
 
 #include "run/commands/ensemble.h"
+#include "run/commands/run.h"
 #include "run/pictures/painter.h"
 #include "run/script/embedded_script.h"
 #include "run/stage/memory.h"
@@ -18,15 +19,24 @@ namespace {
 
 using Planned = tl::expected<void, SweepError>;
 
-/// Checks that the picture of a run can be drawn.
-Planned check_picture(Script script, const SweepRequest& request) {
+/// Checks that the picture of a run can be drawn, and that its log can be written.
+Planned check_outputs(Script script, const SweepRequest& request) {
     if (script.program->stages.empty()) {
         return tl::unexpected(
             SweepError{{"this script has no stage to run", example_of_stage(*script.program)}});
     }
-    auto painter = Painter::create(script, request.picture);
-    if (painter) return {};
-    SweepError error{painter.error()};
+    auto good = Painter::create(script, request.picture).map([](const Painter&) {});
+    if (good && !request.log.expressions.empty()) {
+        RunRequest run;
+        run.log = request.log;
+        run.moments = request.moments;
+        check_moments(script, run);
+        if (script.diagnostics.has_errors())
+            return tl::unexpected(SweepError{{}, std::move(script)});
+        good = RunLog::create(script, request.log, request.picture).map([](const RunLog&) {});
+    }
+    if (good) return {};
+    SweepError error{good.error()};
     if (script.diagnostics.has_errors()) error.script = std::move(script);
     return tl::unexpected(std::move(error));
 }
@@ -58,6 +68,15 @@ std::optional<Failure> fault_in(const PlannedRun& run, const SweepRequest& reque
     return std::nullopt;
 }
 
+/// What the runs log and when. Empty without a log.
+std::string text_of_log(const SweepRequest& request) {
+    const LogRequest& log = request.log;
+    const MomentsRequest& moments = request.moments;
+    if (log.expressions.empty()) return "";
+    return fmt::format("{}\n{}\n{}\n{}", fmt::join(log.expressions, "\n"), log.every,
+                       fmt::join(moments.at, ","), moments.every);
+}
+
 Planned plan_run(const Script& base, const SweepRequest& request, std::size_t number,
                  SweepPlan& plan) {
     PlannedRun& run = plan.runs[number];
@@ -73,10 +92,10 @@ Planned plan_run(const Script& base, const SweepRequest& request, std::size_t nu
         return tl::unexpected(
             SweepError{{"a script of the sweep is wrong", ""}, std::move(script)});
     }
-    run.key = key_of_run(script, request.picture, request.tile_side);
+    run.key = key_of_run(script, request.picture, request.tile_side, text_of_log(request));
     if (plan.own.empty()) {
         plan.memory_of_a_run = memory_of(*script.program);
-        if (auto good = check_picture(std::move(script), request); !good) return good;
+        if (auto good = check_outputs(std::move(script), request); !good) return good;
     }
     plan.own.push_back(number);
     return {};

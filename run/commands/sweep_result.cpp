@@ -21,7 +21,7 @@ namespace cascade {
 
 namespace {
 
-constexpr std::uint64_t largest_result = 1 << 20;
+constexpr std::uint64_t largest_result = 1 << 28;
 
 std::uint64_t add_line(std::uint64_t hash, std::string_view text) {
     return fnv1a("\n", fnv1a(text, hash));
@@ -60,6 +60,7 @@ nlohmann::json json_of(const SweepResult& result) {
     nlohmann::json json = {{"cascade", version()},  {"planes", result.tile.fields.size()},
                            {"steps", result.steps}, {"remark", result.remark},
                            {"features", nullptr},   {"cells", nullptr}};
+    if (!result.log.empty()) json["log"] = result.log;
     if (result.failed()) return json;
     if (const auto& cells = result.cells) {
         json["cells"] = {cells->count, cells->births, cells->deaths};
@@ -159,6 +160,7 @@ std::optional<SweepResult> result_in(std::string_view text, const TileOf& tile_o
         SweepResult result;
         result.steps = json.at("steps").get<std::int64_t>();
         result.remark = json.at("remark").get<std::string>();
+        result.log = json.value("log", "");
         if (json.at("features").is_null()) return result;
         result.features = features_of(json.at("features"));
         if (const auto& cells = json.at("cells"); !cells.is_null()) {
@@ -176,7 +178,8 @@ std::optional<SweepResult> result_in(std::string_view text, const TileOf& tile_o
 
 }  // namespace
 
-std::string key_of_run(const Script& script, const PictureRequest& picture, int tile_side) {
+std::string key_of_run(const Script& script, const PictureRequest& picture, int tile_side,
+                       const std::string& logged) {
     std::uint64_t hash = add_line(fnv1a("sweep 2"), version());
     hash = add_files(add_words(hash, script), script);
     hash = add_line(hash, overrides_to_json(script.overrides));
@@ -189,6 +192,7 @@ std::string key_of_run(const Script& script, const PictureRequest& picture, int 
         shown = picture;  // The tile is a picture, so the colours are part of the key.
     }
     hash = add_line(add_line(hash, to_json(shown)), fmt::format("{}", tile_side));
+    if (!logged.empty()) hash = add_line(add_line(hash, logged), to_json(picture));
     return fmt::format("{:016x}", hash);
 }
 

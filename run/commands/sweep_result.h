@@ -23,6 +23,7 @@ struct SweepResult {
     /// The numbers of cells, if the shown stage has crawling cells.
     std::optional<CellCounts> cells;
     std::int64_t steps = 0;  ///< The sum over all stages.
+    std::string log;         ///< The table of RunLog, also if the run failed. Empty without --log.
     std::string remark;      ///< The error or the warnings of the run, in one line. Usually empty.
 
     bool failed() const { return !features; }
@@ -30,9 +31,10 @@ struct SweepResult {
 
 /// A hash of everything that determines a run's result, as 16 hexadecimal digits. This includes the
 /// words of the script and of all files that it uses (without blanks and comments), the overrides,
-/// the contents of the files that it reads, the request for the picture, the size of the tiles, and
-/// Cascade's version. The script must have no errors.
-std::string key_of_run(const Script& script, const PictureRequest& picture, int tile_side);
+/// the contents of the files that it reads, the request for the picture, the size of the tiles,
+/// what is logged, and Cascade's version. The script must have no errors.
+std::string key_of_run(const Script& script, const PictureRequest& picture, int tile_side,
+                       const std::string& logged = "");
 
 /// Writes KEY.npy, which contains the planes of the tile one below the other, and then KEY.json. A
 /// result without KEY.json is incomplete and is not read.
