@@ -199,28 +199,6 @@ Result<SweepPart> parse_part(std::string_view text) {
                    "write K/N, as in --part 3/100 for the third of 100 parts");
 }
 
-Result<double> parse_time(std::string_view text) {
-    double t = 0;
-    if (read_all(text, t) && t > 0 && std::isfinite(t)) return t;
-    return failure(fmt::format("'{}' is not a time above 0", text),
-                   "write a number in the unit of the script, as in --every 10");
-}
-
-Result<std::vector<double>> parse_times(std::string_view text) {
-    std::vector<double> times;
-    for (std::size_t begin = 0; begin <= text.size();) {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        const auto t = parse_time(text.substr(begin, end - begin));
-        if (!t || (!times.empty() && *t <= times.back())) {
-            return failure(fmt::format("'{}' is not a list of times that rise", text),
-                           "write them with commas and no spaces, as in --at 1,2,5,10");
-        }
-        times.push_back(*t);
-        begin = end + 1;
-    }
-    return times;
-}
-
 namespace {
 
 struct Unit {
@@ -229,7 +207,7 @@ struct Unit {
 };
 
 /// Reads a number with a unit. If the text has no unit, the unit whose name is empty applies.
-std::optional<double> read_with_unit(std::string_view text, std::span<const Unit> units) {
+std::optional<double> read_in_units(std::string_view text, std::span<const Unit> units) {
     const std::size_t digits = std::min(text.find_first_not_of("0123456789."), text.size());
     double number = 0;
     if (!read_all(text.substr(0, digits), number)) return std::nullopt;
@@ -245,7 +223,7 @@ Result<double> parse_duration(std::string_view text) {
     constexpr std::array units = {Unit{"", 1},     Unit{"s", 1},    Unit{"m", 60},
                                   Unit{"min", 60}, Unit{"h", 3600}, Unit{"d", 86400}};
     constexpr double longest = 3.2e8;
-    const auto seconds = read_with_unit(text, units);
+    const auto seconds = read_in_units(text, units);
     if (seconds && *seconds > 0 && *seconds <= longest) return *seconds;
     return failure(fmt::format("'{}' is not a duration", text), "write 90s, 20m, 1.5h or 2d");
 }
@@ -279,7 +257,7 @@ Result<std::uint64_t> parse_size(std::string_view text) {
     constexpr std::array units = {Unit{"", 1},          Unit{"KB", 1e3},        Unit{"MB", 1e6},
                                   Unit{"GB", 1e9},      Unit{"TB", 1e12},       Unit{"KiB", 1024},
                                   Unit{"MiB", 1048576}, Unit{"GiB", 1073741824}};
-    const auto bytes = read_with_unit(text, units);
+    const auto bytes = read_in_units(text, units);
     if (bytes && *bytes >= 1e6 && *bytes < 1e18) return static_cast<std::uint64_t>(*bytes);
     return failure(fmt::format("'{}' is not a size of a megabyte or more", text),
                    "write 500MB, 2GB or 1.5GiB");

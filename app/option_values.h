@@ -56,10 +56,10 @@ Result<SweepPart> parse_part(std::string_view text);
 /// no tiles.
 Result<Tiling> parse_tiling(std::string_view text);
 
-/// Parses a time of a run, "10", which must be above 0.
-Result<double> parse_time(std::string_view text);
-/// Parses ascending times, "1,2,5,10".
-Result<std::vector<double>> parse_times(std::string_view text);
+/// Parses a time of a run, "10" or "10 min", which must be above 0.
+Result<GivenTimes> parse_time(std::string_view text);
+/// Parses ascending times, "1,2,5,10" or "1,2,5,10 min".
+Result<GivenTimes> parse_times(std::string_view text);
 
 /// Parses a duration in seconds: "90s", "20m", "1.5h", "2d" or "90". It must be above 0 and at most
 /// ten years.

@@ -48,3 +48,44 @@ saved=$(sed -nE 's/.*"r=([^"]*)".*/\1/p' "$out/kept/branch1_point1/run.json")
 python3 -c 'import sys; sys.exit(not -1.1e-4 <= float(sys.argv[1]) <= 3.1e-4)' "$saved" || fail "a state is saved with r=$saved"
 "$CASCADE" analyze "$out/fork.cascade" --vary r=-1e-4..3e-4 >"$out/said" || fail "analyze"
 grep -qF '(-0.36 to 1.08)' "$out/said" || fail "analyze does not convert its range: $(cat "$out/said")"
+
+# Options take times and ranges in other units of the same kind.
+log=("$out/line.cascade" -q -o "$out/line.png" --log 't' --log-file)
+"$CASCADE" run "${log[@]}" "$out/hours.csv" --at 0.5,1.5 >"$out/said" 2>&1 || fail "--at: $(cat "$out/said")"
+"$CASCADE" run "${log[@]}" "$out/minutes.csv" --at '30,90 min' >"$out/said" 2>&1 || fail "--at in min: $(cat "$out/said")"
+[[ $(cut -d, -f3 "$out/minutes.csv" | tr '\n' ' ') == "t 0 0.5 1.5 3 " ]] || fail "--at converts to $(cut -d, -f3 "$out/minutes.csv")"
+cmp -s "$out/hours.csv" "$out/minutes.csv" || fail "--at in another unit observes other values"
+"$CASCADE" run "${log[@]}" "$out/every.csv" --every '3600 s' >"$out/said" 2>&1 || fail "--every in s: $(cat "$out/said")"
+[[ $(cut -d, -f3 "$out/every.csv" | tr '\n' ' ') == "t 0 1 2 3 " ]] || fail "--every converts to $(cut -d, -f3 "$out/every.csv")"
+refuses() {
+    local status=$1 words=$2
+    shift 2
+    "$CASCADE" "$@" >"$out/said" 2>&1
+    [ $? = "$status" ] || fail "cascade $* is not refused with $status: $(cat "$out/said")"
+    grep -qF -- "$words" "$out/said" || fail "cascade $* does not say '$words': $(cat "$out/said")"
+}
+refuses 2 "'mm' is not a unit of time" run "${log[@]}" "$out/no.csv" --every '5 mm'
+refuses 64 "'5 parsecs' is not a time above 0" run "${log[@]}" "$out/no.csv" --every '5 parsecs'
+refuses 64 "is not a list of times that rise" run "${log[@]}" "$out/no.csv" --at '1 h,2 h'
+sed 's/ 3 h/ 3/' "$out/line.cascade" | sed 's| /min||; s|1e-11 m^2/s|0.036|' >"$out/timeless.cascade"
+refuses 2 "the script has no unit of time" run "$out/timeless.cascade" -q -o "$out/line.png" --log t --log-file "$out/no.csv" --every '5 min'
+[ ! -e "$out/no.csv" ] || fail "a refused run has written"
+
+"$CASCADE" continue "$out/fork.cascade" --vary 'r=-0.1..0.3 /ks' --flat -o "$out/no.csv" >"$out/said" 2>&1 && fail "ks is no unit"
+"$CASCADE" continue "$out/fork.cascade" --vary 'r=-6e-3..18e-3 /min' --flat --save "$out/minutes" -o "$out/minutes.csv" \
+    >"$out/said" 2>&1 || fail "continue in /min: $(cat "$out/said")"
+python3 - "$out/fork.csv" "$out/minutes.csv" <<'END' || fail "a range in another unit gives other branches"
+import csv, sys
+ends = [[float(row["r"]) for row in csv.DictReader(open(path))] for path in sys.argv[1:]]
+for end in min, max:
+    assert abs(end(ends[0]) - end(ends[1])) < 1e-9, ends
+END
+grep -q '"r=[^"]* 1\?/min"' "$out/minutes/branch1_point1/run.json" || fail "a state is saved without its unit"
+refuses 3 "the range of 'r' is in mm, but its value is in " analyze "$out/fork.cascade" --vary 'r=1..3 mm'
+
+"$CASCADE" sweep "$out/line.cascade" --vary 'D=10..30 um^2/s:3' --curve mean -q -o "$out/swept" >"$out/said" 2>&1 ||
+    fail "sweep in um^2/s: $(cat "$out/said")"
+"$CASCADE" sweep "$out/line.cascade" --vary 'D=1e-11,2e-11,3e-11' -q -o "$out/plain" >"$out/said" 2>&1 || fail "sweep"
+[[ $(cut -d, -f2- "$out/swept/features.csv") == $(cut -d, -f2- "$out/plain/features.csv") ]] || fail "a sweep in another unit has other features"
+grep -qF 'D (um^2/s)' "$out/swept/mean.svg" || fail "the axis of a curve has no unit"
+refuses 3 "is not a number in the unit of the first value" sweep "$out/line.cascade" --vary 'D=10 um^2/s,2e-11' --curve mean -q -o "$out/mixed"

@@ -56,8 +56,9 @@ private:
         for (const VariedRange& range : request_.varied) {
             auto item = find_parameter(program_, stage_, range.name);
             if (!item) return tl::unexpected(item.error());
-            const double unit = unit_factor(tree_, range.name);
-            spans.push_back({*item, range.low * unit, range.high * unit});
+            const auto unit = unit_factor(tree_, range);
+            if (!unit) return tl::unexpected(unit.error());
+            spans.push_back({*item, range.low * *unit, range.high * *unit});
         }
         if (analysis.states.empty()) {
             if (spans.empty()) return {};

@@ -58,7 +58,8 @@ std::vector<Curve> curves_of(std::string_view number, SweepResults results,
         const std::string name = fmt::format("{}", fmt::join(parts, ", "));
         auto curve = std::ranges::find(curves, name, &Curve::name);
         if (curve == curves.end()) curve = curves.insert(curves.end(), Curve{name, {}});
-        curve->points.emplace_back(read_number(each.values[0]).value_or(none),
+        const auto across = read_with_unit(each.values[0]);
+        curve->points.emplace_back(across ? across->number : none,
                                    statistics_in(each, number, results));
     }
     for (Curve& curve : curves) {
@@ -242,14 +243,18 @@ Result<void> check_curve(std::string_view number, std::span<const Variation> var
         return failure("a curve needs a varied name other than the seed",
                        "add a name with numbers, as in --vary feed=0.02..0.06:9");
     }
-    for (const Ensemble& each : ensembles_of(*count_runs(varied), varied)) {
-        if (const auto across = read_number(each.values[0]); across && std::isfinite(*across)) {
-            continue;
-        }
+    std::optional<std::string> unit;
+    const std::vector<Ensemble> ensembles = ensembles_of(*count_runs(varied), varied);
+    for (const Ensemble& each : ensembles) {
+        const auto across = read_with_unit(each.values[0]);
+        if (across && !unit) unit = across->unit;
+        if (across && std::isfinite(across->number) && across->unit == unit) continue;
         return failure(
-            fmt::format("the value '{}' of {} is not a number, so it cannot be a point of a curve",
-                        each.values[0], names[0]),
-            "put a name with numbers into the first --vary");
+            fmt::format("the value '{}' of {} is not a number{}, so it cannot be a point of a "
+                        "curve",
+                        each.values[0], names[0], across ? " in the unit of the first value" : ""),
+            across ? "write all values in the same unit"
+                   : "put a name with numbers into the first --vary");
     }
     return {};
 }
@@ -257,7 +262,10 @@ Result<void> check_curve(std::string_view number, std::span<const Variation> var
 Drawing draw_curve(std::string_view number, SweepResults results,
                    std::span<const Variation> varied) {
     const std::vector<std::string> names = names_but_seed(varied);
-    return CurvePlot(curves_of(number, results, varied), names[0], std::string(number))
+    const auto first = read_with_unit(ensembles_of(1, varied)[0].values[0]);
+    std::string across = names[0];
+    if (first && !first->unit.empty()) across += fmt::format(" ({})", first->unit);
+    return CurvePlot(curves_of(number, results, varied), std::move(across), std::string(number))
         .draw(has_ensembles(varied) ? "mean over seeds and its 95 % interval" : "");
 }
 

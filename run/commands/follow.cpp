@@ -76,7 +76,9 @@ Result<void> BranchRun::find_what_varies() {
     if (!item) return tl::unexpected(item.error());
     varied_ = *item;
     range_ = *request_.varied;
-    unit_ = unit_factor(script_.tree, range_.name);
+    const auto unit = unit_factor(script_.tree, range_);
+    if (!unit) return tl::unexpected(unit.error());
+    unit_ = *unit;
     range_.low *= unit_;
     range_.high *= unit_;
     if (!request_.save.empty() && stage_ > 0) {
@@ -198,7 +200,9 @@ Result<std::vector<Branch>> BranchRun::follow() {
 /// Saves a state as a run that has taken no step.
 Result<void> BranchRun::save(const Point& point, const std::string& name) {
     Overrides overrides = script_.overrides;
-    overrides.sets.push_back(fmt::format("{}={:.17g}", range_.name, point.place.parameter / unit_));
+    overrides.sets.push_back(fmt::format("{}={:.17g}{}{}", range_.name,
+                                         point.place.parameter / unit_,
+                                         range_.unit.empty() ? "" : " ", range_.unit));
     Script script = load_script(script_.name, script_.text, script_.folder, overrides);
     script.file = script_.file;
     if (!script.program) return failure("the script does not accept the parameter's value");

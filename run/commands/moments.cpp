@@ -1,6 +1,7 @@
 // Moments are times. They exist only in stages whose `speed` is uniform.
 #include "run/commands/moments.h"
 
+#include "lang/syntax/script_units.h"
 #include "run/commands/run_option.h"
 
 #include <fmt/format.h>
@@ -8,10 +9,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace cascade {
 
-double next_moment(const MomentsRequest& moments, double start, double t) {
+double next_moment(const Moments& moments, double start, double t) {
     double next = std::numeric_limits<double>::infinity();
     for (const double moment : moments.at) {
         if (moment - start > t) next = std::min(next, moment - start);
@@ -24,8 +26,33 @@ double next_moment(const MomentsRequest& moments, double start, double t) {
     return next;
 }
 
-NextMoment moments_of(const MomentsRequest& moments, const Simulation& simulation,
-                      std::uint32_t stage) {
+Result<Moments> moments_in(const ast::Script& script, const MomentsRequest& request) {
+    const ScriptUnits units = units_of(script);
+    Moments moments;
+    for (const GivenTimes* const given : {&request.at, &request.every}) {
+        std::optional<Unit> unit;
+        if (!given->unit.empty()) {
+            unit = unit_of(given->unit);
+            if (unit->dimension != Dimension::of(BaseQuantity::time)) {
+                return failure(fmt::format("'{}' is not a unit of time", given->unit));
+            }
+            if (!units.knows(BaseQuantity::time)) {
+                return failure(
+                    fmt::format("the times are in {}, but the script has no unit of time",
+                                given->unit),
+                    "leave the unit out, or give a 'duration' of the script a unit");
+            }
+        }
+        for (const double number : given->numbers) {
+            const double time = unit ? units.convert(number, *unit) : number;
+            if (given == &request.every) moments.every = time;
+            else moments.at.push_back(time);
+        }
+    }
+    return moments;
+}
+
+NextMoment moments_of(const Moments& moments, const Simulation& simulation, std::uint32_t stage) {
     if (!moments.any()) return {};
     double start = 0;
     for (std::uint32_t k = 0; k < stage; ++k) start += time_of(simulation, k);
@@ -35,10 +62,13 @@ NextMoment moments_of(const MomentsRequest& moments, const Simulation& simulatio
 void check_moments(Script& script, const RunRequest& request) {
     if (!request.moments.any()) return;
     const std::string option =
-        flag_of(request.moments.at.empty() ? RunOption::every : RunOption::at);
+        flag_of(request.moments.at.numbers.empty() ? RunOption::every : RunOption::at);
     const auto refuse = [&](const std::string& message, const std::string& hint) {
         script.diagnostics.error(option_span(script.sources, option, option), message, hint);
     };
+    if (const auto moments = moments_in(script.tree, request.moments); !moments) {
+        return refuse(moments.error().message, moments.error().hint);
+    }
     const bool is_observed = !request.frames.empty() || !request.series.empty() ||
                              !request.log.expressions.empty() || films_steps(request) ||
                              request.model_files.animate || request.picture.space_time;

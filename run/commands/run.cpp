@@ -43,7 +43,7 @@ Result<StageEnd> Runner::run_stage(std::uint32_t k) {
     const auto start = Clock::now();
     auto end = simulation_->advance_stage(
         k, std::max(last, before), control_, [&] { observe(k); }, observation_interval(stage),
-        moments_of(request_.moments, *simulation_, k));
+        moments_of(moments_, *simulation_, k));
     report_.seconds += std::chrono::duration<double>(Clock::now() - start).count();
     report_.steps += simulation_->state(k).steps - before;
     if (log_) log_->record(*simulation_, k);
@@ -144,7 +144,7 @@ void Runner::observe(std::uint32_t k) {
     const TimeAccount::Scope spent(request_.simulation.account, Spent::drawing);
     const Stage& stage = script_.program->stages[k];
     const std::int64_t step = simulation_->state(k).steps;
-    if (request_.moments.any()) {
+    if (moments_.any()) {
         look();
         if (log_) log_->record(*simulation_, k);
         return;
@@ -181,10 +181,10 @@ void Runner::add_to_series(std::uint32_t stage) {
 void Runner::remark_on_moments() {
     const std::uint32_t stage = shown_stage(*simulation_);
     const double end = time_since_start(*simulation_);
-    if (request_.moments.at.empty() || stage + 1 < script_.stage_count()) return;
-    if (request_.moments.at.back() <= end * (1 + 1e-9)) return;
+    if (moments_.at.empty() || stage + 1 < script_.stage_count()) return;
+    if (moments_.at.back() <= end * (1 + 1e-9)) return;
     remark(fmt::format("the run ends at t = {:.6g}, before the time {:.6g} of --at", end,
-                       next_moment(request_.moments, 0, end)));
+                       next_moment(moments_, 0, end)));
 }
 
 std::string Runner::place() const {

@@ -22,6 +22,7 @@ Result<void> Runner::prepare() {
     }
     outputs_ = outputs_of(script_, request_);
     if (auto good = check_request(script_, request_); !good) return good;
+    moments_ = *moments_in(script_.tree, request_.moments);
     auto painter = Painter::create(script_, request_.picture);
     if (!painter) return tl::unexpected(painter.error());
     painter_ = std::move(*painter);

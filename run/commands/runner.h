@@ -69,6 +69,7 @@ private:
 
     Script& script_;
     RunRequest request_;
+    Moments moments_;  ///< The moments of the request, in the unit of the script.
     RunControl& control_;
     RunReport report_;
     std::vector<std::filesystem::path> outputs_;

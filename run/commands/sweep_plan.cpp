@@ -73,8 +73,9 @@ std::string text_of_log(const SweepRequest& request) {
     const LogRequest& log = request.log;
     const MomentsRequest& moments = request.moments;
     if (log.expressions.empty()) return "";
-    return fmt::format("{}\n{}\n{}\n{}", fmt::join(log.expressions, "\n"), log.every,
-                       fmt::join(moments.at, ","), moments.every);
+    return fmt::format("{}\n{}\n{} {}\n{} {}", fmt::join(log.expressions, "\n"), log.every,
+                       fmt::join(moments.at.numbers, ","), moments.at.unit,
+                       fmt::join(moments.every.numbers, ","), moments.every.unit);
 }
 
 Planned plan_run(const Script& base, const SweepRequest& request, std::size_t number,

@@ -27,9 +27,8 @@ void add_remark(SweepResult& result, const std::string& words) {
     result.remark += (result.remark.empty() ? "" : "; ") + one_line(words);
 }
 
-Result<void> take_stages(const Script& script, const MomentsRequest& moments,
-                         Simulation& simulation, RunControl& control, RunLog* log,
-                         SweepResult& result) {
+Result<void> take_stages(const Script& script, const Moments& moments, Simulation& simulation,
+                         RunControl& control, RunLog* log, SweepResult& result) {
     for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
         if (auto started = simulation.start_stage(k, control.cancel); !started) {
             return control.cancel ? Result<void>() : started;
@@ -87,8 +86,8 @@ tl::expected<std::optional<SweepResult>, SweepError> take_run(
     }
     SweepResult result;
     control.warn = [&](const std::string& warning) { add_remark(result, warning); };
-    const auto done =
-        take_stages(script, request.moments, **simulation, control, log ? &*log : nullptr, result);
+    const auto done = take_stages(script, *moments_in(script.tree, request.moments), **simulation,
+                                  control, log ? &*log : nullptr, result);
     control.warn = {};
     if (control.cancel) return std::nullopt;
     if (log) result.log = log->table();

@@ -2,6 +2,8 @@
 // fastest.
 #include "run/commands/variation.h"
 
+#include "lang/syntax/script_units.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -54,6 +56,25 @@ std::optional<Failure> colons_for_dots(std::string_view text, std::string_view n
 }
 
 enum class Distances : std::uint8_t { equal, equal_ratios };
+
+/// The ends of a range, in the same unit.
+struct RangeEnds {
+    double low = 0, high = 0;
+    std::string unit;
+};
+
+/// Reads the ends of a range. A unit after the second end is the unit of both.
+std::optional<RangeEnds> read_ends(std::string_view low, std::string_view high) {
+    const auto first = read_with_unit(trimmed(low)), second = read_with_unit(trimmed(high));
+    if (!first || !second || !std::isfinite(first->number) || !std::isfinite(second->number)) {
+        return std::nullopt;
+    }
+    if (!first->unit.empty() && first->unit != second->unit) return std::nullopt;
+    return RangeEnds{first->number, second->number, std::string(second->unit)};
+}
+
+constexpr std::string_view what_ends_are =
+    "the ends of a range must be numbers, and may have the same unit";
 
 /// `count` numbers from `low` to `high` as short texts. Successive numbers have equal differences
 /// or equal ratios.
@@ -122,6 +143,33 @@ std::optional<double> read_number(std::string_view text) {
     return *above / *below;
 }
 
+bool is_unit_text(std::string_view text) {
+    if (text.starts_with('/')) return is_unit_text(fmt::format("1{}", text));
+    if (text.empty() || text.ends_with('*') || text.ends_with('/')) return false;
+    for (const UnitFactor& factor : factors_of_unit(text)) {
+        if (!unit_named(factor.name)) return false;
+    }
+    // After a caret there are digits, perhaps with a sign, up to the next factor.
+    for (std::size_t at = text.find('^'); at != text.npos; at = text.find('^', at + 1)) {
+        std::string_view power = text.substr(at + 1);
+        power = power.substr(0, power.find_first_of("*/"));
+        if (power.starts_with('-')) power.remove_prefix(1);
+        const bool is_short = !power.empty() && power.size() <= 2;
+        if (!is_short || power.find_first_not_of("0123456789") != power.npos) return false;
+    }
+    return true;
+}
+
+std::optional<NumberWithUnit> read_with_unit(std::string_view text) {
+    if (const auto number = read_number(text)) return NumberWithUnit{*number, {}};
+    const std::size_t blank = text.rfind(' ');
+    if (blank == std::string_view::npos) return std::nullopt;
+    const auto number = read_number(trimmed(text.substr(0, blank)));
+    const std::string_view unit = text.substr(blank + 1);
+    if (!number || !is_unit_text(unit)) return std::nullopt;
+    return NumberWithUnit{*number, fmt::format("{}{}", unit.starts_with('/') ? "1" : "", unit)};
+}
+
 std::optional<std::uint32_t> read_seed(std::string_view text) {
     return read_all<std::uint32_t>(text);
 }
@@ -167,21 +215,20 @@ Result<Variation> parse_variation(std::string_view text) {
                                     "':' and the number of values are missing after the "
                                     "range"));
     }
-    const auto low = read_number(trimmed(values.substr(0, dots)));
-    const auto high = read_number(trimmed(values.substr(dots + 2, colon - dots - 2)));
+    const auto ends = read_ends(values.substr(0, dots), values.substr(dots + 2, colon - dots - 2));
     const auto count = read_all<std::int64_t>(trimmed(values.substr(colon + 1)));
-    if (!low || !high || !std::isfinite(*low) || !std::isfinite(*high)) {
-        return tl::unexpected(wrong(text, "the ends of a range must be numbers"));
-    }
+    if (!ends) return tl::unexpected(wrong(text, std::string(what_ends_are)));
     if (!count || *count < 1 || *count > static_cast<std::int64_t>(most_runs)) {
         return tl::unexpected(
             wrong(text, fmt::format("a range must have 1 to {} values", most_runs)));
     }
-    if (distances == Distances::equal_ratios && !(*low * *high > 0)) {
+    if (distances == Distances::equal_ratios && !(ends->low * ends->high > 0)) {
         return tl::unexpected(
             wrong(text, "with 'log', the ends of a range must be both above 0 or both below 0"));
     }
-    variation.values = spread(*low, *high, *count, distances);
+    variation.values = spread(ends->low, ends->high, *count, distances);
+    if (ends->unit.empty()) return variation;
+    for (std::string& value : variation.values) value += " " + ends->unit;
     return variation;
 }
 
@@ -224,13 +271,10 @@ Result<VariedRange> parse_varied_range(std::string_view text) {
     const std::string_view range = trimmed(text.substr(equals + 1));
     const std::size_t dots = range.find("..");
     if (dots == std::string_view::npos) return wrong_range("there is no range");
-    const auto low = read_number(trimmed(range.substr(0, dots)));
-    const auto high = read_number(trimmed(range.substr(dots + 2)));
-    if (!low || !high || !std::isfinite(*low) || !std::isfinite(*high)) {
-        return wrong_range("the ends of a range must be numbers");
-    }
-    if (!(*low < *high)) return wrong_range("the first end must be the smaller one");
-    return VariedRange{name, *low, *high};
+    const auto ends = read_ends(range.substr(0, dots), range.substr(dots + 2));
+    if (!ends) return wrong_range(what_ends_are);
+    if (!(ends->low < ends->high)) return wrong_range("the first end must be the smaller one");
+    return VariedRange{name, ends->low, ends->high, ends->unit};
 }
 
 std::string text_of(const Variation& variation) {

@@ -31,7 +31,7 @@ inline constexpr std::size_t most_runs = 10000;
 /// last of which are the ends of the range. With ":log" at the end of the text, the ratio of
 /// successive values is constant instead. "ka=1/400,1/200" is a list, and "(feed, kill)=(0.03,
 /// 0.06), (0.04, 0.06)" a list for two names. The ends of a range are numbers or fractions of two
-/// numbers. Fails for any other text.
+/// numbers. In "D=1..5 um^2/s:9", all values are in um^2/s. Fails for any other text.
 Result<Variation> parse_variation(std::string_view text);
 
 /// Parses seeds: "1..50" gives all whole numbers from 1 to 50, and "3,7" is a list. The result
@@ -42,10 +42,12 @@ Result<Variation> parse_seeds(std::string_view text);
 struct VariedRange {
     std::string name;
     double low = 0, high = 1;  ///< low < high.
+    /// The unit of the ends. If empty, they are in the unit of the value that they replace.
+    std::string unit = {};
 };
 
 /// Parses a range that does not give a number of values, such as "gray_scott.feed=0.02..0.06". The
-/// ends are numbers or fractions.
+/// ends are numbers or fractions. A unit after the second end is the unit of both.
 Result<VariedRange> parse_varied_range(std::string_view text);
 
 /// The inverse of parse_variation(). Ranges become lists: "ka=1/400,1/200".
@@ -53,6 +55,16 @@ std::string text_of(const Variation& variation);
 
 /// A number or a fraction of two numbers: "0.02", "1/400".
 std::optional<double> read_number(std::string_view text);
+
+/// A number or a fraction, and the unit that may follow it after a blank.
+struct NumberWithUnit {
+    double number = 0;
+    std::string unit;  ///< Such as um^2/s or 1/min. Empty if there is none.
+};
+std::optional<NumberWithUnit> read_with_unit(std::string_view text);
+
+/// Whether a script would read the text as a unit, such as um^2/s or /min.
+bool is_unit_text(std::string_view text);
 
 /// A seed: a whole number from 0 to 4294967295. Empty for any other text.
 std::optional<std::uint32_t> read_seed(std::string_view text);

@@ -45,7 +45,7 @@ protected:
 };
 
 TEST_F(MomentsTest, AreNotCountedTwice) {
-    const MomentsRequest some{{1, 2.5}, 0}, all{{}, 0.1};
+    const Moments some{{1, 2.5}, 0}, all{{}, 0.1};
     EXPECT_EQ(next_moment(some, 0, 0), 1);
     EXPECT_EQ(next_moment(some, 0, 1), 2.5);
     EXPECT_EQ(next_moment(some, 2, 0), 0.5);
@@ -153,7 +153,7 @@ TEST_F(MomentsTest, AreReadAsExactlyAsTheSolverIs) {
                                  stage + " }\n",
                              overrides);
         RunRequest wanted = logged({"max(u over domain) - cos(t)"});
-        wanted.moments.every = 0.13;
+        wanted.moments.every = {0.13};
         run_well(script, wanted);
         double most = 0;
         for (const double each : last_column()) most = std::max(most, std::abs(each));
@@ -182,7 +182,7 @@ TEST_F(MomentsTest, StayInRangeWithinLongSteps) {
             "stage s: heat { solver: " +
             solver + "; speed: 20; iterations: 5 }\n");
         RunRequest wanted = logged({"max(abs(u - 0.5) over domain)"});
-        wanted.moments.every = 3;
+        wanted.moments.every = {3};
         run_well(script, wanted);
         for (const double each : last_column()) EXPECT_LT(each, 0.52) << solver;
     }
@@ -196,7 +196,7 @@ TEST_F(MomentsTest, OfCellsThatCrawlAreWithinTheirSteps) {
         "stage s: drift { founders: keys(0.2, 0.5, 0); r: 0.05; duration: 1; tolerance: 1e-5 }");
     RunRequest wanted = logged({"t", "mean(x over domain) - 0.2 - 0.1 * t", "sum(1 over domain)",
                                 "if(t < 0.52, max(s over domain) - 1 - sin(t), 0)"});
-    wanted.moments.every = 0.01;
+    wanted.moments.every = {0.01};
     run_well(script, wanted);
     ASSERT_EQ(lines().size(), 102U);
     double before = 1;
@@ -255,9 +255,9 @@ TEST_F(MomentsTest, ChangeNoBitOfTheRun) {
         const bool crawls = stage.find("founders") != std::string::npos;
         const auto plain = saved({});
         ASSERT_FALSE(plain.empty()) << stage;
-        EXPECT_TRUE(saved({{}, crawls ? 0.1 : 0.3}) == plain) << stage;
+        EXPECT_TRUE(saved({{}, {crawls ? 0.1 : 0.3}}) == plain) << stage;
         EXPECT_GT(lines().size(), 20U) << stage;
-        EXPECT_TRUE(saved({{0.1, 7, 7.01}, 0}) == plain) << stage;
+        EXPECT_TRUE(saved({{0.1, 7, 7.01}, {}}) == plain) << stage;
     }
 }
 
@@ -275,7 +275,7 @@ TEST_F(MomentsTest, AreRefusedWhereNothingHasATime) {
     const auto refusal = [&](const std::string& text, bool is_logged = true) {
         Script script = load("domain { grid: 10, 10 }\n" + text);
         RunRequest wanted = is_logged ? logged({"step"}) : request();
-        wanted.moments.every = 1;
+        wanted.moments.every = {1};
         run_badly(script, wanted);
         EXPECT_FALSE(std::filesystem::exists(path("picture.png")));
         return script.messages(false);
