@@ -58,6 +58,16 @@ answers 0 'a["varied"] == "p" and a["outcome"] == "finished" and len(a["branches
     and a["branches"][0]["from"] is None and "growing" in a["branches"][0]["points"][0]
     and "fold at p" in a["text"]' continue -q fold.cascade --vary p=-0.5..1
 answers 3 '"outside of the range" in a["messages"][0]["message"]' continue -q fold.cascade --vary p=0.7..1
+cat >fork.cascade <<'END'
+system fork { u: 0; p: -0.5; u' = p * u - u^3 + lap(u) }
+domain { grid: 8, 1; boundary: noflux }
+stage s: fork { iterations: 1; speed: 0.1 }
+END
+answers 0 'len(a["branches"]) == 2 and (b := a["branches"][1])["from"]["branch"] == 1
+    and b["begins"] == "at point %d of branch 1" % b["from"]["point"]
+    and abs(a["branches"][0]["points"][b["from"]["point"] - 1]["parameter"]) < 1e-6
+    and "the range of the parameter ends" in (a["branches"][0]["begins"], b["ends"])' \
+    continue -q fork.cascade --flat --vary p=-1..0.1 --branches 2
 answers 0 'a["systems"][0]["name"] == "gray_scott" and a["systems"][0]["about"]' systems gray_scott
 answers 64 '"no system" in a["messages"][0]["message"]' systems zzz
 answers 0 'a["models"][0]["points"] == 4 and a["models"][0]["triangles"] == 4' mesh four.off

@@ -1,6 +1,7 @@
 // Branches as JSON, for the answer of --json.
 #include "run/commands/follow_table.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
@@ -20,7 +21,10 @@ std::string FollowTable::json(const std::vector<continuation::Branch>& branches)
             object["from"] = {{"branch", branch.from->first + 1},
                               {"point", branch.from->second + 1}};
         }
-        object["begins"] = branch.begins;
+        object["begins"] = branch.from
+                               ? fmt::format("at point {} of branch {}", branch.from->second + 1,
+                                             branch.from->first + 1)
+                               : branch.begins;
         object["ends"] = branch.ends;
         object["points"] = Json::array();
         for (const continuation::Point& point : branch.points) {
