@@ -63,6 +63,12 @@ void add_sweep_files(CLI::App& app, Options& options) {
         ->group(files);
     app.add_flag("--fields", sweep.fields, "Save every field of every run, to read or to resume")
         ->group(files);
+    add_value(
+        app, "--data", "FILE.h5",
+        "The fields at the end of all runs, with their values and\nfeatures, as one HDF5 file; "
+        "also saves fields as --fields does",
+        parse_data_path, [&](auto path) { sweep.data = path; })
+        ->group(files);
     app.add_flag("--force", sweep.force, "Repeat runs of an earlier sweep")->group(files);
 }
 

@@ -350,6 +350,11 @@ Result<std::string> parse_frames_folder(std::string_view text) {
                                text));
 }
 
+Result<std::string> parse_data_path(std::string_view text) {
+    if (std::filesystem::path(text).extension() == ".h5") return std::string(text);
+    return failure(fmt::format("'{}' does not end in .h5", text));
+}
+
 Result<std::string> parse_path_of(FormatKind kind, std::string_view text) {
     if (is_of_kind(text, kind)) return std::string(text);
     return failure(fmt::format("'{}' does not end in {}", text, endings_of(kind, "or")));

@@ -50,6 +50,8 @@ Result<double> parse_texels(std::string_view text);
 Result<std::string> parse_device(std::string_view text);
 /// Parses a stage and a number of steps, "large:12000".
 Result<StopAt> parse_stop_at(std::string_view text);
+/// A path that ends in .h5.
+Result<std::string> parse_data_path(std::string_view text);
 /// Parses "3/100", the third of a hundred parts of a sweep.
 Result<SweepPart> parse_part(std::string_view text);
 /// Parses a tiling. "4,2" has tiles of four steps, and layers of two rows or slices. "1,1" has

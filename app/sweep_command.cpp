@@ -119,6 +119,7 @@ int sweep_script(const Options& options, Console& console, Ranks* ranks) {
     if (request.sets) request.varied.insert(request.varied.begin(), request.sets->variation);
     request.simulation = options.run.simulation;
     request.pace = options.run.film;
+    request.fields = request.fields || !request.data.empty();
     request.log = options.run.log;
     request.moments = options.run.moments;
     if (!file->picture_options.empty()) {

@@ -1,7 +1,7 @@
-// Writes fields over time as HDF5 files (The HDF Group, "HDF5 File Format Specification", version
-// 1), in the layout of netCDF-4, which h5py, xarray, R, MATLAB and ParaView read. Cascade calls the
-// library in a module, which is built if libhdf5-dev is installed and loaded when the first file is
-// checked or written.
+// Writes fields over time, or fields of many runs, as HDF5 files (The HDF Group, "HDF5 File Format
+// Specification", version 1), in the layout of netCDF-4, which h5py, xarray, R, MATLAB and ParaView
+// read. Cascade calls the library in a module, which is built if libhdf5-dev is installed and
+// loaded when the first file is checked or written.
 #pragma once
 
 #include "core/precision.h"
@@ -18,7 +18,7 @@
 
 namespace cascade {
 
-using Hdf5Attribute = std::variant<double, std::int64_t, std::string>;
+using Hdf5Attribute = std::variant<double, std::int64_t, std::string, std::vector<std::int32_t>>;
 /// Attributes by name. A value that is a text must be shorter than 64 kB.
 using Hdf5Attributes = std::map<std::string, Hdf5Attribute>;
 
@@ -27,10 +27,23 @@ struct Hdf5Column {
     std::string name;
     std::string long_name;
     std::vector<double> values;
+    std::string unit;  ///< The attribute `units`, which is left out if this is empty.
 };
 
-/// The content of a file besides its moments.
+/// A value of an entry, such as its time.
+using Hdf5Value = std::variant<double, std::int64_t, std::int32_t, std::string>;
+
+/// Values along the axis of the entries, one for each entry.
+struct Hdf5Record {
+    std::string name;
+    Hdf5Attributes attributes;
+    Hdf5Value largest;  ///< Gives the type. A text gives the largest number of bytes.
+};
+
+/// The content of a file besides its entries. An entry is a moment of a run, or a run.
 struct Hdf5Layout {
+    /// The first record is the axis of the entries, and is as long as there are complete entries.
+    std::vector<Hdf5Record> records;
     /// The axes of the cells, the slowest first, with the positions of the cells. Each name is
     /// also the name of a dimension scale.
     std::vector<Hdf5Column> axes;
@@ -39,22 +52,15 @@ struct Hdf5Layout {
     /// The fields: names of datasets, with their attributes.
     std::vector<std::pair<std::string, Hdf5Attributes>> fields;
     Precision precision = Precision::single;
-    /// The names of the stages, by number, with the attributes of their groups.
+    /// The names of the stages, by number, with the attributes of their groups. If there are none,
+    /// the file has no groups.
     std::vector<std::pair<std::string, Hdf5Attributes>> stages;
     Hdf5Attributes about;                      ///< The attributes of the file.
     std::map<std::string, std::string> texts;  ///< Datasets of one text each, of any length.
 };
 
-/// A moment of a run.
-struct Hdf5Moment {
-    double time = 0;         ///< Since the run began. NaN if there is none.
-    double t = 0;            ///< Since the stage began. NaN if there is none.
-    std::int64_t step = 0;   ///< Of the stage.
-    std::int32_t stage = 0;  ///< The index in Hdf5Layout::stages.
-};
-
 /// An open file. After each call it can be read, even if the process is killed. If a call fails,
-/// the file keeps the moments that it has.
+/// the file keeps the entries that it has.
 class Hdf5File {
 public:
     Hdf5File() = default;
@@ -62,9 +68,11 @@ public:
     Hdf5File& operator=(const Hdf5File&) = delete;
     virtual ~Hdf5File() = default;
 
-    /// Adds a moment. `fields` has the bytes of each field, in the layout's precision. A field
-    /// without bytes is NaN at this moment. If this fails, nothing more can be added.
-    virtual Result<void> add(const Hdf5Moment& moment, const std::vector<std::string>& fields) = 0;
+    /// Adds an entry with a value for each record. `fields` has the bytes of each field, in the
+    /// layout's precision. A field without bytes is NaN in this entry. If this fails, nothing more
+    /// can be added.
+    virtual Result<void> add(const std::vector<Hdf5Value>& values,
+                             const std::vector<std::string>& fields) = 0;
     /// Adds numbers to the attributes of a stage's group, /stages/NAME.
     virtual Result<void> describe(std::size_t stage,
                                   const std::map<std::string, double>& numbers) = 0;
@@ -83,13 +91,13 @@ using Hdf5OpenerEntry = Hdf5Opener*(std::string_view version);
 /// is about the output file `path`, and says what to install.
 Result<void> check_hdf5(const std::filesystem::path& path);
 
-/// Begins a file without moments, replacing a file of this name. Fails like check_hdf5(), and if
+/// Begins a file without entries, replacing a file of this name. Fails like check_hdf5(), and if
 /// the file cannot be written. Errors name the file `shown`.
 Result<std::unique_ptr<Hdf5File>> begin_hdf5(const std::filesystem::path& path,
                                              const Hdf5Layout& layout,
                                              const std::filesystem::path& shown);
 
-/// Whether a dataset of a file may have this name beside the datasets that every file has.
+/// Whether a field of a series may have this name beside the datasets that every series has.
 bool is_hdf5_name(std::string_view name);
 
 }  // namespace cascade

@@ -103,10 +103,25 @@ void write_attributes(hid_t object, const Hdf5Attributes& attributes) {
             write_attribute(object, name, H5T_NATIVE_DOUBLE, number);
         } else if (const auto* whole = std::get_if<std::int64_t>(&value)) {
             write_attribute(object, name, H5T_NATIVE_INT64, whole);
+        } else if (const auto* numbers = std::get_if<std::vector<std::int32_t>>(&value)) {
+            write_attribute(object, name, H5T_NATIVE_INT32, numbers->data(), numbers->size());
         } else {
             write_text(object, name, std::get<std::string>(value));
         }
     }
+}
+
+/// The type of a record in files.
+Handle type_of_record(const Hdf5Value& largest) {
+    const auto copy = [](hid_t type) { return Handle(H5Tcopy(type), H5Tclose); };
+    if (std::holds_alternative<double>(largest)) return copy(H5T_IEEE_F64LE);
+    if (std::holds_alternative<std::int64_t>(largest)) return copy(H5T_STD_I64LE);
+    if (std::holds_alternative<std::int32_t>(largest)) return copy(H5T_STD_I32LE);
+    Handle type = copy(H5T_C_S1);
+    good(H5Tset_size(type, std::max<std::size_t>(1, std::get<std::string>(largest).size())));
+    good(H5Tset_strpad(type, H5T_STR_NULLPAD));
+    good(H5Tset_cset(type, H5T_CSET_UTF8));
+    return type;
 }
 
 /// The number of rows in a chunk of about a mebibyte, the size of the library's cache.
@@ -137,24 +152,27 @@ class File final : public Hdf5File {
 public:
     File(const std::filesystem::path& path, const Hdf5Layout& layout);
 
-    Result<void> add(const Hdf5Moment& moment, const std::vector<std::string>& fields) override;
+    Result<void> add(const std::vector<Hdf5Value>& values,
+                     const std::vector<std::string>& fields) override;
     Result<void> describe(std::size_t stage, const std::map<std::string, double>& numbers) override;
     ~File() override;
     Result<void> close() override;
 
 private:
-    /// A dataset that becomes longer with each moment.
+    /// A dataset that becomes longer with each entry.
     struct Growing {
         Handle dataset;
-        hid_t type = -1;
-        std::vector<hsize_t> sizes;  ///< Of one moment.
+        Handle type;
+        std::vector<hsize_t> sizes;  ///< Of one entry.
     };
 
     void make_axes(const Hdf5Layout& layout);
     void write_column(const Hdf5Column& column, hid_t axis);
-    Growing make_growing(const std::string& name, hid_t type, std::vector<hsize_t> sizes,
-                         const void* fill, hsize_t moments_in_chunk);
+    void make_records(const Hdf5Layout& layout);
+    Growing make_growing(const std::string& name, Handle type, std::vector<hsize_t> sizes,
+                         const void* fill, hsize_t entries_in_chunk);
     void append(Growing& growing, const void* values);
+    void append(Growing& record, const Hdf5Value& value);
     template <typename Act>
     Result<void> attempt(const Act& act) {
         auto done = attempt_hdf5(act);
@@ -165,9 +183,8 @@ private:
 
     Handle file_;
     std::vector<Handle> axes_, groups_;
-    Growing time_, t_, step_, stage_;
-    std::vector<Growing> fields_;
-    hsize_t moments_ = 0;
+    std::vector<Growing> records_, fields_;
+    hsize_t entries_ = 0;
     std::set<haddr_t> written_;
     bool is_whole_ = true;  ///< Whether no call has failed.
 };
@@ -189,6 +206,7 @@ File::File(const std::filesystem::path& path, const Hdf5Layout& layout) {
         const char* const bytes = text.c_str();
         good(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, &bytes));
     }
+    make_records(layout);
     make_axes(layout);
     std::vector<hsize_t> sizes;
     for (const Hdf5Column& axis : layout.axes) sizes.push_back(axis.values.size());
@@ -197,7 +215,7 @@ File::File(const std::filesystem::path& path, const Hdf5Layout& layout) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const float short_nan = std::numeric_limits<float>::quiet_NaN();
     for (const auto& [name, attributes] : layout.fields) {
-        Growing field = make_growing(name, type, sizes,
+        Growing field = make_growing(name, Handle(H5Tcopy(type), H5Tclose), sizes,
                                      is_single ? static_cast<const void*>(&short_nan) : &nan, 1);
         for (std::size_t k = 0; k < axes_.size(); ++k) {
             good(H5DSattach_scale(field.dataset, axes_[k], static_cast<unsigned>(k) + 1));
@@ -208,32 +226,31 @@ File::File(const std::filesystem::path& path, const Hdf5Layout& layout) {
     flush();
 }
 
-/// Writes the positions of the cells and the groups of stages. Makes the axis of time and the
-/// numbers along it.
-void File::make_axes(const Hdf5Layout& layout) {
+/// Makes the axis of the entries and the values along it.
+void File::make_records(const Hdf5Layout& layout) {
     constexpr hsize_t in_chunk = 512;
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    time_ = make_growing("time", H5T_IEEE_F64LE, {}, &nan, in_chunk);
-    good(H5DSset_scale(time_.dataset, "time"));
-    write_text(time_.dataset, "long_name", "time from the beginning of the run");
-    t_ = make_growing("t", H5T_IEEE_F64LE, {}, &nan, in_chunk);
-    write_text(t_.dataset, "long_name", "time from the beginning of the stage");
-    step_ = make_growing("step", H5T_STD_I64LE, {}, nullptr, in_chunk);
-    write_text(step_.dataset, "long_name", "number of complete steps of the stage");
-    stage_ = make_growing("stage", H5T_STD_I32LE, {}, nullptr, in_chunk);
-    write_text(stage_.dataset, "long_name", "stage, by its number from 0");
-    std::vector<std::int32_t> numbers;
-    std::string names;
-    const Handle all(H5Gcreate2(file_, "stages", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+    for (const Hdf5Record& record : layout.records) {
+        const bool is_real = std::holds_alternative<double>(record.largest);
+        Growing growing = make_growing(record.name, type_of_record(record.largest), {},
+                                       is_real ? &nan : nullptr, in_chunk);
+        if (records_.empty()) good(H5DSset_scale(growing.dataset, record.name.c_str()));
+        write_attributes(growing.dataset, record.attributes);
+        records_.push_back(std::move(growing));
+    }
+}
+
+/// Writes the positions of the cells and the groups of stages.
+void File::make_axes(const Hdf5Layout& layout) {
+    Handle all;
+    if (!layout.stages.empty()) {
+        all = Handle(H5Gcreate2(file_, "stages", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+    }
     for (const auto& [name, attributes] : layout.stages) {
-        numbers.push_back(static_cast<std::int32_t>(numbers.size()));
-        names += (names.empty() ? "" : " ") + name;
         groups_.emplace_back(H5Gcreate2(all, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
                              H5Gclose);
         write_attributes(groups_.back(), attributes);
     }
-    write_attribute(stage_.dataset, "flag_values", H5T_STD_I32LE, numbers.data(), numbers.size());
-    write_text(stage_.dataset, "flag_meanings", names);
     for (const Hdf5Column& axis : layout.axes) write_column(axis, -1);
     for (const Hdf5Column& column : layout.coordinates) write_column(column, axes_.back());
 }
@@ -246,6 +263,7 @@ void File::write_column(const Hdf5Column& column, hid_t axis) {
                    H5Dclose);
     good(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, column.values.data()));
     write_text(dataset, "long_name", column.long_name);
+    if (!column.unit.empty()) write_text(dataset, "units", column.unit);
     if (axis >= 0) {
         good(H5DSattach_scale(dataset, axis, 0));
         return;
@@ -254,10 +272,10 @@ void File::write_column(const Hdf5Column& column, hid_t axis) {
     axes_.push_back(std::move(dataset));
 }
 
-File::Growing File::make_growing(const std::string& name, hid_t type, std::vector<hsize_t> sizes,
-                                 const void* fill, hsize_t moments_in_chunk) {
+File::Growing File::make_growing(const std::string& name, Handle type, std::vector<hsize_t> sizes,
+                                 const void* fill, hsize_t entries_in_chunk) {
     std::vector<hsize_t> chunk = chunk_of(sizes, H5Tget_size(type));
-    chunk.insert(chunk.begin(), moments_in_chunk);
+    chunk.insert(chunk.begin(), entries_in_chunk);
     std::vector<hsize_t> now = sizes;
     now.insert(now.begin(), 0);
     std::vector<hsize_t> most = sizes;
@@ -272,39 +290,49 @@ File::Growing File::make_growing(const std::string& name, hid_t type, std::vecto
     good(H5Pset_chunk_cache(use, 0, 0, 1));
     Growing growing{{H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, creation, use),
                      H5Dclose},
-                    type,
+                    std::move(type),
                     std::move(sizes)};
-    if (name != "time") good(H5DSattach_scale(growing.dataset, time_.dataset, 0));
+    if (!records_.empty()) good(H5DSattach_scale(growing.dataset, records_[0].dataset, 0));
     return growing;
 }
 
-/// Adds the values of a moment to a dataset. Without values it only becomes longer.
+/// Adds the values of an entry to a dataset. Without values it only becomes longer.
 void File::append(Growing& growing, const void* values) {
     std::vector<hsize_t> all = growing.sizes;
-    all.insert(all.begin(), moments_ + 1);
+    all.insert(all.begin(), entries_ + 1);
     good(H5Dset_extent(growing.dataset, all.data()));
     if (!values) return;
     std::vector<hsize_t> begin(all.size(), 0);
-    begin[0] = moments_;
+    begin[0] = entries_;
     all[0] = 1;
     const Handle there(H5Dget_space(growing.dataset), H5Sclose);
     good(H5Sselect_hyperslab(there, H5S_SELECT_SET, begin.data(), nullptr, all.data(), nullptr));
     good(H5Dwrite(growing.dataset, growing.type, space_of(all), there, H5P_DEFAULT, values));
 }
 
-Result<void> File::add(const Hdf5Moment& moment, const std::vector<std::string>& fields) {
+void File::append(Growing& record, const Hdf5Value& value) {
+    if (const auto* text = std::get_if<std::string>(&value)) {
+        std::string bytes = *text;
+        bytes.resize(H5Tget_size(record.type));
+        return append(record, bytes.data());
+    }
+    std::visit([&](const auto& number) { append(record, static_cast<const void*>(&number)); },
+               value);
+}
+
+Result<void> File::add(const std::vector<Hdf5Value>& values,
+                       const std::vector<std::string>& fields) {
     return attempt([&] {
         for (std::size_t k = 0; k < fields_.size(); ++k) {
-            append(fields_[k], fields[k].empty() ? nullptr : fields[k].data());
+            append(fields_[k],
+                   fields[k].empty() ? nullptr : static_cast<const void*>(fields[k].data()));
         }
-        append(t_, &moment.t);
-        append(step_, &moment.step);
-        append(stage_, &moment.stage);
+        for (std::size_t k = 1; k < records_.size(); ++k) append(records_[k], values[k]);
         flush();
-        // `time` is as long as there are complete moments.
-        append(time_, &moment.time);
+        // The axis is as long as there are complete entries.
+        append(records_[0], values[0]);
         flush();
-        ++moments_;
+        ++entries_;
     });
 }
 
@@ -327,7 +355,7 @@ File::~File() {
     fields_.clear();
     axes_.clear();
     groups_.clear();
-    for (Growing* growing : {&time_, &t_, &step_, &stage_}) growing->dataset = Handle();
+    records_.clear();
     file_ = Handle();
 }
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Series in HDF5 files, read by h5py: fields, axes, times and parameters; files of runs that are stopped, killed at
-# single writes (SIGKILL by strace) or on a full disk. `KILLS=500 ctest -R hdf5` kills 500 times.
+# Series and sweeps in HDF5 files, read by h5py: fields, axes, times and parameters; files of runs that are stopped,
+# killed at single writes (SIGKILL by strace) or on a full disk. `KILLS=500 ctest -R hdf5` kills 500 times.
 set -u
 rm -rf ./*
 
@@ -112,6 +112,92 @@ run 0 run two.cascade -q --backend interp -o two.png --save saved --stop-at larg
 run 3 run --resume saved -q -o again.png --series two.h5
 grep -q "holds moments of an earlier run" err || fail "resumed: $(cat err)"
 cmp -s two.h5 kept.h5 || fail "a refused series has changed"
+
+# A sweep: the fields, values and features of all runs.
+cat >swept.cascade <<'END'
+system swept { u: 1 mM * random(1, 2); v: 0 mM; k: 0.1 /s; u' = -k * u; v' = k * u }
+domain { grid: 6, 5; extent: 3 mm }
+stage first: swept { iterations: 4; speed: 0.1 s }
+stage last: swept { u: u; v: v; iterations: 4; speed: 0.1 s }
+END
+swept=(sweep swept.cascade -q --backend interp --no-kernel-cache --vary k=0.1,1/5,0.4 --seeds 1..2)
+run 0 "${swept[@]}" --data all.h5 -o swept
+cat >swept.py <<'END'
+import csv, os, sys
+import h5py, numpy
+
+path, folder, least = sys.argv[1], sys.argv[2], int(sys.argv[3])
+rows = list(csv.DictReader(open(folder + "/features.csv")))
+with h5py.File(path, "r") as file:
+    runs = file["run"][:]
+    assert least <= len(runs) <= len(rows) and list(runs) == sorted(runs), runs
+    assert file["u"].dtype == numpy.float32 and file["v"].attrs["units"] == "mM"
+    assert file["k"].attrs["units"] in ("/s", "1/s")
+    assert [list(dim.keys()) for dim in file["v"].dims] == [["run"], ["y"], ["x"]]
+    assert numpy.allclose(file["x"][:], 0.5 * (numpy.arange(6) + 0.5)), file["x"][:]
+    assert file["x"].attrs["units"] == "mm" and file.attrs["source"].startswith("Cascade")
+    assert file["script"][()].decode() == open("swept.cascade").read()
+    for at, number in enumerate(runs):
+        row = rows[number]
+        name = "k=%s,seed=%s" % (row["k"].replace("/", "_"), row["seed"])
+        for field in "uv":
+            array = numpy.load(f"{folder}/fields/{name}/last.{field}.npy")
+            assert numpy.array_equal(file[field][at], array), (field, number)
+        assert file["k"][at] == eval(row["k"]) and file["seed"][at] == int(row["seed"])
+        assert file["steps"][at] == 8
+        assert abs(file["mean"][at] - float(row["mean"])) < 1e-8 and numpy.isnan(file["wavelength"][at]) == (row["wavelength"] == "")
+END
+"$python" swept.py all.h5 swept 6 || fail "the file of a sweep"
+cat >xarray.py <<'END'
+try:
+    import xarray, h5netcdf
+except ImportError:
+    raise SystemExit
+table = xarray.open_dataset("all.h5", engine="h5netcdf").set_index(run=["k", "seed"]).unstack("run")
+assert table.u.dims == ("y", "x", "k", "seed") and table.sizes["k"] == 3
+# Theory: what u has lost, v has gained.
+start = (table.u + table.v).sel(k=0.1).mean(("x", "y"))
+assert abs(table.u + table.v - (table.u + table.v).sel(k=0.1)).max() < 1e-5
+END
+mv xarray.py with_xarray.py
+"$python" with_xarray.py || fail "xarray does not open the file of a sweep"
+run 0 run swept.cascade -q -o one.png --interval 2 --series one.h5 --field 'both=v + v' --field 'ratio=v / v'
+"$python" -c '
+import h5py
+file = h5py.File("one.h5", "r")
+units = {name: file[name].attrs.get("units") for name in ("both", "ratio", "time", "t", "x", "y")}
+assert units == {"both": "mM", "ratio": None, "time": "s", "t": "s", "x": "mm", "y": "mm"}, units' || fail "units in a series"
+# The same bytes from stored runs, and with one run at a time.
+cp all.h5 kept_all.h5
+run 0 "${swept[@]}" --data all.h5 -o swept
+cmp -s all.h5 kept_all.h5 || fail "stored runs give another file"
+run 0 "${swept[@]}" --data one.h5 -o one --threads 1
+cmp -s one.h5 all.h5 || fail "one thread gives another file of a sweep"
+run 3 "${swept[@]}" --data a.h5 --part 1/2 -o part
+grep -q "a part of a sweep cannot write the file of --data" err || fail "a part: $(cat err)"
+run 3 sweep swept.cascade -q --vary u=1,2 --data a.h5 -o wrong
+grep -q "'u' cannot be the name of a dataset in 'a.h5'" err || fail "a name twice: $(cat err)"
+run 64 "${swept[@]}" --data a.csv
+[ ! -e a.h5 ] && [ ! -e wrong ] || fail "a refused sweep has written"
+# A run that fails is left out, and numbers of cells that differ are refused.
+echo "system s { w: 1; r: 1; w' = r * w^3 } domain { grid: 4, 4 } stage s: s { iterations: 300; speed: 0.01 }" >grows.cascade
+run 3 sweep grows.cascade -q --vary r=0.01,2,0.05 --data grows.h5 -o grown
+"$python" -c 'import h5py; assert list(h5py.File("grows.h5")["run"][:]) == [0, 2]' || fail "the file of a sweep in which a run fails"
+printf 'let n = 4\nsystem s { w: 1; w'"'"' = -w }\ndomain { grid: n, n }\nstage s: s { iterations: 3 }\n' >sizes.cascade
+run 3 sweep sizes.cascade -q --vary n=4,5 --data sizes.h5 -o sizes
+grep -q -- "--data needs runs with the same number of cells" err || fail "other cells: $(cat err)"
+# Killed while it writes, it leaves the runs that it has.
+if command -v strace >/dev/null && strace -o /dev/null true 2>/dev/null && [ -z "$SANITIZE" ]; then
+    { strace -f -o trace -e trace=pwrite64 "$CASCADE" "${swept[@]}" --data killed.h5 -o swept; } >out 2>err
+    writes=$(grep -c 'pwrite64(' trace)
+    for ((k = 2; k <= kills; ++k)); do
+        rm -f killed.h5
+        { strace -f -o trace -e "inject=pwrite64:signal=SIGKILL:when=$((k * writes / (kills + 1)))" \
+            "$CASCADE" "${swept[@]}" --data killed.h5 -o swept; } >out 2>err
+        [ ! -e killed.h5 ] || "$python" swept.py killed.h5 swept 1 || fail "the file of a killed sweep, $k"
+    done
+    [ -e killed.h5 ] || fail "a sweep that was killed late leaves no file"
+fi
 
 # A full disk: the file ends at the last complete moment.
 cat >moments.py <<'END'

@@ -2,6 +2,7 @@
 #include "run/commands/series_fields.h"
 
 #include "core/file_format.h"
+#include "lang/check/check_dimensions.h"
 #include "picture/hdf5.h"
 #include "run/commands/named_expression.h"
 #include "run/commands/run_option.h"
@@ -68,6 +69,20 @@ bool check_names(Script& script, const SeriesFields& fields, bool is_hdf5) {
     return true;
 }
 
+/// Adds the units that fields have in the last of their stages, and the units of lengths and times.
+void add_units(const Script& script, const StageFormulas& formulas, SeriesFields& fields) {
+    const ProgramUnits units = units_of_program(script.tree, *script.program);
+    fields.unit_of_length = units.name_of(BaseQuantity::length);
+    fields.unit_of_time = units.name_of(BaseQuantity::time);
+    for (std::size_t k = 0; k < formulas.count(); ++k) {
+        std::string& unit = fields.units.emplace_back();
+        for (std::uint32_t stage = 0; stage < script.stage_count(); ++stage) {
+            if (const Formula* const formula = formulas.at(k, stage))
+                unit = unit_of_formula(script.tree, *script.program, stage, *formula);
+        }
+    }
+}
+
 }  // namespace
 
 Result<SeriesFields> series_fields(Script& script, const RunRequest& request, Painter& painter) {
@@ -86,6 +101,7 @@ Result<SeriesFields> series_fields(Script& script, const RunRequest& request, Pa
         StageFormulas::create(script, "--field", fields.expressions, FormulaKind::for_a_cell);
     if (!formulas) return tl::unexpected(formulas.error());
     fields.texts = {{"script", script.text}, {"overrides", overrides_to_json(script.overrides)}};
+    add_units(script, *formulas, fields);
     fields.values = [formulas = *std::move(formulas)](const Simulation& simulation) {
         const std::uint32_t stage = shown_stage(simulation);
         std::vector<Field> known = simulation.evaluate(formulas.known_in(stage), stage);

@@ -5,6 +5,7 @@
 
 #include "core/hash.h"
 #include "core/parallel.h"
+#include "run/commands/sweep_data.h"
 #include "run/commands/sweep_folder.h"
 #include "run/commands/sweep_plan.h"
 #include "run/commands/sweep_queue.h"
@@ -66,7 +67,8 @@ private:
     SimulationOptions simulation_;
     SweepPlan plan_;
     std::vector<std::optional<SweepResult>> results_;
-    std::size_t waiting_runs_ = 0;  ///< The number of runs to take, on all ranks together.
+    std::unique_ptr<SweepData> data_;  ///< Null without --data, and on all ranks but rank 0.
+    std::size_t waiting_runs_ = 0;     ///< The number of runs to take, on all ranks together.
     int workers_ = 1;
     SweepReport report_;
     Clock::time_point begun_, reported_;
@@ -117,9 +119,13 @@ void Sweeper::keep(std::size_t number, SweepResult result) {
     if (auto written = write_result(folder_ / "runs", plan_.runs[number].key, result); !written) {
         return give_up({written.error()});
     }
-    const std::lock_guard lock(mutex_);
-    report_.steps += result.steps;
-    results_[number] = std::move(result);
+    const auto added = [&]() -> Result<void> {
+        const std::lock_guard lock(mutex_);
+        report_.steps += result.steps;
+        results_[number] = std::move(result);
+        return data_ ? data_->add_done(results_) : Result<void>();
+    }();
+    if (!added) give_up({added.error()});
 }
 
 /// Ends the sweep with an error that would stop every run, such as a full disk.
@@ -249,6 +255,9 @@ Result<std::vector<std::size_t>> Sweeper::find_waiting() {
         if (!*result) waiting.push_back(number);
         results_[number] = *std::move(result);
     }
+    if (request_.data.empty()) return waiting;
+    data_ = std::make_unique<SweepData>(script_, request_, plan_, folder_);
+    if (auto added = data_->add_done(results_); !added) return tl::unexpected(added.error());
     return waiting;
 }
 
@@ -310,6 +319,11 @@ tl::expected<SweepReport, SweepError> Sweeper::finish() {
         auto written = write_sweep(script_, request_, folder_, results_, control_.cancel);
         if (!written) return tl::unexpected(SweepError{written.error()});
         report_.written = *std::move(written);
+        if (data_ && !stopped_by_) {
+            auto completed = data_->finish(results_);
+            if (!completed) return tl::unexpected(SweepError{completed.error()});
+            if (*completed) report_.written.push_back(request_.data);
+        }
     }
     if (stopped_by_) return tl::unexpected(std::move(*stopped_by_));
     return std::move(report_);

@@ -53,9 +53,11 @@ struct SweepRequest {
     MomentsRequest moments;  ///< When every run logs.
     PictureRequest picture;  ///< Says which values to show and measure. `scale` is ignored.
     int tile_side = 160;     ///< In pixels. Larger pictures are reduced to this size by averaging.
-    bool fields = false;     ///< Whether the fields of every run are saved, to be read or resumed.
-    bool force = false;      ///< Whether runs of an earlier sweep are repeated.
-    SweepPart part;          ///< The runs that this process takes.
+    /// The path of an HDF5 file with the fields of all runs. If not empty, `fields` must be true.
+    std::filesystem::path data;
+    bool fields = false;  ///< Whether the fields of every run are saved, to be read or resumed.
+    bool force = false;   ///< Whether runs of an earlier sweep are repeated.
+    SweepPart part;       ///< The runs that this process takes.
     /// Folders of other sweeps. Their results are copied instead of taking the runs again.
     std::vector<std::filesystem::path> gathered;
     SimulationOptions simulation;  ///< `threads` is the number of concurrent runs.

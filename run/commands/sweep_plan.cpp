@@ -3,6 +3,7 @@
 
 #include "run/commands/ensemble.h"
 #include "run/commands/run.h"
+#include "run/commands/sweep_data.h"
 #include "run/pictures/painter.h"
 #include "run/script/embedded_script.h"
 #include "run/stage/memory.h"
@@ -35,6 +36,7 @@ Planned check_outputs(Script script, const SweepRequest& request) {
             return tl::unexpected(SweepError{{}, std::move(script)});
         good = RunLog::create(script, request.log, request.picture).map([](const RunLog&) {});
     }
+    if (good && !request.data.empty()) good = check_sweep_data(script, request);
     if (good) return {};
     SweepError error{good.error()};
     if (script.diagnostics.has_errors()) error.script = std::move(script);
@@ -94,9 +96,18 @@ Planned plan_run(const Script& base, const SweepRequest& request, std::size_t nu
             SweepError{{"a script of the sweep is wrong", ""}, std::move(script)});
     }
     run.key = key_of_run(script, request.picture, request.tile_side, text_of_log(request));
+    const std::shared_ptr<const Program> program = script.program;
     if (plan.own.empty()) {
-        plan.memory_of_a_run = memory_of(*script.program);
+        plan.memory_of_a_run = memory_of(*program);
+        plan.first = program;
         if (auto good = check_outputs(std::move(script), request); !good) return good;
+    }
+    const double spacing = plan.first->domain.grid.spacing;
+    plan.has_one_spacing = plan.has_one_spacing && program->domain.grid.spacing == spacing;
+    if (!request.data.empty() && !have_same_shape(*plan.first, *program)) {
+        return tl::unexpected(
+            SweepError{{"--data needs runs with the same number of cells and the same precision",
+                        "leave these out of --vary, or save the runs with --fields"}});
     }
     plan.own.push_back(number);
     return {};
@@ -124,9 +135,17 @@ Result<void> check_division(const SweepRequest& request, std::size_t runs) {
         return failure("a part of a sweep cannot draw a curve",
                        "run the same command without --part when all parts are done");
     }
+    if (!request.part.is_all() && !request.data.empty()) {
+        return failure("a part of a sweep cannot write the file of --data",
+                       "use --fields here, and run the same command without --part but with --data "
+                       "when all parts are done");
+    }
     if (request.fields && !request.gathered.empty()) {
-        return failure("--fields cannot be used with --gather, which copies results without fields",
-                       "leave --fields out: the fields stay in their folders");
+        const std::string option = request.data.empty() ? "--fields" : "--data";
+        return failure(
+            fmt::format("{} cannot be used with --gather, which copies results without fields",
+                        option),
+            fmt::format("leave {} out: the fields stay in their folders", option));
     }
     for (const auto& folder : request.gathered) {
         std::error_code error;

@@ -4,6 +4,7 @@
 #include "run/commands/sweep.h"
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,9 +17,11 @@ struct PlannedRun {
 };
 
 struct SweepPlan {
-    std::vector<PlannedRun> runs;  ///< All runs. Only runs of the part are filled in.
-    std::vector<std::size_t> own;  ///< The numbers of the runs of the part, in order.
-    double memory_of_a_run = 0;    ///< In bytes. Every run checks its memory again.
+    std::vector<PlannedRun> runs;          ///< All runs. Only runs of the part are filled in.
+    std::shared_ptr<const Program> first;  ///< The program of the first run of the part.
+    std::vector<std::size_t> own;          ///< The numbers of the runs of the part, in order.
+    bool has_one_spacing = true;  ///< Whether cells are equally large in all runs of the part.
+    double memory_of_a_run = 0;   ///< In bytes. Every run checks its memory again.
 };
 
 /// Loads and checks the script with the values of every run of the part.

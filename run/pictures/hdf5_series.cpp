@@ -27,18 +27,20 @@ namespace {
 using Sides = std::vector<std::int64_t>;
 
 /// The middles of cells along an axis.
-Hdf5Column axis_of(std::string name, std::int64_t cells, double spacing, std::string meaning) {
-    Hdf5Column column{std::move(name), std::move(meaning), {}};
+Hdf5Column axis_of(std::string name, std::int64_t cells, double spacing, std::string meaning,
+                   std::string unit) {
+    Hdf5Column column{std::move(name), std::move(meaning), {}, std::move(unit)};
     for (std::int64_t k = 0; k < cells; ++k) {
         column.values.push_back((static_cast<double>(k) + 0.5) * spacing);
     }
     return column;
 }
 
-void add_axes(Hdf5Layout& layout, const Simulation& simulation, const Sides& sides) {
+void add_axes(Hdf5Layout& layout, const Simulation& simulation, const Sides& sides,
+              const std::string& unit) {
     const SimulationDomain& domain = simulation.domain();
     if (const auto model = domain.shared_model()) {
-        Hdf5Column numbers{"cell", "number of the cell in files", {}};
+        Hdf5Column numbers{"cell", "number of the cell in files", {}, ""};
         for (std::int64_t k = 0; k < sides[0]; ++k) {
             numbers.values.push_back(static_cast<double>(k));
         }
@@ -49,7 +51,7 @@ void add_axes(Hdf5Layout& layout, const Simulation& simulation, const Sides& sid
             const auto plane = static_cast<std::size_t>(planes[k]);
             layout.coordinates.push_back({names[k],
                                           fmt::format("{} of the cell, as in formulas", names[k]),
-                                          cell_values(model->spread().planes[plane], *model)});
+                                          cell_values(model->spread().planes[plane], *model), ""});
         }
         return;
     }
@@ -60,17 +62,41 @@ void add_axes(Hdf5Layout& layout, const Simulation& simulation, const Sides& sid
         const double spacing = is_surface ? 1 / static_cast<double>(sides[k]) : domain.grid.spacing;
         layout.axes.push_back(axis_of(names[axis], sides[k], spacing,
                                       is_surface ? "position on the surface, 0 to 1"
-                                                 : "middle of the cell, in units of length"));
+                                                 : "middle of the cell, in units of length",
+                                      is_surface ? "" : unit));
     }
+}
+
+/// The time and place of each moment. Times without a meaning are NaN.
+std::vector<Hdf5Record> records_of_moments(const Program& program, const std::string& unit) {
+    std::vector<std::int32_t> numbers;
+    std::string names;
+    for (const Stage& stage : program.stages) {
+        numbers.push_back(static_cast<std::int32_t>(numbers.size()));
+        names += (names.empty() ? "" : " ") + stage.name;
+    }
+    Hdf5Attributes of_run = {{"long_name", "time from the beginning of the run"}};
+    Hdf5Attributes of_stage = {{"long_name", "time from the beginning of the stage"}};
+    if (!unit.empty()) of_run["units"] = of_stage["units"] = unit;
+    return {{"time", of_run, 0.0},
+            {"t", of_stage, 0.0},
+            {"step", {{"long_name", "number of complete steps of the stage"}}, std::int64_t{0}},
+            {"stage",
+             {{"long_name", "stage, by its number from 0"},
+              {"flag_values", numbers},
+              {"flag_meanings", names}},
+             std::int32_t{0}}};
 }
 
 Hdf5Layout layout_of(const Simulation& simulation, const Sides& sides, const SeriesFields& fields) {
     const Program& program = *simulation.domain().program;
     Hdf5Layout layout;
-    add_axes(layout, simulation, sides);
+    layout.records = records_of_moments(program, fields.unit_of_time);
+    add_axes(layout, simulation, sides, fields.unit_of_length);
     for (std::size_t k = 0; k < fields.names.size(); ++k) {
         Hdf5Attributes attributes = {{"long_name", fields.expressions[k]}};
         if (!layout.coordinates.empty()) attributes["coordinates"] = "x y z";
+        if (!fields.units[k].empty()) attributes["units"] = fields.units[k];
         layout.fields.emplace_back(fields.names[k], std::move(attributes));
     }
     layout.precision = program.domain.precision;

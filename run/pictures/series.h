@@ -36,6 +36,9 @@ double time_since_start(const Simulation& simulation);
 struct SeriesFields {
     std::vector<std::string> names;
     std::vector<std::string> expressions;  ///< The expressions of the fields.
+    /// The units of the fields, of lengths and of times. Empty where the script gives no unit.
+    std::vector<std::string> units;
+    std::string unit_of_length, unit_of_time;
     /// Texts for formats that hold them, such as the script.
     std::map<std::string, std::string> texts;
     /// Returns a field for each name, in all cells of the domain. A field is empty if its name has
