@@ -72,9 +72,10 @@ export class Gpu {
         try {
             const adapter = await navigator.gpu.requestAdapter({ powerPreference: "high-performance" });
             if (!adapter) return this.refuse("the browser has found no GPU");
+            const { vendor, architecture, description, isFallbackAdapter } = adapter.info;
+            if (isFallbackAdapter) return this.refuse("the browser computes WebGPU on the processor, which is slower");
             const { maxStorageBufferBindingSize, maxBufferSize } = adapter.limits;
             this.device = await adapter.requestDevice({ requiredLimits: { maxStorageBufferBindingSize, maxBufferSize } });
-            const { vendor, architecture, description } = adapter.info;
             this.about = description || `${vendor} ${architecture}`.trim() || "a GPU without a name";
         } catch (error) {
             return this.refuse(`the browser lends no GPU: ${(error as Error).message}`);
