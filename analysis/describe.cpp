@@ -100,7 +100,11 @@ private:
     /// A length in cells. If the script's unit of length is not a cell, also the length in that
     /// unit.
     std::string length(double cells) const {
-        if (lattice_.is_continuous) return fmt::format("{:.4g} mean distances of cells", cells);
+        if (lattice_.is_continuous && lattice_.spacing == 1) {
+            return fmt::format("{:.4g} mean distances of cells", cells);
+        }
+        if (lattice_.is_continuous)
+            return fmt::format("{:.4g} in length", cells * lattice_.spacing);
         return lattice_.spacing == 1
                    ? fmt::format("{:.4g} cells", cells)
                    : fmt::format("{:.4g} cells, {:.4g} in length", cells, cells * lattice_.spacing);
@@ -110,7 +114,7 @@ private:
     std::string lengths(double least, double most) const {
         const double spacing = lattice_.spacing;
         if (lattice_.is_continuous || spacing == 1) {
-            return fmt::format("{:.4g} to {}", least, length(most));
+            return fmt::format("{:.4g} to {}", least * spacing, length(most));
         }
         return fmt::format("{:.4g} to {:.4g} cells, {:.4g} to {:.4g} in length", least, most,
                            least * spacing, most * spacing);

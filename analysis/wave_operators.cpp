@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <optional>
 
 namespace cascade::analysis {
 
@@ -130,11 +133,22 @@ OperatorProduct followed_by(OperatorProduct first, WaveOperator then) {
     return first;
 }
 
+namespace {
+
+/// The mean distance of cells on a surface with this longest side, as if it were a sphere. 1 if the
+/// unit of length is the mean distance.
+double mean_distance(std::optional<double> extent, std::int64_t cells) {
+    return extent ? *extent * std::sqrt(std::numbers::pi / static_cast<double>(cells)) : 1;
+}
+
+}  // namespace
+
 Lattice lattice_of(const Program& program) {
     const DomainSettings& domain = program.domain;
     const Grid& grid = domain.grid;
     Lattice lattice;
     if (domain.model) {
+        lattice.spacing = mean_distance(domain.model->extent, domain.model->count);
         lattice.is_continuous = true;
         lattice.has_axis = {true, false, false};
         return lattice;
@@ -149,6 +163,7 @@ Lattice lattice_of(const Program& program) {
                            grid.boundary.y == Boundary::periodic,
                            grid.boundary.z == Boundary::periodic};
     if (domain.surface && domain.surface->has_metric) {
+        lattice.spacing = mean_distance(domain.surface->extent, grid.cell_count());
         lattice.is_continuous = true;
         lattice.has_axis = {true, false, false};
         lattice.cells = {};

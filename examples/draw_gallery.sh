@@ -50,6 +50,8 @@ draw_one() {
         on_models/fingerprint | on_models/lobes) draw "$1" ;;
         on_models/giraffe) draw "$1" --view 60,10 --size 720x800 ;;
         on_models/leopard | on_models/cheetah | on_models/genet) draw "$1" --view 60,12 --size 960x560 ;;
+        on_models/growing_leopard)
+            draw "$1" --view 60,12 --size 480x300 -o "examples/$1.webp" ;;  # With a film of its growth.
         on_models/angelfish | on_models/emperor) draw "$1" --view 70,10 ;;
         on_models/*) draw "$1" --view 55,15 ;;  # Animals, from the side.
         cells/fur) draw "$1" --view 55,15 --light studio ;;

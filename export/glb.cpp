@@ -223,7 +223,7 @@ Result<GlbFile> file_for(const SurfaceMesh& mesh) {
 }
 
 /// Adds an animation in which each moment in turn has all the weight. At the end no moment has any
-/// weight, so the mesh itself is shown.
+/// weight, so the mesh itself is shown. If the size of the model changes, a second track scales it.
 void animate(std::size_t node, const GlbGrowth& growth, GlbFile& file) {
     const std::size_t count = growth.moments.size();
     const std::size_t times =
@@ -238,6 +238,17 @@ void animate(std::size_t node, const GlbGrowth& growth, GlbFile& file) {
     animation["samplers"] = Json::array({{{"input", times}, {"output", weights}}});
     animation["channels"] =
         Json::array({{{"sampler", 0}, {"target", {{"node", node}, {"path", "weights"}}}}});
+    const auto scale_of = [&](std::size_t k) { return k < count ? growth.moments[k].scale : 1; };
+    if (std::ranges::any_of(growth.moments,
+                            [](const GlbMoment& each) { return each.scale != 1; })) {
+        const std::size_t scales =
+            file.add_numbers<float>(0, "VEC3", count + 1, [&](std::size_t k, std::size_t) {
+                return static_cast<float>(scale_of(k));
+            });
+        animation["samplers"].push_back({{"input", times}, {"output", scales}});
+        animation["channels"].push_back(
+            {{"sampler", 1}, {"target", {{"node", node}, {"path", "scale"}}}});
+    }
     file.add("animations", std::move(animation));
 }
 

@@ -42,6 +42,7 @@ struct GlbMoment {
     /// The positions of the points at that moment. If empty, the points are at the positions of the
     /// mesh.
     std::vector<Vector3d> points;
+    double scale = 1;  ///< The size of the model at that moment, divided by its size at the end.
 };
 
 /// The history of a model.
@@ -52,7 +53,8 @@ struct GlbGrowth {
 
 /// Does the same as encode_glb(), with an animation. Each moment is a morph target with the
 /// differences of colours, positions and normals from the mesh. They change uniformly between two
-/// moments. Programs that do not support colours of morph targets show the colours of the mesh.
+/// moments. If a scale differs from 1, the animation also scales the model about the origin of its
+/// coordinates. Programs that do not support colours of morph targets show the colours of the mesh.
 /// Meshes with texture coordinates keep their tangents.
 Result<std::string> encode_growing_glb(const SurfaceMesh& mesh, const GlbLook& look,
                                        const GlbGrowth& growth);

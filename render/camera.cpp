@@ -92,7 +92,7 @@ Camera::Camera(const Scene& scene, const View& view, std::int64_t width, std::in
     }
     const float distance = std::max(x.distance(half_x), y.distance(half_y));
     eye_ = middle + right_ * x.offset() + up_ * y.offset() + backward_ * distance;
-    pixel_ = 2 * half_field / smaller;
+    pixel_ = 2 * half_field / smaller / view.zoom;
     centre_x_ = pixels_wide / 2;
     centre_y_ = pixels_high / 2;
 }

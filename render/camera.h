@@ -18,6 +18,8 @@ struct View {
     bool is_turning = false;
     /// The tangent of half the field of view, along the shorter side of the picture.
     float half_field = 0.22F;
+    /// The size of the scene in the picture. 1 fills the picture.
+    float zoom = 1;
 };
 
 struct Ray {

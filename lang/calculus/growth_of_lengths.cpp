@@ -159,4 +159,15 @@ std::optional<Growth> growth_of(std::span<const Formula> lengths, const Grid& gr
     return growth;
 }
 
+std::optional<Growth> growth_of_surface(const Formula& extent, double start) {
+    LengthRules rules(extent);
+    Growth growth;
+    const Formula scale = rules.divided_by(start);
+    growth.scale = {scale, scale, {{Node{1.0}}}};
+    const auto rate = rules.logarithmic_derivative();
+    if (!rate) return std::nullopt;
+    growth.dilution = sum_of({*rate, *rate});
+    return growth;
+}
+
 }  // namespace cascade

@@ -15,4 +15,9 @@ namespace cascade {
 /// length. The caller must set `written` and `span`.
 std::optional<Growth> growth_of(std::span<const Formula> lengths, const Grid& grid);
 
+/// The growth of a surface or model whose longest side has this length, a formula of numbers and
+/// `t`. The scale of lengths is 1 where the side is `start` long. The surface grows alike in all
+/// directions, so amounts are diluted at twice the rate of a length. Otherwise as growth_of().
+std::optional<Growth> growth_of_surface(const Formula& extent, double start);
+
 }  // namespace cascade

@@ -249,6 +249,7 @@ void print_model(const Program& program, Output out) {
     }
     if (model.laplacian == ModelLaplacian::turk) fmt::format_to(out, "  laplacian: turk\n");
     if (model.unit) fmt::format_to(out, "  unit: {}\n", *model.unit);
+    if (model.extent) fmt::format_to(out, "  extent: {}\n", *model.extent);
     const Stance& stance = model.stance;
     if (stance.up != Axis::y) fmt::format_to(out, "  up: {}\n", name_of(stance.up));
     if (stance != usual_stance(stance.up)) {

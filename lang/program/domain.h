@@ -20,8 +20,10 @@ struct SurfaceSettings {
     std::array<Formula, 3> position;  ///< Made of numbers, coordinates and functions of numbers.
     bool has_metric = true;  ///< Whether operators account for the sizes of cells. If false, all
                              ///< cells count as equal squares.
-    std::optional<double>
-        unit;  ///< The length of one unit. If empty, DomainSettings::detail determines it.
+    std::optional<double> unit;  ///< The length of one unit. If empty, `extent` or
+                                 ///< DomainSettings::detail determines it.
+    /// The longest side of the box around the corners of all cells at t = 0, in units.
+    std::optional<double> extent;
     Span span;
 };
 
@@ -85,9 +87,10 @@ struct ModelSettings {
     ModelCellKind cells = ModelCellKind::spread;
     std::int64_t count = 16384;  ///< The number of spread cells.
     ModelLaplacian laplacian = ModelLaplacian::finite_volumes;
-    std::optional<double>
-        unit;       ///< The length of one unit. If empty, DomainSettings::detail determines it.
-    Stance stance;  ///< The axes of the model that become y and z of the script.
+    std::optional<double> unit;    ///< The length of one unit. If empty, `extent` or
+                                   ///< DomainSettings::detail determines it.
+    std::optional<double> extent;  ///< The longest side of the model's box at t = 0, in units.
+    Stance stance;                 ///< The axes of the model that become y and z of the script.
     std::optional<DirectionSettings> directions;
     double stretch = 2;  ///< The ratio of length to width of cells along the directions.
     Span span;           ///< The span of the model's name.

@@ -41,7 +41,7 @@ Formula GrowingFormula::rewritten(const Formula& formula) {
     for (Node node : formula.nodes) {
         for (NodeId& operand : node.reads()) operand = place[operand];
         span_ = node.span;
-        place.push_back(node.is<Call>() ? image_of(node) : append(node));
+        place.push_back(node.is<Call>() ? image_of(node) : image_of_leaf(node));
     }
     const bool is_last = place.back().index() + 1 == result_.nodes.size();
     return is_last ? std::move(result_) : formula_of(result_.nodes, place.back());
@@ -117,14 +117,48 @@ NodeId GrowingFormula::twice_shrunk(NodeId value, std::size_t axis) {
     return product(inverse_square(axis), value);
 }
 
+/// Curvatures are the only built-in values that depend on lengths.
+NodeId GrowingFormula::image_of_leaf(const Node& node) {
+    const NodeId value = append(node);
+    if (!is_surface_) return value;
+    const auto* const builtin = node.as<Builtin>();
+    if (builtin == nullptr) return value;
+    switch (*builtin) {
+        case Builtin::curvature:
+        case Builtin::curvature_mean:
+        case Builtin::curvature_high:
+        case Builtin::curvature_low: return shrunk(value, main_axis());
+        case Builtin::curvature_gauss: return twice_shrunk(value, main_axis());
+        default: return value;
+    }
+}
+
 NodeId GrowingFormula::image_of(const Node& node) {
     if (node.calls(Function::grown)) return times_scale(node);
+    // A sum over a surface is an integral.
+    if (node.calls(Function::domain_sum) && is_surface_ && changes(main_axis())) {
+        const NodeId area = square(scale(main_axis()));
+        return product(area, append(node));
+    }
     if (node.calls(Function::white)) return white(append(node));
+    if (const auto turned = turned_gradient(node)) return *turned;
     const int lengths = info(node.function).lengths;
     if (lengths == 0) return append(node);
     if (!growth_.is_uniform) return by_axes(node);
     const NodeId value = append(node);
     return lengths == 1 ? shrunk(value, main_axis()) : twice_shrunk(value, main_axis());
+}
+
+/// On a surface, tensor · (vector / s) becomes (tensor · vector) / s. A tensor times a gradient
+/// keeps weights of links that are computed once (lang/lower/model_pass.cpp).
+std::optional<NodeId> GrowingFormula::turned_gradient(const Node& node) {
+    const auto& known = inverses_[main_axis()];
+    if (!is_surface_ || !known || !node.calls(Function::multiply)) return std::nullopt;
+    const auto [tensor, vector] = std::array{node.operands[0], node.operands[1]};
+    const Node scaled = result_.nodes[vector];
+    if (result_.nodes[tensor].type != ValueType::tensor) return std::nullopt;
+    if (!scaled.calls(Function::multiply) || scaled.operands[0] != *known) return std::nullopt;
+    return product(*known, product(tensor, scaled.operands[1]));
 }
 
 NodeId GrowingFormula::times_scale(const Node& node) {

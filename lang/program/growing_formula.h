@@ -15,7 +15,9 @@ namespace cascade {
 class GrowingFormula {
 public:
     GrowingFormula(const Growth& growth, const DomainSettings& domain)
-        : growth_(growth), stencil_(domain.grid.stencil()) {}
+        : growth_(growth),
+          is_surface_(domain.model || domain.surface),
+          stencil_(is_surface_ ? Stencil{true, true, false} : domain.grid.stencil()) {}
 
     /// The formula, rewritten for lengths that grow.
     Formula rewritten(const Formula& formula);
@@ -65,6 +67,8 @@ private:
     NodeId twice_shrunk(NodeId value, std::size_t axis);
 
     NodeId image_of(const Node& node);
+    NodeId image_of_leaf(const Node& node);
+    std::optional<NodeId> turned_gradient(const Node& node);
     NodeId by_axes(const Node& node);
     NodeId times_scale(const Node& node);
     NodeId white(NodeId value);
@@ -75,6 +79,7 @@ private:
     NodeId sum(const std::vector<NodeId>& terms);
 
     const Growth& growth_;
+    bool is_surface_;  ///< Whether cells are on a surface or a model.
     Stencil stencil_;
     Formula result_;
     Span span_;

@@ -128,6 +128,24 @@ Formula with_growth(const Program& program, std::uint32_t stage, const Formula& 
     return growth ? GrowingFormula(*growth, program.domain).rewritten(formula) : formula;
 }
 
+std::vector<GrowingSide> growing_sides(const DomainSettings& domain) {
+    const auto longest = [](const auto& surface) {
+        return std::vector{
+            GrowingSide{0, "the length of the longest side", surface.extent.value_or(0)}};
+    };
+    if (domain.model) return longest(*domain.model);
+    if (domain.surface) return longest(*domain.surface);
+    constexpr std::array names{"the length along x", "the length along y", "the length along z"};
+    const std::array cells{domain.grid.width, domain.grid.height, domain.grid.depth};
+    std::vector<GrowingSide> sides;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (cells[axis] == 1) continue;
+        const double length = static_cast<double>(cells[axis]) * domain.grid.spacing;
+        sides.push_back({axis, names[axis], length});
+    }
+    return sides;
+}
+
 std::optional<double> known_duration(const Program& program, std::uint32_t stage) {
     const Stage& its = program.stages[stage];
     if (its.time.duration) return *its.time.duration;

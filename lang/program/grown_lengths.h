@@ -5,8 +5,11 @@
 #include "lang/program/program.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string_view>
+#include <vector>
 
 namespace cascade {
 
@@ -24,6 +27,17 @@ void let_lengths_grow(Program& program);
 /// A formula of a stage, such as a picture's formula, rewritten for lengths that grow. Its
 /// definitions must be the definitions of Growth::written.
 Formula with_growth(const Program& program, std::uint32_t stage, const Formula& formula);
+
+/// A length of the domain that may grow.
+struct GrowingSide {
+    std::size_t axis;       ///< The scale of this axis multiplies it.
+    std::string_view name;  ///< Such as "the length along x".
+    double start = 0;       ///< The length without growth. 0 on a model without an extent.
+};
+
+/// The lengths along all axes with more than one cell. A surface or model has only one, which is
+/// the longest side of its box.
+std::vector<GrowingSide> growing_sides(const DomainSettings& domain);
 
 /// The duration of a stage if nothing ends it sooner. Empty if it is not known before the run.
 std::optional<double> known_duration(const Program& program, std::uint32_t stage);

@@ -11,7 +11,8 @@ namespace cascade {
 /// become longer. let_lengths_grow() writes the growth into the stage's equations.
 struct Growth {
     /// For each axis, the length of the domain divided by its length on the grid (cells · spacing):
-    /// a formula of numbers and `t`, 1 if the length does not change.
+    /// a formula of numbers and `t`, 1 if the length does not change. On a surface or model the
+    /// first two are equal, and are the longest side divided by the longest side of the domain.
     std::array<Formula, 3> scale;
     /// The rate at which amounts are diluted, d/dt ln(content of the domain): a formula of numbers
     /// and `t`.

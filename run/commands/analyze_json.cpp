@@ -2,6 +2,7 @@
 #include "run/commands/analyze_json.h"
 
 #include "analysis/describe_parameters.h"
+#include "analysis/growing_domain.h"
 
 #include <nlohmann/json.hpp>
 
@@ -115,6 +116,22 @@ Json map_as_json(const System& system, const ParameterMap& map) {
     return {{"across", axis(map.across)}, {"up", axis(map.up)}, {"classes", names}, {"rows", rows}};
 }
 
+/// The waves that grow at times of a stage whose domain grows. Null if its lengths do not change.
+Json growth_as_json(const LinearModel& model) {
+    const auto moments = moments_of_growing_domain(*model.program, model.stage);
+    if (moments.empty()) return nullptr;
+    Json rows = Json::array();
+    for (const GrowingMoment& moment : moments) {
+        Json row = {{"t", number(moment.t)}, {"lengths", moment.lengths}};
+        row["waves"] = moment.waves ? Json{{"least", number(moment.waves->least)},
+                                           {"most", number(moment.waves->most)},
+                                           {"fastest", number(moment.waves->fastest)}}
+                                    : Json(nullptr);
+        rows.push_back(std::move(row));
+    }
+    return {{"counted", counted_waves(model.program->domain)}, {"moments", rows}};
+}
+
 }  // namespace
 
 std::string analysis_as_json(const StageAnalysis& analysis, std::span<const ParameterScan> scans,
@@ -142,6 +159,7 @@ std::string analysis_as_json(const StageAnalysis& analysis, std::span<const Para
                 {"keeps_totals", analysis.has_conserved_totals},
                 {"states", states},
                 {"critical", critical}};
+    if (Json growth = growth_as_json(model); !growth.is_null()) all["growth"] = std::move(growth);
     if (map != nullptr) all["map"] = map_as_json(model.system(), *map);
     return all.dump(1) + "\n";
 }

@@ -115,7 +115,8 @@ public:
         const SurfaceCells& cells = made_.cells;
         const double total = std::accumulate(cells.areas.begin(), cells.areas.end(), 0.0);
         const double mean = total / static_cast<double>(count());
-        made_.unit = settings_.unit.value_or(std::sqrt(mean) * detail_);
+        made_.unit = settings_.extent ? ModelBox(mesh_).longest / *settings_.extent
+                                      : settings_.unit.value_or(std::sqrt(mean) * detail_);
         made_.are_spread = settings_.cells == ModelCellKind::spread;
         const Conduction conduction = conduction_of(cells, made_.are_spread, made_.unit);
         link_cells(weights_of(cells, settings_.laplacian, conduction, made_.unit, mean));

@@ -237,11 +237,19 @@ Result<void> FrameRecorder::use_canvases(std::span<const std::size_t> numbers, i
 
 void FrameRecorder::draw_one(Painter& painter, std::size_t number, const Canvas& canvas,
                              Image& image) const {
+    // A film shows how a surface or body grows: it fills the picture when it is largest.
+    const View view = painter.request().view;
+    if (!painter.is_flat()) {
+        View far = view;
+        far.zoom = static_cast<float>(canvas.scales[0] / largest_[0]);
+        painter.set_view(far);
+    }
     // All frames of a film must have the same size, so frames without cells get the size of frames
     // with cells.
     image = shows_cells() ? painter.image_beside_cells(canvas, range())
                           : painter.image(canvas, range(), std::move(image));
     if (painter.is_flat()) image = in_largest(image, canvas.scales, largest_);
+    else painter.set_view(view);
     const std::string& label = frames_[number].label;
     if (!label.empty() && has_room_for_caption(image.width, image.height)) {
         draw_caption(image, label);

@@ -23,6 +23,7 @@ public:
 
     GlbMoment moment(const ModelLook& look) {
         GlbMoment moment;
+        moment.scale = look.scale;
         moment.colours = colours_at(fine_.places, filter_, look.painted_alone(), team_);
         if (look.displaces) {
             RefinedMesh raised = raised_model(fine_, mesh_, filter_, look.heights, team_);
@@ -31,7 +32,8 @@ public:
         return moment;
     }
 
-    Result<std::string> encode(GlbMoment last, std::span<const GlbMoment> before, double seconds) {
+    Result<std::string> encode(GlbMoment last, std::span<GlbMoment> before, double seconds) {
+        for (GlbMoment& each : before) each.scale /= last.scale;
         if (!last.points.empty()) fine_.mesh.points = std::move(last.points);
         GlbLook look;
         look.colours = last.colours;

@@ -13,9 +13,9 @@ ModelLook::ModelLook(const ModelCells& model, const Canvas& canvas, ValueRange r
     material =
         Material(canvas.material, [&](const Field& field) { return cell_values(field, model); });
     heights = std::move(material.heights);
-    for (float& height : heights) {
-        height = static_cast<float>(static_cast<double>(height) * model.spread().unit);
-    }
+    scale = canvas.scales[0];
+    const double unit = model.spread().unit / scale;
+    for (float& height : heights) height = static_cast<float>(static_cast<double>(height) * unit);
 }
 
 void ModelLook::raise(const ModelCells& model, const Field& number, ValueRange range, float bump) {

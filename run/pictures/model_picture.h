@@ -20,6 +20,8 @@ struct ModelLook : CellLook {
     ModelLook(const ModelCells& model, const Canvas& canvas, ValueRange range,
               const Palette& palette);
 
+    double scale = 1;  ///< The size of the model, divided by its size without growth.
+
     /// Sets heights computed from a number. The height of a cell is the position of its number in
     /// `range`, 0 … 1, times `bump` times the longest side of the model.
     void raise(const ModelCells& model, const Field& number, ValueRange range, float bump);

@@ -129,7 +129,8 @@ Canvas Painter::canvas(const Simulation& simulation) {
         return plane;
     }
     Canvas canvas = values(simulation);
-    if (is_flat()) canvas.scales = scales_of_plane(simulation, request_.slice);
+    canvas.scales =
+        is_flat() ? scales_of_plane(simulation, request_.slice) : scales_of_body(simulation);
     if (shows_cells_) return canvas_of_cells(simulation, std::move(canvas));
     if (shows_body_) return canvas_of_body(simulation, std::move(canvas));
     for (Field& field : canvas.fields) field = shown(std::move(field), request_);

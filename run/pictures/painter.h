@@ -29,8 +29,8 @@ struct Canvas {
     /// For a colour with bumps, the number from which the heights are computed.
     Field relief = {};
     MaterialFields material = {};  ///< Has values for models and in the result of map_canvas().
-    /// The lengths of a cell of a plane or slice, across and down, divided by the spacing. They
-    /// differ from 1 in a domain that grows.
+    /// The lengths of a cell of a plane or slice, across and down, divided by the spacing, or the
+    /// result of scales_of_body(). They differ from 1 in a domain that grows.
     PlaneScales scales{1, 1};
     /// The number of parts of a cell along each axis. Above 1 in maps and smooth pictures.
     std::int64_t parts = 1;

@@ -1,6 +1,8 @@
 // Copies cells row by row.
 #include "run/pictures/plane_look.h"
 
+#include "run/domain/metric_planes.h"
+
 #include <utility>
 
 namespace cascade {
@@ -37,7 +39,10 @@ GridMaterial grid_material(const Canvas& canvas, const DomainSettings& domain) {
     GridMaterial result{Material(canvas.material, in_rows_of_picture), layout.width, layout.height};
     result.is_periodic_x = domain.grid.boundary.x == Boundary::periodic;
     result.is_periodic_y = domain.grid.boundary.y == Boundary::periodic;
-    result.unit = domain.surface->unit;
+    // In a domain that grows, the unit becomes shorter in coordinates of the surface.
+    if (const auto unit = unit_of(*domain.surface, domain.grid)) {
+        result.unit = *unit / canvas.scales[0];
+    }
     result.detail = domain.detail;
     return result;
 }

@@ -26,6 +26,14 @@ PlaneScales scales_of_plane(const Simulation& simulation, const Slice& slice) {
             scales[is_slice && slice.axis == Axis::y ? 2 : 1]};
 }
 
+PlaneScales scales_of_body(const Simulation& simulation) {
+    const std::uint32_t stage = shown_stage(simulation);
+    const Stage& its = simulation.domain().stage(stage);
+    if (!its.growth || !its.growth->is_uniform) return {1, 1};
+    const double scale = scales_at(its, simulation.state(stage).t)[0];
+    return {scale, scale};
+}
+
 Image in_proportion(Image image, const PlaneScales& scales) {
     const double least = std::min(scales[0], scales[1]);
     if (scales[0] == scales[1] || !(least > 0)) return image;

@@ -14,6 +14,10 @@ namespace cascade {
 using PlaneScales = std::array<double, 2>;
 PlaneScales scales_of_plane(const Simulation& simulation, const Slice& slice);
 
+/// The same number twice for a surface, a model or a body, whose domain grows alike in all
+/// directions: the length of a cell, divided by its length without growth.
+PlaneScales scales_of_body(const Simulation& simulation);
+
 /// The image of a plane with square cells, made longer along the axis along which cells are longer.
 Image in_proportion(Image image, const PlaneScales& scales);
 

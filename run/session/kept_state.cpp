@@ -233,8 +233,8 @@ bool have_same_model(const Program& before, const Program& after) {
            first->sizes == second->sizes && is_same(first->implicit, second->implicit) &&
            first->cells == second->cells && first->count == second->count &&
            first->laplacian == second->laplacian && first->unit == second->unit &&
-           first->stance == second->stance && is_same(first->directions, second->directions) &&
-           first->stretch == second->stretch;
+           first->extent == second->extent && first->stance == second->stance &&
+           is_same(first->directions, second->directions) && first->stretch == second->stretch;
 }
 
 }  // namespace

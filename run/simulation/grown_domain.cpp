@@ -20,21 +20,19 @@ std::array<double, 3> cell_lengths(const Simulation& simulation, std::uint32_t s
 std::optional<Failure> shrinks_to_nothing(const SimulationDomain& domain, std::uint32_t stage,
                                           double t, double end, double step) {
     constexpr int steps = 100;  // More than the 64 steps from check to check.
-    constexpr std::array names{"x", "y", "z"};
     const Stage& its = domain.stage(stage);
-    const std::array cells{domain.grid.width, domain.grid.height, domain.grid.depth};
     if (!its.growth) return std::nullopt;
     for (int n = 0; n <= steps; ++n) {
         const double moment = std::min(t + n * step, end);
         const auto scales = scales_at(its, moment);
-        for (std::size_t axis = 0; axis < scales.size(); ++axis) {
-            if (scales[axis] > 0 && std::isfinite(scales[axis])) continue;
-            const double start = static_cast<double>(cells[axis]) * domain.grid.spacing;
+        for (const GrowingSide& side : growing_sides(domain.program->domain)) {
+            const double scale = scales[side.axis];
+            if (scale > 0 && std::isfinite(scale)) continue;
             return Failure{
-                fmt::format("stage '{}' ({}): the domain shrinks to nothing: the length along {} "
-                            "would be {:.6g} at t = {:.6g}",
-                            its.name, domain.program->system_of(stage).name, names[axis],
-                            start * scales[axis], moment),
+                fmt::format("stage '{}' ({}): the domain shrinks to nothing: {} would be {:.6g} "
+                            "at t = {:.6g}",
+                            its.name, domain.program->system_of(stage).name, side.name,
+                            side.start * scale, moment),
                 "a length must stay above 0 while the stage runs"};
         }
     }

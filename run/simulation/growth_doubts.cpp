@@ -47,15 +47,12 @@ std::set<std::uint32_t> stages_read(const StageView& view) {
     return read;
 }
 
-/// The lengths of the domain along axes with more than one cell.
+/// The lengths of growing_sides() at a time.
 std::vector<double> lengths_at(const Program& program, const Stage& stage, double t) {
-    const Grid& grid = program.domain.grid;
-    const std::array cells{grid.width, grid.height, grid.depth};
     const auto scales = scales_at(stage, t);
     std::vector<double> lengths;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (cells[axis] == 1) continue;
-        lengths.push_back(scales[axis] * static_cast<double>(cells[axis]) * grid.spacing);
+    for (const GrowingSide& side : growing_sides(program.domain)) {
+        lengths.push_back(scales[side.axis] * side.start);
     }
     return lengths;
 }

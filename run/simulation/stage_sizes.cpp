@@ -69,7 +69,8 @@ double cell_width(const Environment& here) {
         return std::sqrt(area / static_cast<double>(spread.cells.areas.size())) / spread.unit;
     }
     if (here.metric.empty()) return domain.grid.spacing;
-    if (!domain.surface->unit) return 1.0 / static_cast<double>(domain.detail);
+    if (!domain.surface->unit && !domain.surface->extent)
+        return 1.0 / static_cast<double>(domain.detail);
     const Field& areas = here.metric[static_cast<std::size_t>(MetricPlane::area)];
     double area = 0;
     for (std::int64_t row = 0; row < here.grid.height; ++row) {

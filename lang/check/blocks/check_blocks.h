@@ -8,6 +8,7 @@
 #include "lang/check/systems/system_inheritance.h"
 #include "lang/program/shape_form.h"
 
+#include <cstdint>
 #include <functional>
 #include <string_view>
 #include <vector>
@@ -74,6 +75,14 @@ bool is_model_surface(const ast::Script& script, const ast::Statement& surface);
 /// Checks the settings of a model. If neither the block nor an option names a model, reports
 /// settings of models as errors and returns false.
 bool check_model(Workspace& work, const ast::Script& script, const ast::Block& domain);
+
+/// The part of the domain whose length `extent` in the domain's block sets.
+enum class ExtentOf : std::uint8_t {
+    grid,
+    surface,  ///< The block's surface or model.
+    nothing,  ///< A model of the command line replaces the block's grid.
+};
+ExtentOf subject_of_extent(const ast::Script& script, const ast::Block& domain);
 
 /// Checks the settings of the domain that belong to a surface. The grid must be known.
 void check_surface(Workspace& work, const ast::Script& script, const ast::Block& domain);

@@ -258,7 +258,8 @@ void check_domain(Workspace& work, const ast::Script& script) {
     for (const ast::Override& change : script.overrides) {
         if (value_statement(change.statement) == nullptr || !is_of_domain(script, change)) continue;
         std::erase_if(block.statements, [](const ast::Statement& each) {
-            return each.name.text == "extent" || each.name.text == "spacing";
+            return each.name.text == "extent" || each.name.text == "spacing" ||
+                   each.name.text == "unit";
         });
         block.statements.push_back(change.statement);
     }
@@ -279,15 +280,18 @@ void check_domain(Workspace& work, const ast::Script& script) {
         if (const auto* option = find_option(script, name))
             check_domain_statement(work, script, *option);
     }
+    const ast::Statement* extent = nullptr;
     for (const ast::Statement& statement : block.statements) {
         if (statement.name.text != "extent" || value_statement(statement) == nullptr) continue;
         if (!seen.contains("spacing")) {
-            check_extent(work, script, statement);
+            extent = &statement;
             break;
         }
         report_twice(work, statement.name.span, seen.at("spacing"),
                      "a domain can have an extent or a spacing, but not both");
     }
+    const ExtentOf subject = subject_of_extent(script, block);
+    if (extent != nullptr && subject == ExtentOf::grid) check_extent(work, script, *extent);
     for (const ast::Statement& statement : block.statements) {
         if (statement.name.text == "mask" && !statement.values.empty() &&
             statement.kind == ast::StatementKind::value) {
@@ -304,6 +308,10 @@ void check_domain(Workspace& work, const ast::Script& script) {
             leave_border(work, *border);
             border.reset();
         }
+    }
+    const DomainSettings& domain = work.program.domain;
+    if (extent != nullptr && subject == ExtentOf::surface && (domain.model || domain.surface)) {
+        check_extent_of_surface(work, script, *extent);
     }
     if (const auto* option = find_option(script, "detail")) check_detail(work, script, *option);
     if (const auto* option = find_option(script, "coarse"))

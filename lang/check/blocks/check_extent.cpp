@@ -48,9 +48,16 @@ std::optional<std::vector<Formula>> read_lengths(Workspace& work, const ast::Scr
 
 bool reads_time(const Formula& length) { return holds_in(length, is_moment); }
 
+/// The longest side of a surface or model. Empty if the script does not set it.
+std::optional<double> extent_of(const DomainSettings& domain) {
+    return domain.model ? domain.model->extent : domain.surface->extent;
+}
+
 /// The growth of the domain with these lengths. Reports lengths without a derivative.
 std::optional<Growth> read_growth(Workspace& work, const std::vector<Formula>& lengths, Span span) {
-    auto growth = growth_of(lengths, work.program.domain.grid);
+    const DomainSettings& domain = work.program.domain;
+    auto growth = domain.model || domain.surface ? growth_of_surface(lengths[0], *extent_of(domain))
+                                                 : growth_of(lengths, domain.grid);
     if (!growth) {
         work.diagnostics.error(span,
                                "the rate at which this length grows cannot be derived from "
@@ -66,6 +73,18 @@ std::optional<Growth> read_growth(Workspace& work, const std::vector<Formula>& l
 Span span_of_values(const ast::Script& script, const ast::Statement& statement) {
     return join(span_of(script, statement.values.front()),
                 span_of(script, statement.values.back()));
+}
+
+/// The longest side of a surface or model as a formula. Reports errors.
+std::optional<std::vector<Formula>> read_longest_side(Workspace& work, const ast::Script& script,
+                                                      const ast::Statement& statement) {
+    if (statement.values.size() > 1) {
+        work.diagnostics.error(span_of(script, statement.values[1]),
+                               "a surface or model has one extent, the length of its longest side",
+                               "it grows alike in all directions");
+        return std::nullopt;
+    }
+    return read_lengths(work, script, statement);
 }
 
 }  // namespace
@@ -111,16 +130,46 @@ void check_extent(Workspace& work, const ast::Script& script, const ast::Stateme
     work.draft->domain.growth = read_growth(work, *lengths, span_of_values(script, statement));
 }
 
+void check_extent_of_surface(Workspace& work, const ast::Script& script,
+                             const ast::Statement& statement) {
+    DomainSettings& domain = work.draft->domain;
+    const auto extent = read_longest_side(work, script, statement);
+    if (!extent) return;
+    if ((domain.model ? domain.model->unit : domain.surface->unit).has_value()) {
+        return work.diagnostics.error(statement.name.span,
+                                      "a surface or model can have an extent or a unit, but not "
+                                      "both",
+                                      "the extent is the length of the longest side in units, so "
+                                      "it sets the unit");
+    }
+    if (domain.surface && !domain.surface->has_metric) {
+        return work.diagnostics.error(statement.name.span, "this surface has no lengths",
+                                      "write metric: 1 to measure lengths on the surface");
+    }
+    const double start = evaluate((*extent)[0], BuiltinValues{});
+    if (!(start >= least_spacing && start <= 1 / least_spacing)) {
+        return work.diagnostics.error(span_of(script, statement.values[0]),
+                                      start > 0 ? "the extent must be from 1e-15 to 1e15"
+                                                : "the length of a side must be above 0");
+    }
+    (domain.model ? domain.model->extent : domain.surface->extent) = start;
+    if (!std::ranges::any_of(*extent, reads_time)) return;
+    domain.growth = read_growth(work, *extent, span_of_values(script, statement));
+}
+
 void check_stage_extent(Workspace& work, const ast::Script& script, const ast::Statement& statement,
                         Stage& stage) {
     const DomainSettings& domain = work.program.domain;
-    if (domain.model || domain.surface) {
+    const bool is_surface = domain.model || domain.surface;
+    if (is_surface && !extent_of(domain)) {
         return work.diagnostics.error(statement.name.span,
-                                      "'extent' works only for a grid with straight axes",
-                                      domain.model ? "this domain is a model"
-                                                   : "this domain is a surface");
+                                      "a stage on a surface or model can set the extent only if "
+                                      "the domain has an extent",
+                                      "write extent: 40 in the domain, for example, for the "
+                                      "length of the longest side");
     }
-    const auto lengths = read_lengths(work, script, statement);
+    const auto lengths = is_surface ? read_longest_side(work, script, statement)
+                                    : read_lengths(work, script, statement);
     if (!lengths) return;
     stage.growth = read_growth(work, *lengths, span_of_values(script, statement));
 }

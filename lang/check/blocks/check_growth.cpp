@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -20,7 +19,6 @@ namespace cascade::checking {
 
 namespace {
 
-constexpr std::array axis_names{"x", "y", "z"};
 constexpr int looks = 256;  ///< The number of times at which lengths are checked before the run.
 constexpr double smallest_jump = 1e-6;  ///< As a fraction of the length.
 
@@ -71,8 +69,8 @@ public:
 
     void run() {
         if (refuse_settings() || refuse_formulas() || refuse_border()) return;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            if (!is_sound_length(axis)) return;
+        for (const GrowingSide& side : growing_sides(program_.domain)) {
+            if (!is_sound_length(side)) return;
         }
         is_sound_rate();
     }
@@ -141,20 +139,17 @@ private:
     }
 
     /// Reports a length that is not above 0, leaves the range of lengths, or jumps.
-    bool is_sound_length(std::size_t axis) {
-        const Formula& scale = growth_.scale[axis];
-        const Grid& grid = program_.domain.grid;
-        const std::array cells{grid.width, grid.height, grid.depth};
+    bool is_sound_length(const GrowingSide& side) {
+        const Formula& scale = growth_.scale[side.axis];
         const double end = certain_end(program_, index_);
-        const double start = static_cast<double>(cells[axis]) * grid.spacing;
         double before = value_at(scale, 0), last_but_one = before;
         for (int look = 0; look <= (end > 0 ? looks : 0); ++look) {
             const double t = end * look / looks, here = value_at(scale, t);
-            const double cell = here * grid.spacing;
+            const double cell = here * program_.domain.grid.spacing;
             if (!(cell >= least_spacing && cell <= 1 / least_spacing)) {
                 diagnostics_.error(growth_.span,
-                                   fmt::format("the length along {} would be {:.6g} at t = {:.6g}",
-                                               axis_names[axis], here * start, t),
+                                   fmt::format("{} would be {:.6g} at t = {:.6g}", side.name,
+                                               here * side.start, t),
                                    fmt::format("stage '{}' runs until t = {:.6g}: a length must "
                                                "stay above 0 and finite",
                                                stage_.name, end));
@@ -162,8 +157,7 @@ private:
             }
             if (look > 0 && jumps(scale, end * (look - 1) / looks, before, t, here)) {
                 diagnostics_.error(growth_.span,
-                                   fmt::format("the length along {} jumps near t = {:.6g}",
-                                               axis_names[axis], t),
+                                   fmt::format("{} jumps near t = {:.6g}", side.name, t),
                                    "the length of a side must not jump");
                 return false;
             }
@@ -171,8 +165,8 @@ private:
                                   (before < last_but_one || before < here);
             if (is_least && vanishes(scale, end * (look - 2) / looks, t)) {
                 diagnostics_.error(growth_.span,
-                                   fmt::format("the length along {} would be 0 near t = {:.6g}",
-                                               axis_names[axis], end * (look - 1) / looks),
+                                   fmt::format("{} would be 0 near t = {:.6g}", side.name,
+                                               end * (look - 1) / looks),
                                    fmt::format("stage '{}' runs until t = {:.6g}: a length must "
                                                "stay above 0 and finite",
                                                stage_.name, end));

@@ -21,6 +21,11 @@ bool lengths_may_grow(const Program& program, const ast::Script& script);
 /// at t = 0. The grid must be known.
 void check_extent(Workspace& work, const ast::Script& script, const ast::Statement& statement);
 
+/// Checks `extent` in the domain of a surface or model, whose longest side it is. The surface must
+/// have been checked.
+void check_extent_of_surface(Workspace& work, const ast::Script& script,
+                             const ast::Statement& statement);
+
 /// Checks `extent` in a stage.
 void check_stage_extent(Workspace& work, const ast::Script& script, const ast::Statement& statement,
                         Stage& stage);

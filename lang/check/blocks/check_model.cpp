@@ -123,8 +123,7 @@ private:
         const std::string_view word = statement.name.text;
         const auto setting = setting_named(word);
         if (!setting || includes(info(*setting).domains, Domains::model)) return;
-        const bool is_shape =
-            word == "grid" || word == "spacing" || word == "extent" || word == "metric";
+        const bool is_shape = word == "grid" || word == "spacing" || word == "metric";
         work_.diagnostics.error(statement.name.span, fmt::format("a model has no {}", word),
                                 is_shape
                                     ? "write cells: 20000 or --cells 20000 to spread cells over "
@@ -150,11 +149,27 @@ private:
                                       "this side is ignored, because a model has no "
                                       "sides");
         }
+        const ast::Statement* extent = find("extent");
+        const auto reads_time = [&](ast::Expression value) { return reads_t(value); };
+        const bool is_left = subject_of_extent(script_, domain_) == ExtentOf::nothing;
+        if (extent != nullptr && is_left && std::ranges::any_of(extent->values, reads_time)) {
+            work_.diagnostics.warning(extent->name.span,
+                                      "this growth is ignored, because a model replaces the grid");
+        }
         if (const ast::Statement* stencil = find("stencil")) {
             work_.diagnostics.warning(stencil->span,
                                       "this stencil is ignored, because a model "
                                       "has no stencil");
         }
+    }
+
+    /// Whether an expression contains the time.
+    bool reads_t(ast::Expression value) const {
+        for (ast::ExprId id = value.first; id <= value.root; ++id) {
+            const auto* const name = std::get_if<ast::Name>(&script_.expressions[id].node);
+            if (name != nullptr && name->name == "t") return true;
+        }
+        return false;
     }
 
     /// Resets the domain to the defaults of a model. Keeps seed and precision.
@@ -331,6 +346,16 @@ bool is_model_setting(std::string_view name) {
 
 bool is_model_surface(const ast::Script& script, const ast::Statement& surface) {
     return surface.values.size() == 1 && shape_of(word_of(value_of(script, surface)));
+}
+
+ExtentOf subject_of_extent(const ast::Script& script, const ast::Block& domain) {
+    const bool has_model = model_of(script, domain) != nullptr;
+    if (model_option(script) != nullptr) return has_model ? ExtentOf::surface : ExtentOf::nothing;
+    if (has_model) return find_option(script, "grid") ? ExtentOf::grid : ExtentOf::surface;
+    const auto is_surface = [](const ast::Statement& statement) {
+        return statement.name.text == "surface" && !statement.values.empty();
+    };
+    return std::ranges::any_of(domain.statements, is_surface) ? ExtentOf::surface : ExtentOf::grid;
 }
 
 bool check_model(Workspace& work, const ast::Script& script, const ast::Block& domain) {

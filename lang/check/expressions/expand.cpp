@@ -248,7 +248,10 @@ void Expander::finish(const Task& task) {
         const ast::Word sum{over->function.span, "sum"};
         const ast::ExprId total = append(here.span, ast::Over{sum, take(), over->index, {}});
         ast::ExprId content = append(here.span, ast::Number{content_of_cell(work_.program)});
-        const Stencil stencil = work_.program.domain.grid.stencil();
+        const DomainSettings& domain = work_.program.domain;
+        // Sums over a surface or a model are integrals, which grow by themselves.
+        const Stencil stencil =
+            domain.model || domain.surface ? Stencil{false, false} : domain.grid.stencil();
         if (stencil.x) content = append_grown(here.span, content, 0);
         if (stencil.y) content = append_grown(here.span, content, 1);
         if (stencil.z) content = append_grown(here.span, content, 2);

@@ -113,8 +113,11 @@ void report_constant(Workspace& work, const Scope& scope, std::string_view name,
                "");
         return;
     }
+    const bool is_growth = name == "t" && scope.subject == "unit";
     report(work, span, fmt::format("{} must be one number", scope.subject),
-           "use only numbers, operators and functions of numbers");
+           is_growth ? "a surface or model grows by its extent, the length of its longest side in "
+                       "units: write extent: 30 * exp(0.01 * t)"
+                     : "use only numbers, operators and functions of numbers");
 }
 
 std::string not_a_parameter(std::string_view name, const System& system) {

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace cascade::test {
 namespace {
@@ -36,6 +37,46 @@ TEST(GrowingDomain, CountsTheWavesThatFit) {
         }
         EXPECT_EQ(analysis::waves_of_growing_domain(*analysed.script->program, 0), expected);
     }
+}
+
+/// On a sphere of radius R, spherical harmonics of degree l have k² = l (l + 1) / R².
+TEST(GrowingDomain, CountsHarmonicsOfAGrowingSphere) {
+    const double r = 0.09;
+    const auto analysed = analyse(
+        "system sh { u: 0; u' = 0.09 * u - (u + 2*lap(u) + lap(lap(u))) - u^3; undiluted: u }\n"
+        "domain { surface: sphere; cells: 20000; extent: 20 * (1 + 0.01 * t); precision: double }\n"
+        "stage s: sh { duration: 400 }\n");
+    const auto moments = analysis::moments_of_growing_domain(*analysed.script->program, 0);
+    ASSERT_EQ(moments.size(), 5u);
+    for (const analysis::GrowingMoment& moment : moments) {
+        const double radius = 10 * (1 + 0.01 * moment.t);
+        const auto grows = [&](double l) {
+            return std::abs(l * (l + 1) / (radius * radius) - 1) < std::sqrt(r);
+        };
+        ASSERT_TRUE(moment.waves) << moment.t;
+        EXPECT_EQ(moment.lengths, std::vector<double>{2 * radius});
+        EXPECT_TRUE(grows(moment.waves->least) && !grows(moment.waves->least - 1)) << moment.t;
+        EXPECT_TRUE(grows(moment.waves->most) && !grows(moment.waves->most + 1)) << moment.t;
+        EXPECT_EQ(moment.waves->fastest, std::round(std::sqrt(radius * radius + 0.25) - 0.5));
+    }
+}
+
+/// On any other model the lengths of growing waves stay the same.
+TEST(GrowingDomain, GivesLengthsOfWavesOnAGrowingModel) {
+    const auto analysed = analyse(
+        "system sh { u: 0; u' = 0.09 * u - (u + 2*lap(u) + lap(lap(u))) - u^3; undiluted: u }\n"
+        "domain { surface: creature; cells: 20000; extent: 20 * exp(0.01 * t) }\n"
+        "stage s: sh { duration: 100 }\n");
+    const auto moments = analysis::moments_of_growing_domain(*analysed.script->program, 0);
+    ASSERT_EQ(moments.size(), 5u);
+    for (const analysis::GrowingMoment& moment : moments) {
+        ASSERT_TRUE(moment.waves) << moment.t;
+        EXPECT_NEAR(moment.waves->least, 2 * std::numbers::pi / std::sqrt(1.3), 0.02);
+        EXPECT_NEAR(moment.waves->most, 2 * std::numbers::pi / std::sqrt(0.7), 0.02);
+        EXPECT_NEAR(moment.waves->fastest, 2 * std::numbers::pi, 0.02);
+    }
+    EXPECT_THAT(analysis::waves_of_growing_domain(*analysed.script->program, 0),
+                ::testing::HasSubstr("waves from 5.511 to 7.51 long grow, 6.283 fastest"));
 }
 
 }  // namespace

@@ -65,6 +65,29 @@ void expect_moment(const Decoded& file, double time, const std::vector<double>& 
     }
 }
 
+/// A second track scales the node, and ends with the size of the mesh.
+TEST(GrowingGlb, ScalesModelsThatGrow) {
+    SurfaceMesh mesh = test::flat_square(3);
+    std::vector<GlbMoment> moments;
+    for (const double scale : {0.25, 0.5}) {
+        moments.push_back(moment_at(mesh, scale, false));
+        moments.back().scale = scale;
+    }
+    const GlbMoment last = moment_at(mesh, 1, false);
+    GlbLook look;
+    look.colours = last.colours;
+    const Decoded file(*encode_growing_glb(mesh, look, {moments, 0.5}));
+    const auto& animation = file.json["animations"][0];
+    ASSERT_EQ(animation["channels"].size(), 2u);
+    const auto& channel = animation["channels"][1];
+    EXPECT_EQ(channel["target"]["path"], "scale");
+    EXPECT_EQ(channel["target"]["node"], 0);
+    const auto& sampler = animation["samplers"][channel["sampler"].get<std::size_t>()];
+    EXPECT_EQ(file.numbers(sampler["input"]), (std::vector<double>{0, 0.5, 1}));
+    EXPECT_EQ(file.numbers(sampler["output"]),
+              (std::vector<double>{0.25, 0.25, 0.25, 0.5, 0.5, 0.5, 1, 1, 1}));
+}
+
 TEST(GrowingGlb, ShowsEachMomentAtItsTime) {
     SurfaceMesh mesh = test::flat_square(3);
     mesh.texture.clear();  // Without seams a vertex is a point.
