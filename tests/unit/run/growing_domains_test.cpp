@@ -116,5 +116,81 @@ TEST(GrowingDomains, PicturesHaveTheirProportions) {
     EXPECT_EQ(drawn[1].pixels, image.pixels);
 }
 
+/// The number of pixels that an image shows of something.
+int shown_pixels(const Image& image) {
+    int count = 0;
+    for (std::int64_t y = 0; y < image.height; ++y) {
+        for (std::int64_t x = 0; x < image.width; ++x) count += image.opacity(x, y) > 0.5F ? 1 : 0;
+    }
+    return count;
+}
+
+/// A model whose lengths double covers four times the area in a film, and fills the last frame.
+TEST(GrowingDomains, FilmsShowModelsToScale) {
+    Script script = load_script("film",
+                                "system s { u: sx; u' = 0; undiluted: u }\n"
+                                "domain { surface: sphere; cells: 200; extent: 20 * (1 + t) }\n"
+                                "stage a: s { speed: 1; iterations: 1 }\n",
+                                ".");
+    ASSERT_TRUE(script.program) << script.messages(false);
+    auto simulation = std::move(*Simulation::create(script, {"interp", 0, 1}));
+    PictureRequest request;
+    request.size = PictureSize{200, 200};
+    request.background = std::nullopt;
+    auto painter = std::move(*Painter::create(script, request));
+    auto frames = std::move(*FrameRecorder::create(true, false));
+    ASSERT_TRUE(simulation->start_stage(0));
+    frames.record(painter.canvas(*simulation), "a", 0);
+    RunControl control;
+    ASSERT_TRUE(simulation->advance_stage(0, 1, control, {}));
+    frames.record(painter.canvas(*simulation), "a", 1);
+    const std::vector<std::size_t> numbers{0, 1};
+    std::vector<Image> drawn;
+    const auto use = [&](std::size_t, const Image& each) -> Result<FrameRecorder::InOrder> {
+        drawn.push_back(each);
+        return [] { return Result<void>(); };
+    };
+    ASSERT_TRUE(frames.draw(painter, numbers, 1, never_cancelled, use));
+    ASSERT_EQ(drawn.size(), 2u);
+    const double most = shown_pixels(drawn[1]);
+    EXPECT_GT(most, 0.4 * 200 * 200);
+    EXPECT_NEAR(shown_pixels(drawn[0]) / most, 0.25, 0.02);
+    EXPECT_EQ(shown_pixels(painter.image(painter.canvas(*simulation))), shown_pixels(drawn[1]));
+}
+
+/// On a sphere that grows, Schnakenberg's reaction makes more and more spots.
+TEST(GrowingDomains, SpotsAreAddedOnASphereThatGrows) {
+    Ran ran = run_text(
+        "system s {\n"
+        "  u: 1 + random(0, 0.05)\n"
+        "  v: 0.9\n"
+        "  u' = 0.1 - u + u^2 * v + 0.05 * lap(u)\n"
+        "  v' = 0.9 - u^2 * v + 2 * lap(v)\n"
+        "}\n"
+        "domain { surface: sphere; cells: 1500; extent: 5 * exp(0.01 * t) }\n"
+        "stage young: s { solver: rkl2; speed: auto; duration: 60 }\n"
+        "stage old: s { u: u; v: v; solver: rkl2; speed: auto; duration: 70;\n"
+        "  extent: 5 * exp(0.6 + 0.01 * t) }\n");
+    ASSERT_EQ(ran.failure, "");
+    const ModelCells& model = *ran.simulation->domain().model->cells;
+    /// Cells whose value is larger than the values of all linked cells and 1.5.
+    const auto peaks = [&](std::uint32_t stage) {
+        const std::vector<double> values = cell_values(ran.state(stage).species()[0], model);
+        const SurfaceCells& cells = model.spread().cells;
+        int count = 0;
+        std::size_t edge = 0;
+        for (std::size_t cell = 0; cell < values.size(); ++cell) {
+            bool is_peak = values[cell] > 1.5;
+            for (; edge < cells.ends[cell]; ++edge) {
+                is_peak = is_peak && values[cell] > values[cells.edges[edge].neighbour];
+            }
+            count += is_peak ? 1 : 0;
+        }
+        return count;
+    };
+    EXPECT_GE(peaks(0), 4);
+    EXPECT_GE(peaks(1), 2 * peaks(0));
+}
+
 }  // namespace
 }  // namespace cascade
